@@ -1,6 +1,6 @@
-/* test_missed.c: contacts and forces thinner than the way of a step. Round posts are met, as closed forms have it
- * (core/contact/contact_step.h); of latches, flat walls, edges and hills of potential energy none is passed without a word (host/check/missed.h);
- * and of right runs none is told. WHIRL_CASES=2000 WHIRL_SEED=...: so many, others. */
+/* test_missed.c: contacts and forces thinner than the path of a step. Hits on round posts follow closed forms
+ * (core/contact/contact_step.h). Passing a latch, flat wall, edge or hill of potential energy gives a warning
+ * (host/check/missed.h); a right run gives none. WHIRL_CASES=2000 WHIRL_SEED=... draws more or other cases. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,21 +15,21 @@ void suite_missed(void);
 
 enum { TEXT = 1500 };
 
-static char text[TEXT]; /* of the last flight */
+static char text[TEXT];
 
-/* A body of 1 kg that starts 1 m in front of a place and a drawn part of a step on top. */
+/* A body of 1 kg, 1 m plus a drawn part of a step before a place. */
 typedef struct flight {
-    double start_m; /* on x, from the place */
+    double start_m; /* on x, relative to the place */
     double v_m_s;
     double step_s;
     double until_s;
     double place_m[2];
-    char x[40]; /* from there, in the language */
+    char x[40]; /* x from there, in the language */
     char y[40];
-    double bounce_s; /* when another body hits its floor; 0: there is none */
+    double bounce_s; /* time of another body's bounce; 0: none */
 } flight;
 
-/* In the origin, or up to 2 m away from it; beside a body that bounces, or alone. */
+/* At the origin, or up to 2 m away; alone or next to a bouncing body. */
 static void flight_place(dice *d, flight *f) {
     const bool away = dice_one_of(d, 4) != 0;
     static const char names[] = "xy";
@@ -51,7 +51,7 @@ static flight flight_draw(dice *d) {
     return f;
 }
 
-/* Its run to the end: `more` are statements, y starts at `aside_m`. Returns whether something was told. */
+/* Runs to the end. `more` are statements, y starts at `aside_m`. Returns whether there was a warning. */
 static bool fly(motion *m, const flight *f, const char *more, double aside_m) {
     char start[80] = "";
     const bool beside = f->bounce_s > 0.0;
@@ -71,7 +71,7 @@ static bool fly(motion *m, const flight *f, const char *more, double aside_m) {
 
 static double thickness_m(dice *d) { return 0.1e-3 * exp(dice_between(d, 0.0, log(320.0))); }
 
-/* Statements with $x and $y from the place, and $w, the thickness. */
+/* Statements with $x and $y relative to the place; $w is the thickness. */
 static void place_write(const flight *f, double w_m, const char *from, char to[static TEXT]) {
     size_t used = 0;
     for (; *from != '\0'; from++) {
@@ -95,7 +95,7 @@ static const char *const posts[] = {
 
 enum { POSTS = sizeof posts / sizeof posts[0] };
 
-/* Posts of 0.1 to 32 mm, met in the middle, off it, or not at all; restitution 1. */
+/* Posts of 0.1 to 32 mm, hit at the centre, off it, or not at all; restitution 1. */
 static void test_posts(void) {
     dice d = dice_of("missed", 1);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 120));
@@ -120,10 +120,10 @@ static void test_posts(void) {
         const double off_m = hypot(motion_value(&m, "x") - f.place_m[0] - x_m,
                                    motion_value(&m, "y") - f.place_m[1] - y_m);
         const double edge = fabs(fabs(ny) - 1.0);
-        /* Away from the origin the squares are multiplied out: the gap's square is right to a rounding of the place's. */
+        /* Away from the origin the squares are expanded: the squared gap has the round-off of the squared place. */
         const double square_m2 = pow(hypot(f.place_m[0], f.place_m[1]), 2.0);
         const double turned = 16.0 * 0x1p-53 * square_m2 / (r_m * r_m * sqrt(edge));
-        if (edge > 1e-3) { /* where it is grazed, a rounding of the place turns the way */
+        if (edge > 1e-3) { /* a grazed post amplifies round-off of the place */
             TEST_ASSERT_TRUE_MESSAGE(off_m < 1e-7 + turned, text);
         }
         thin += hits && 2.0 * r_m < f.v_m_s * f.step_s;
@@ -132,7 +132,7 @@ static void test_posts(void) {
     TEST_ASSERT_TRUE(thin * 3 > cases);
 }
 
-/* Does the energy tell, which every run's balance asks (host/check/energy_residual.h)? Of a hill that is far from both ends. */
+/* Is the energy balance violated (host/check/energy_residual.h)? For a hill far from both ends. */
 static bool is_unbalanced(const motion *m, const flight *f) {
     const double vx = motion_value(m, "x'");
     const double vy = motion_value(m, "y'");
@@ -159,7 +159,7 @@ static const char *const flats[] = {
 
 enum { FLATS = sizeof flats / sizeof flats[0] };
 
-/* Latches between two places or about a point, walls, and a hill of more energy than the body has: met, or told. */
+/* Latches, walls, and a hill higher than the body's energy: hit, or a warning. */
 static void test_flat_ones(void) {
     dice d = dice_of("missed", 2);
     const unsigned cases = dice_cases(few_or_all(112, 224));
@@ -191,7 +191,7 @@ static void test_flat_ones(void) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
-/* The way out that a warning names, pasted, gives a run without it: a step, or where the thing is too thin for one, an end. */
+/* The remedy in a warning, pasted, gives a run without it: a shorter step, or an earlier end if no step suffices. */
 static void test_ways_out(void) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(few_or_all(usual_or(26, 13), 130));
@@ -224,7 +224,7 @@ static void test_ways_out(void) {
     TEST_ASSERT_TRUE(ways[0] * 6 > cases && ways[1] > 0);
 }
 
-/* A hill behind a place without bounds, the tip of a weak force's cone that the way goes through: told of the tip, or of the hill. */
+/* A hill after a pole (the tip of a weak force's cone) on the path: a warning about either. */
 static void test_hills_behind_a_tip(void) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);
@@ -259,8 +259,8 @@ static const char *const bumps[] = {
 
 enum { BUMPS = sizeof bumps / sizeof bumps[0] };
 
-/* What a body passes on the way that one in a scene of its own speed v needs; %s is the bump. Friction presses where it slides, lets go
- * where it sticks (there y waits, pulled), slides by a coefficient that jumps, and a crossing halves the speed. */
+/* Conditions along x that appear in a scene of its own speed v; %s is the bump. Friction: pressed while sliding,
+ * released while sticking (y waits, pulled), a coefficient that jumps. Crossing: halves the speed. */
 static const char *const narrow[] = {
     "friction y static 0.3 kinetic 0.2 normal 1 [mN] + 1e7 [N]*%s",
     "V = 1 [N/m]*$y^2/2\nfriction y static 0.9 kinetic 0.8 normal 10 [mN]*(1 - %s)",
@@ -270,7 +270,7 @@ static const char *const narrow[] = {
 
 enum { NARROW = sizeof narrow / sizeof narrow[0] };
 
-/* Limits of a friction, and crossings, that are there for a part of a step alone: what y does is as in the closed form, or told. */
+/* Friction limits and crossings that exist only within a step: y follows the closed form, or there is a warning. */
 static void test_narrow_limits_and_crossings(void) {
     dice d = dice_of("missed", 6);
     const unsigned cases = dice_cases(few_or_all(48, 240));
@@ -305,12 +305,12 @@ static void test_narrow_limits_and_crossings(void) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
-/* Two places on straight lines at constant speed, the second one perhaps on a turning disk: the least distance of both, by
- * looking often. */
+/* Two places on straight lines at constant speed, the second possibly on a turning disk. The least distance is found
+ * by dense sampling. */
 typedef struct pass {
     double aside_m;    /* of the first body, which flies along x */
-    double u_m, w_m_s; /* the second body: where it starts on x, and its rate */
-    double disk_m;     /* radius at which it stands on a disk, or 0: it moves along x, at y = 0 */
+    double u_m, w_m_s; /* the second body: its start on x, and its rate */
+    double disk_m;     /* its radius on a disk, or 0: it moves along x, at y = 0 */
     double turn_rad, turn_rad_s;
 } pass;
 
@@ -327,8 +327,8 @@ static double pass_least_m(const flight *f, const pass *p) {
     return least_m;
 }
 
-/* Posts that move: the other body's, or on a disk that turns; pairs of them; and latches between two circles. Each is met where
- * the straight lines meet, or told. */
+/* Moving posts, on the other body or a turning disk; pairs of them; and latches between two circles. Each is hit as
+ * on straight lines, or there is a warning. */
 static void test_moving_ones(void) {
     dice d = dice_of("missed", 4);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 120));
@@ -344,14 +344,14 @@ static void test_moving_ones(void) {
         const char *body = "";
         const char *energy = "";
         char stops[400];
-        if (k % 4 == 0) { /* the other body comes along x */
+        if (k % 4 == 0) {
             p.w_m_s = dice_between(&d, -16.0, 0.5 * f.v_m_s);
             p.u_m = -p.w_m_s * meets_s;
             body = "coordinate u [m]\n";
             energy = " + 2 [kg]*u'^2/2";
             snprintf(stops, sizeof stops, "stop sqrt((x - u)^2 + y^2) >= %.17g [m] restitution 0.5",
                      r_m);
-        } else if (k % 4 == 1) { /* on a heavy disk */
+        } else if (k % 4 == 1) {
             p.disk_m = dice_between(&d, 0.05, 0.5);
             p.turn_rad_s = dice_between(&d, -40.0, 40.0);
             p.turn_rad = dice_between(&d, -3.0, 3.0);
@@ -362,7 +362,7 @@ static void test_moving_ones(void) {
                      "stop sqrt((x - %.17g [m]*cos(u))^2 + (y - %.17g [m]*sin(u))^2) >= %.17g [m] "
                      "restitution 0.5",
                      p.disk_m, p.disk_m, r_m);
-        } else if (k % 4 == 2) { /* a pair, the second one far aside */
+        } else if (k % 4 == 2) { /* a pair, the second far aside */
             snprintf(stops, sizeof stops,
                      "stop sqrt((x - 0.1 [m])^2 + (y - 1 [m])^2) >= %.17g [m] restitution 0.5\n"
                      "stop sqrt(x^2 + y^2) >= %.17g [m] restitution 0.5",
@@ -399,7 +399,7 @@ static void test_moving_ones(void) {
 
 /* --- right runs ---------------------------------------------------------------------------------------*/
 
-/* Of a width $w beside the way of a step; %s are drawn numbers. */
+/* $w is wide relative to the path of a step; %s are drawn numbers. */
 static const char *const rights[] = {
     "stop sqrt($x^2 + $y^2) >= 0.5*$w restitution %s",
     ("V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\nstop $y >= -0.3 [m] restitution 0.6\n"
@@ -419,7 +419,6 @@ static const char *const rights[] = {
 
 enum { RIGHT_KINDS = sizeof rights / sizeof rights[0] };
 
-/* Statements of a mechanism of x and y whose contacts and forces are wide beside the way of a step. */
 static void right_draw(dice *d, unsigned kind, flight *f, double *aside_m, char *more) {
     char from[400];
     char number[30];
@@ -434,7 +433,7 @@ static void right_draw(dice *d, unsigned kind, flight *f, double *aside_m, char 
     place_write(f, w_m, from, more);
 }
 
-/* Is the run that told something right, as a step an eighth as long has it? */
+/* Does the run with the warning agree with an eighth of the step? */
 static bool is_right(const motion *m, const char *of, stepping how) {
     motion fine;
     how.step_s = m->image->step_s / 8.0;
@@ -451,7 +450,7 @@ static bool is_right(const motion *m, const char *of, stepping how) {
     return done && off < 1e-3;
 }
 
-/* Random linkages with stops and frictions, and bodies before what is wide: nothing is told of a run that is right. */
+/* Random linkages with stops and frictions, and wide contacts: no warning if the run is right. */
 static void test_right_runs(void) {
     dice d = dice_of("missed", 3);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 120));
@@ -488,7 +487,7 @@ static void test_right_runs(void) {
     TEST_ASSERT_TRUE(told * 20 <= cases);
 }
 
-/* Faces that end at $x = 0; the last ones do not. */
+/* Faces that end at $x = 0, except the last ones. */
 static const char *const faces[] = {
     "stop max($x, $y) >= 0 restitution %.3f",
     "stop max(abs($x + 0.6 [m]) - 0.6 [m], $y) >= 0 restitution %.3f",
@@ -501,8 +500,8 @@ static const char *const faces[] = {
 
 enum { FACES = sizeof faces / sizeof faces[0], FACES_ENDING = FACES - 2 };
 
-/* A body slides on a face and, in half of the runs, over its edge, from where it flies: it is there, or it is told. What stays on its
- * face is never told. */
+/* A body slides on a face and, in half of the runs, over its edge into flight: a right run or a warning. On the face
+ * there is never a warning. */
 static void test_edges(void) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(60);

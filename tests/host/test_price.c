@@ -1,5 +1,5 @@
-/* test_price.c: what operation lists cost, for classes of expressions whose price is known: nobody writes them shorter by
- * hand. Not a result's value (other suites), but that nothing is computed that need not be. */
+/* test_price.c: cost of operation lists for expressions of known least cost: no one writes them shorter by hand.
+ * Values are checked elsewhere. Also choices, extrapolation and trials. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>
@@ -31,7 +31,7 @@ void suite_price_dearest(void);
 
 /* === price ==================================================================================== */
 
-/* Operations of the only output of seven coordinates x0 ... x6 (numbers) and the angles a and b; sine pairs too. */
+/* Operations, and sine pairs, of the only output of seven numbers x0 ... x6 and two angles a and b. */
 typedef struct price {
     int operations;
     int waves;
@@ -72,7 +72,7 @@ static void expect(price got, int operations, int waves, const char *what) {
 
 /* --- sums and products ------------------------------------------------------------------------------------- */
 
-/* Horner's scheme: a product and a sum for each power. */
+/* Horner's scheme: a product and a sum per power. */
 static void test_polynomials_take_two_operations_a_power(void) {
     for (int degree = 1; degree <= 9; degree++) {
         char sum[400] = "1";
@@ -84,7 +84,7 @@ static void test_polynomials_take_two_operations_a_power(void) {
     }
 }
 
-/* By squares: as many products as the exponent has digits in base two, and ones among them, less two. */
+/* By squaring: binary digits plus ones of the exponent, less two. */
 static void test_powers_take_few_products(void) {
     for (int exponent = 2; exponent <= 64; exponent++) {
         int products = -2;
@@ -94,13 +94,13 @@ static void test_powers_take_few_products(void) {
         char what[40];
         snprintf(what, sizeof what, "x0^%d", exponent);
         expect(price_of("%s", what), products, 0, what);
-        expect(price_of("1/%s", what), products + 1, 0, what); /* and one division */
+        expect(price_of("1/%s", what), products + 1, 0, what);
         snprintf(what, sizeof what, "x0^(%d/2)", 2 * exponent + 1);
         expect(price_of("%s", what), 2 * exponent > 62 ? 1 : 60, 0, what);
     }
 }
 
-/* One size of coefficients is multiplied once. */
+/* Equal coefficients are multiplied once. */
 static void test_equal_coefficients_are_taken_out(void) {
     uint64_t seed = 17;
     for (int count = 2; count <= 7; count++) {
@@ -119,7 +119,7 @@ static void test_equal_coefficients_are_taken_out(void) {
     }
 }
 
-/* As it was written: x0 (2 x1 + x2 (3 x3 + x4 (5 x5 + 7 x6))), and the same with x0 in each part once more. */
+/* Nested as written: x0 (2 x1 + x2 (3 x3 + x4 (5 x5 + 7 x6))), and with another x0 in each part. */
 static void test_factors_are_taken_out_again(void) {
     expect(price_of("x0*(2*x1 + 3*x2)"), 4, 0, "one factor");
     expect(price_of("x0*(2*x1 + x2*(3*x3 + 5*x4))"), 7, 0, "a factor inside");
@@ -130,7 +130,7 @@ static void test_factors_are_taken_out_again(void) {
     expect(price_of("x0*x1 + x0*x2 + x0*x3"), 3, 0, "no coefficients");
 }
 
-/* What stands twice is computed once; a root's odd powers share it. */
+/* Odd powers of a root share it. */
 static void test_what_is_the_same_is_computed_once(void) {
     static const char *const of[] = {"exp(x0)",    "sqrt(x0)",    "atan2(x0, x1)", "abs(x0)",
                                      "log(x0*x1)", "max(x0, x1)", "sin(x0*x1)"};
@@ -143,7 +143,7 @@ static void test_what_is_the_same_is_computed_once(void) {
 
 /* --- sines --------------------------------------------------------------------------------------------------- */
 
-/* Whatever multiples of one angle there are, one pair is evaluated. */
+/* Multiples of one angle need one pair. */
 static void test_sines_of_multiples_follow_from_one(void) {
     uint64_t seed = 19;
     for (int round = 0; round < 24; round++) {
@@ -154,7 +154,7 @@ static void test_sines_of_multiples_follow_from_one(void) {
         }
         expect(price_of("%s", sum), 40, 1, sum);
     }
-    /* inside functions, too */
+    /* also inside functions */
     expect(price_of("exp(sin(a)) + 3*exp(cos(2*a))"), 40, 1, "sines inside functions");
     expect(price_of("atan2(sin(2*a), x0 + cos(a)) + x1*sqrt(3 + sin(3*a))"), 40, 1, "sines inside");
     expect(price_of("sin(x0*sin(2*a)) + x1*cos(a)"), 40, 2, "a sine inside a sine");
@@ -164,7 +164,7 @@ static void test_sines_of_multiples_follow_from_one(void) {
     expect(price_of("3*cos(a - b) + 5*sin(a) + cos(b)"), 11, 2, "a difference of angles");
 }
 
-/* Powers of sines stay powers where their sums would lose digits, and cost less. */
+/* Powers of sines stay powers where their sums would lose digits and cost more. */
 static void test_powers_of_sines_are_put_back(void) {
     for (int n = 1; n <= 7; n++) {
         char what[60];
@@ -184,7 +184,7 @@ static void test_powers_of_sines_are_put_back(void) {
 
 /* --- equations ----------------------------------------------------------------------------------------------- */
 
-/* n equations whose matrix and right side are states of their own, all different. */
+/* n equations; all entries of matrix and right side are distinct states. */
 static int price_of_system(int n) {
     char text[4000] = "mechanism m\n";
 #define PUT(...) snprintf(text + strlen(text), sizeof text - strlen(text), __VA_ARGS__)
@@ -210,10 +210,9 @@ static int price_of_system(int n) {
     return operations;
 }
 
-/* Up to three by Cramer's rule, one more each by elimination: to divide a column, to take its row from what is left, and
- * the way back. */
+/* Up to three by Cramer's rule. Each further one by elimination: divide a column, subtract its row, substitute back. */
 static void test_equations_are_eliminated_one_by_one(void) {
-    int last = 0; /* of three: four determinants that share what they can */
+    int last = 0; /* of three: four determinants with shared parts */
     for (int n = 1; n <= 6; n++) {
         const int now = price_of_system(n);
         const int more = (n - 1) + 2 * (n - 1) * (n - 1) + 2 * (n - 1) + 2 * (n - 1) + 1;
@@ -223,7 +222,7 @@ static void test_equations_are_eliminated_one_by_one(void) {
     }
 }
 
-/* Two equations of which one coefficient is a number, wherever it is: it is the pivot, and a determinant is not needed. */
+/* In two equations a numeric coefficient at any place is the pivot; no determinant is needed. */
 static void test_a_number_is_the_pivot(void) {
     for (int at = 0; at < 4; at++) {
         char text[600] = "mechanism m\n";
@@ -245,15 +244,16 @@ static void test_a_number_is_the_pivot(void) {
 #undef PUT
         derived d = derived_text(text);
         derived_expect(&d, text);
-        /* a quotient, twice a product and a difference, a quotient; back: a product, a difference, a quotient */
+        /* forward: a quotient, twice a product and a difference, a quotient; back: a product, a difference, a
+         * quotient */
         printf("  pivot %d: %d\n", at, op_list_operations(d.image->list[IMAGE_STEP]));
         TEST_ASSERT_TRUE_MESSAGE(op_list_operations(d.image->list[IMAGE_STEP]) <= 9, text);
         derived_free(&d);
     }
 }
 
-/* Whatever decimals the parameters have, a list takes the same operations: what is equal but for rounding is one number,
- * and what comes out a rounding error beside a simple fraction is that. */
+/* The cost does not depend on the decimals of parameters. Values equal up to round-off are one number; a value within
+ * round-off of a simple fraction is that fraction. */
 static void test_decimals_cost_nothing(void) {
     uint64_t seed = 23;
     int least = 1000;
@@ -292,7 +292,7 @@ void suite_price(void) {
 }
 
 /* === price chosen ============================================================================= */
-/* Choices in words (host/study/choice.h), of made-up ones, read back. */
+/* Printed choices (host/study/choice.h) of made-up prices, parsed. */
 
 static const char *const places[] = {
     "mechanism m\ncoordinate x [mm]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
@@ -381,7 +381,7 @@ static void expect_amount(const char *at, const trials *t, double error, const c
     TEST_ASSERT_EQUAL_STRING_LEN(unit, at, strlen(unit));
 }
 
-/* "  flash       1234 bytes, predicted: ...". */
+/* " flash 1234 bytes, predicted: ...". */
 static void expect_figure(const char *text, const char *name, const cost_figure *f,
                           const char *unit) {
     char begin[32];
@@ -564,7 +564,7 @@ static void test_both_answers_are_told(void) {
 
 /* --- nothing fits ----------------------------------------------------------------------------------------*/
 
-/* No less than what is wanted, by two digits. */
+/* Rounded up to two digits. */
 static const char *expect_no_less(const char *at, double want) {
     double number;
     at = said_number(at, &number);
@@ -635,7 +635,6 @@ static void test_what_would_fit_is_told(void) {
     }
 }
 
-/* With contacts, and nothing counted: the lines that do. */
 static void test_why_none_has_a_price_is_told(void) {
     priced p;
     priced_open(&p, priced_ball, 1);
@@ -661,8 +660,8 @@ void suite_price_chosen(void) {
 }
 
 /* === price control ============================================================================ */
-/* The steps of the extrapolation (host/study/extrapolation.h): of one equation, by rules and steps of its
- * own, extrapolated by Lagrange's weights and not by a tableau; as many tries, and the same end. */
+/* Steps of the extrapolation (host/study/extrapolation.h) for one equation. The reference uses Lagrange weights
+ * instead of a tableau. Tries and end must agree. */
 
 /* y' = linear y + square y^2 */
 typedef struct equation_of {
@@ -671,7 +670,7 @@ typedef struct equation_of {
 
 static long double slope(equation_of e, long double y) { return (e.linear + e.square * y) * y; }
 
-/* How far the modified midpoint rule moves y: two leapfrogging sequences, told apart by their parity. */
+/* The modified midpoint rule: two leapfrogging sequences, by parity. */
 static long double rule(equation_of e, long double y, long double span, int substeps) {
     const long double h = span / (long double)substeps;
     long double at[2] = {0.0L, h * slope(e, y)};
@@ -681,7 +680,7 @@ static long double rule(equation_of e, long double y, long double span, int subs
     return at[substeps % 2];
 }
 
-/* The polynomial in the square of the step through rules first to last, at zero. */
+/* The interpolating polynomial in the squared step through rules first to last, at zero. */
 static long double extrapolated(const long double *rules, int first, int last) {
     long double sum = 0.0L;
     for (int j = first; j <= last; j++) {
@@ -701,10 +700,10 @@ typedef struct motion_of {
     long double y, largest, step;
     int tries;
     extrapolation_status status;
-    evaluator *rough; /* of the list: units that its rounding leaves of the slope */
+    evaluator *rough; /* round-off of the list's slope, in units */
 } motion_of;
 
-/* What rounding may make of the slope counts as much as a value of that size. */
+/* Bound of the round-off of the slope. */
 static long double rounded_within(const motion_of *m, long double span) {
     const double y = (double)m->y;
     double result;
@@ -727,8 +726,8 @@ static void try_once(motion_of *m, long double span, long double *move, double *
     m->tries++;
 }
 
-/* On by a span: steps grow to three times at most and fall to a fifth, aim a tenth below what is allowed, and do not leave a
- * rest that is shorter than half of them. */
+/* Advances by a span. Steps grow by at most 3, shrink by at most 5, aim at 0.9 of the tolerance, and leave no
+ * remainder shorter than half a step. */
 static void go(motion_of *m, long double span) {
     long double left = span;
     m->step = m->step > 0.0L ? m->step : span;
@@ -787,7 +786,7 @@ static void test_steps_are_those_of_one_equation_by_hand(void) {
             const long double off = fabsl(extrapolation_state(e)[0] - m.y);
             TEST_ASSERT_TRUE_MESSAGE(off <= 1e-9L * m.largest || m.status != EXTRAPOLATION_OK,
                                      text);
-            /* a rule that is broken off behind a number that is none evaluates less */
+            /* a rule stopped by a NaN evaluates less */
             TEST_ASSERT_TRUE_MESSAGE(extrapolation_operations(e) <= each * m.tries * 1.0000001,
                                      text);
             TEST_ASSERT_TRUE_MESSAGE(
@@ -807,10 +806,10 @@ static void test_steps_are_those_of_one_equation_by_hand(void) {
 void suite_price_control(void) { RUN_TEST(test_steps_are_those_of_one_equation_by_hand); }
 
 /* === price dearest ============================================================================ */
-/* What trials say that a setting costs (host/study/trial.h): the dearest of all places against each by
- * itself, finer steps where a scene takes no coarse one, and what there is no image of. */
+/* Cost of a setting in trials (host/study/trial.h): the maximum over all places, finer steps where a coarse one
+ * fails, and settings without an image. */
 
-/* Three of one motion or another, of more and less work; the last is linear alone. */
+/* Three motions of different cost; only the last is linear. */
 static const char *const springs[] = {
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
     "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
@@ -844,7 +843,6 @@ static void expect_same(const cost *want, const cost *have, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(have->state_bytes.value == want->state_bytes.value, what);
 }
 
-/* In each order of the places. */
 static void test_the_dearest_of_all_places(void) {
     static const char *const boards[] = {"mps2-an386", "mps2-an385"};
     for (int turn = 0; turn < 3; turn++) {
@@ -872,13 +870,13 @@ static void test_the_dearest_of_all_places(void) {
             known += c.instructions_worst.most > 0.0;
         }
         TEST_ASSERT_TRUE(known >= 2);
-        /* with sines looked up it is no setting of its own: there are none */
+        /* without sines, table lookup is no separate setting */
         setting lookup = s[0];
         lookup.image.angles = ANGLES_LOOKUP;
         bool own = true;
         const cost none = trial_cost(&p.trial, &lookup, (deviation_pace){5, 1}, &own);
         TEST_ASSERT_TRUE(!own && none.instructions.basis == COST_NOT_KNOWN);
-        /* nor leapfrog, where one of the places has a damper */
+        /* nor leapfrog with a damper */
         const setting leapfrog = priced_setting(WH_LEAPFROG, &engine_float);
         (void)trial_cost(&p.trial, &leapfrog, (deviation_pace){5, 1}, &own);
         TEST_ASSERT_FALSE(own);
@@ -894,7 +892,7 @@ static bool none_longer(const setting *s, double step_s) {
     return step_s <= longest_s;
 }
 
-/* In fixed point a scene is asked for steps a tenth as long, three times. */
+/* Fixed point asks three times for a step a tenth as long. */
 static void test_finer_steps_are_asked_for(void) {
     static const struct {
         deviation_pace from;
@@ -920,7 +918,7 @@ static void test_finer_steps_are_asked_for(void) {
         TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
         TEST_ASSERT_EQUAL_INT(rows[i].own, own);
         if (own) {
-            /* it is kept for this step, and asked for anew for another */
+            /* cached for this step, asked again for another */
             asked = p.asked;
             const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
             TEST_ASSERT_TRUE(r.ran);
@@ -932,7 +930,7 @@ static void test_finer_steps_are_asked_for(void) {
                             (deviation_pace){rows[i].at.steps * 2, rows[i].at.records});
             TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
         }
-        /* nothing else is asked for finer steps */
+        /* no other setting asks */
         const setting rk4 = priced_setting(WH_RK4, &engine_float);
         longest_s = 1e-9;
         asked = p.asked;
@@ -944,7 +942,7 @@ static void test_finer_steps_are_asked_for(void) {
     }
 }
 
-/* Looking for ranges takes a run: not where the finer step's takes too long. */
+/* Finding ranges needs a run, so it is skipped if the finer step's takes too long. */
 static void test_no_finer_step_than_may_be_planned(void) {
     const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
     priced p;
@@ -958,11 +956,12 @@ static void test_no_finer_step_than_may_be_planned(void) {
     bool own;
     (void)trial_any_cost(&p.trial, &in_fixed, (deviation_pace){1, 50}, &own);
     TEST_ASSERT_FALSE(own);
-    TEST_ASSERT_EQUAL_INT(4, p.asked - asked); /* the next is asked before it is seen to be slow */
+    TEST_ASSERT_EQUAL_INT(4, p.asked - asked); /* the next is asked before its cost is known */
     priced_close(&p);
 }
 
-/* A matrix of a step that is too long is priced by the scene's own; one that there is none of is no setting of the scene. */
+/* A matrix whose step is too long has the price at the scene's step. Without a matrix the setting is not the scene's
+ * own. */
 static bool no_long_matrix(const setting *s, double step_s) {
     return s->image.matrix == MATRIX_NONE || step_s < longest_s;
 }
@@ -990,7 +989,7 @@ static void test_matrices_are_priced_by_a_step_that_they_take(void) {
     priced_close(&p);
 }
 
-/* What has contacts is priced by a step without an event where that is what is asked for. */
+/* With contacts the price can be that of a step without an event. */
 static void test_contacts_are_left_out_where_that_is_asked(void) {
     priced p;
     priced_open(&p, priced_ball, 1);

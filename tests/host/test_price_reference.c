@@ -1,5 +1,5 @@
-/* test_price_reference.c: the reference of `whirl price` against closed forms in long double, and its functions against
- * libm's: none of what it is to judge takes part. */
+/* test_price_reference.c: the reference of `whirl price` compared with closed forms in long double, and its functions
+ * with libm. The reference shares no code with the runs it judges. */
 #include "derived.h"
 
 #include <float.h>
@@ -17,7 +17,6 @@ void suite_price_reference(void);
 
 /* --- the functions -------------------------------------------------------------------------------- */
 
-/* Off by so many units of the last place of `want`. */
 static double units_off(long double got, long double want) {
     int exponent;
     if (isnan(got) || isnan(want)) {
@@ -117,8 +116,8 @@ static long double at(const reference *r, int record, const char *name) {
     return r->row[(size_t)record * (size_t)r->columns + (size_t)column];
 }
 
-/* x(t) and its rate of m x'' + c x' + k x = 0 from x0, v0, underdamped. Stiffness and damping are powers of two: a list
- * holds others rounded as the algebra folds them, 1e-16 of themselves, which is not the reference's to judge. */
+/* x(t) and its rate of m x'' + c x' + k x = 0 from x0, v0, underdamped. Stiffness and damping are powers of two,
+ * because the algebra rounds other constants by 1e-16. */
 static void test_damped_springs(void) {
     uint64_t seed = 73;
     double worst = 0.0;
@@ -158,7 +157,6 @@ static void test_damped_springs(void) {
     TEST_ASSERT_TRUE(worst <= 200.0 * (double)LDBL_EPSILON);
 }
 
-/* A frictionless flight in spherical coordinates is a parabola. */
 static void test_a_flight_is_a_parabola(void) {
     derived d = derived_builtin("spherical_flight");
     derived_expect(&d, "spherical_flight");
@@ -178,12 +176,12 @@ static void test_a_flight_is_a_parabola(void) {
         worst = fmax(worst, (double)fabsl(at(r, n, "z") - (z0 + vz * t - 9.81L * t * t / 2.0L)));
     }
     printf("  spherical_flight: off its parabola by %.2e m over 2 s\n", worst);
-    TEST_ASSERT_TRUE(worst <= 2e-15); /* of 20 m, with constants that the list holds in double */
+    TEST_ASSERT_TRUE(worst <= 2e-15); /* of 20 m, with constants of the list in double */
     reference_free(r);
     derived_free(&d);
 }
 
-/* A pendulum keeps its energy, turning over or not. */
+/* Swinging or turning over. */
 static void test_pendulums_keep_their_energy(void) {
     uint64_t seed = 74;
     double worst = 0.0;
@@ -211,8 +209,8 @@ static void test_pendulums_keep_their_energy(void) {
     TEST_ASSERT_TRUE(worst <= 500.0 * (double)LDBL_EPSILON);
 }
 
-/* What the two references say of each other holds: a scene whose solution is known is no further off than a few times
- * what they differ by, and they do differ. */
+/* In a scene with a known solution, the error is at most a few times the difference of the two references, which is
+ * not zero. */
 static void test_agreement_is_no_less_than_the_error(void) {
     derived d = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                               "V = 9 [N/m]*x^2/2\n"
@@ -232,7 +230,7 @@ static void test_agreement_is_no_less_than_the_error(void) {
     derived_free(&d);
 }
 
-/* The motion of a double pendulum thrown high is chaotic: the horizon is cut, and earlier where it is thrown higher. */
+/* A double pendulum thrown high is chaotic: the higher, the shorter the horizon. */
 static void test_chaos_cuts_the_horizon(void) {
     derived d = derived_builtin("thomson_b");
     derived_expect(&d, "thomson_b");
@@ -246,7 +244,7 @@ static void test_chaos_cuts_the_horizon(void) {
     derived_free(&d);
 }
 
-/* A coordinate that symmetry keeps at zero has nothing to be a part of. */
+/* A coordinate that symmetry holds at zero has no relative error. */
 static void test_zeros_do_not_count(void) {
     derived d = derived_builtin("cuff_equal");
     derived_expect(&d, "cuff_equal");

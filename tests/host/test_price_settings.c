@@ -1,5 +1,5 @@
-/* test_price_settings.c: the settings that are priced (host/study/setting.h): how many there are, in which order, what their
- * options say, read back by a reader of its own, and what they are asked. */
+/* test_price_settings.c: priced settings (host/study/setting.h): their number, order, and options, parsed by the
+ * test. Also reference rows and trials. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,6 @@ void suite_price_trials(void);
 
 /* === price settings =========================================================================== */
 
-/* What the words of the axes stand for, written once more. */
 static const struct {
     const char *word;
     const engine_kind *kind;
@@ -63,7 +62,7 @@ static int tables_of(const setting *s) {
     return 0;
 }
 
-/* Its place among all combinations, the last axis fastest. */
+/* Index among all combinations, the last axis fastest. */
 static long place_of(const setting *s) {
     long at = (long)s->image.method;
     at = at * NUMBERS + number_of(s);
@@ -72,8 +71,8 @@ static long place_of(const setting *s) {
     return at * TABLES + tables_of(s);
 }
 
-/* Three numbers by every method, with sines turned or looked up or by one of six tables, or by one of two matrices; and fixed
- * point. */
+/* Three numbers by every method, with sines rotated or looked up or by one of six tables, or by one of two matrices;
+ * and fixed point. */
 static void test_there_are_all_and_each_once(void) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
@@ -139,7 +138,7 @@ typedef struct read_options {
     bool has_method, has_number;
 } read_options;
 
-/* As a command line is read; double is what computes where nothing is said. */
+/* As on a command line; the default is double. */
 static read_options options_read(const char *text) {
     read_options r = {.s = {IMAGE_SETTINGS_DEFAULT, &engine_double}};
     char option[32];
@@ -195,7 +194,7 @@ static void test_options_say_the_setting_and_no_more(void) {
                             (s.image.tables != TABLES_NONE ? 1 : 0) + (s.image.cells > 0 ? 1 : 0) +
                             1;
         TEST_ASSERT_EQUAL_INT_MESSAGE(options, r.options, text);
-        /* `whirl derive` is told no number but the one that it writes other code for */
+        /* for `whirl derive` the number is printed only if the code differs */
         setting_options(&s, false, text);
         r = options_read(text);
         TEST_ASSERT_FALSE_MESSAGE(r.has_number, text);
@@ -212,9 +211,9 @@ static void test_options_say_the_setting_and_no_more(void) {
 
 typedef struct owning {
     const char *text;
-    bool turns;  /* has an angle that sines can be turned on by */
-    bool second; /* is of second order */
-    bool rates;  /* its accelerations take rates */
+    bool turns; /* has an angle for rotated sines */
+    bool second;
+    bool rates; /* accelerations depend on rates */
 } owning;
 
 static void test_a_setting_is_its_own_where_it_is_taken(void) {
@@ -241,14 +240,14 @@ static void test_a_setting_is_its_own_where_it_is_taken(void) {
             const int takes = wh_methods[s.image.method].takes;
             const bool taken = takes == WH_ANY_SYSTEM ||
                                (row->second && (takes == WH_SECOND_ORDER_ONLY || !row->rates));
-            /* leapfrog's stage stands away from the begin, the plain method looks up: no pairs to turn on */
+            /* leapfrog's stage is not at the start and the plain method looks up: no pairs to rotate */
             const bool turns =
                 row->turns && s.image.method != WH_LEAPFROG && s.image.method != WH_RK4_PLAIN;
             const bool expected = taken && (turns || s.image.angles == ANGLES_TURNED);
             char options[SETTING_TEXT];
             image as = *d.image;
             as.settings = s.image;
-            /* what is asked is whether its angles could be turned, whatever this image does */
+            /* the scene decides, not this image's setting */
             TEST_ASSERT_EQUAL_INT_MESSAGE(expected, setting_is_own(&s, &as),
                                           setting_options(&s, true, options));
             own += expected;
@@ -266,15 +265,14 @@ void suite_price_settings(void) {
 }
 
 /* === price states ============================================================================= */
-/* Rows of the reference (host/study/reference_run.h), of fine steps, and which of them a
- * reference takes, until when, and in what words: against the records of a run, closed forms and a walk over the
- * rows. */
+/* Rows of the reference (host/study/reference_run.h) and of fine steps; the columns and horizon of a reference, and
+ * their report. Compared with records of a run, closed forms and a loop over the rows. */
 
 enum { COMPONENTS = 3 * IMAGE_COMPONENTS_MAX };
 
 /* --- rows ------------------------------------------------------------------------------------------------*/
 
-/* Recovered coordinates, units that are not SI, angles, inputs, outputs of each. */
+/* Recovered coordinates, other units than SI, angles, inputs, outputs of each. */
 static const char *const models[] = {
     "thomson_a_conserved",
     "thomson_plane_conserved",
@@ -287,7 +285,7 @@ static const char *const models[] = {
     ("mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
      "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n")};
 enum { MODELS = sizeof models / sizeof models[0] };
-/* Numbers behind a row, which nobody writes. */
+/* Guard numbers after a row. */
 enum { BEHIND = 4000 };
 
 static derived model_of(int n) {
@@ -349,8 +347,7 @@ static const char *const flight =
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
     "scene s { start x = 0.3 [m], x' = 0.1 [m/s]; step 1 [ms]; until 1 [s] }\n";
 
-/* Steps of a flight without a force are off by their roundings alone, which compensated sums carry along; even if the scene's
- * own settings are others. */
+/* Flight without a force: the only error is round-off, which compensated sums carry, whatever the scene's settings. */
 static void test_fine_steps_keep_what_is_rounded_off(void) {
     derived d = derived_scene(flight, "s");
     derived_expect(&d, flight);
@@ -366,12 +363,12 @@ static void test_fine_steps_keep_what_is_rounded_off(void) {
         TEST_ASSERT_TRUE(fabsl(row[3 * i + 1] - x) <= 1.5e-16L);
         TEST_ASSERT_TRUE(row[3 * i + 2] == (long double)0.1);
     }
-    TEST_ASSERT_EQUAL_INT(WH_EULER, d.image->settings.method); /* the scene's own are not touched */
+    TEST_ASSERT_EQUAL_INT(WH_EULER, d.image->settings.method); /* the scene's own are unchanged */
     records_close(shape);
     derived_free(&d);
 }
 
-/* y' = y^2 from 1/t is over at t: records end before it, wherever it is. */
+/* y' = y^2 from 1/t ends at t: the records end before. */
 static void test_fine_steps_end_with_the_motion(void) {
     for (int tenths = 2; tenths <= 9; tenths++) {
         char text[300];
@@ -398,7 +395,7 @@ static void test_fine_steps_end_with_the_motion(void) {
 
 /* --- the reference ---------------------------------------------------------------------------------------*/
 
-/* Largest values by a walk; a column that is an output, or never anything, does not count. */
+/* Largest values by a loop. Outputs and columns that stay zero do not count. */
 static void expect_columns(const reference *r) {
     for (int k = 1; k < r->columns; k++) {
         long double largest = 0.0L;
@@ -425,7 +422,7 @@ typedef struct kind_row {
     reference_kind kind;
     int least, most; /* records */
     const char *how; /* some of its words; NULL: any */
-    const char *why; /* likewise; NULL: none are said */
+    const char *why; /* same; NULL: no reason */
 } kind_row;
 
 #define SCENE(start) "scene s { " start "step 1 [ms]; until 1 [s] }\n"
@@ -440,7 +437,7 @@ static const kind_row kind_rows[] = {
     /* a pole at 0.52 s */
     {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8,
      REFERENCE_EXTRAPOLATED, 10, 10, NULL, "behind 0.5 s no step is small enough"},
-    /* nothing moves; and what moves is no coordinate */
+    /* nothing moves, or only outputs do */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8,
      REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8,
@@ -452,7 +449,7 @@ static const kind_row kind_rows[] = {
     {"mechanism m\nstate y\nstate z\nequation y' = 1 [1/s]*atan2(z - 0.47, -1)\n"
      "equation z' = 1 [1/s]\n" SCENE("start y = 1000;"),
      1e7, REFERENCE_FINE_STEPS, 20, 20, "a reference that shares the core's step", NULL},
-    /* too dear, and by few steps nothing is known at all */
+    /* too dear, and few steps give nothing */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 4000 [N/m]*x^2/2\n" SCENE(
          "start x = 0.02 [m];"),
      6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long behind "}};
@@ -489,7 +486,7 @@ static void test_references_are_of_the_kind_that_can_be_trusted(void) {
     reference_free(NULL);
 }
 
-/* Where rounding might make anything of a slope, as of a root at zero, errors are still parts of the values. */
+/* Round-off bounds the slope of a root at zero by nothing; errors must still be relative to the values. */
 static void test_a_root_at_zero_does_not_hide_errors(void) {
     dice d = dice_of("price_states", 451);
     for (int n = 0; n < 6; n++) {
@@ -515,7 +512,6 @@ static void test_a_root_at_zero_does_not_hide_errors(void) {
     }
 }
 
-/* What is stopped is of no use. */
 static void test_references_are_stopped(void) {
     for (int n = 0; n < 2; n++) {
         derived d = derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s");
@@ -542,14 +538,14 @@ void suite_price_states(void) {
 }
 
 /* === price trials ============================================================================= */
-/* Trials of settings (host/study/trial.h): steps as exact fractions, the worst and the
- * dearest of several places against each place by itself. */
+/* Trials of settings (host/study/trial.h): steps as exact fractions; worst error and highest cost over places,
+ * compared with each place alone. */
 
 /* --- steps and times -----------------------------------------------------------------------------------*/
 
 typedef unsigned __int128 wide;
 
-/* By subtracting: the exact quotients' remainders take no part. */
+/* By subtraction, independent of the product's remainders. */
 static bool have_no_divisor(uint64_t a, uint64_t b) {
     while (a != b && a != 0 && b != 0) {
         while (a > b && b != 0) {
@@ -569,7 +565,7 @@ static uint64_t drawn_up_to(dice *d, unsigned bits) {
                    ((UINT64_C(1) << (1U + dice_one_of(d, bits))) - 1U);
 }
 
-/* spacing * records / steps, in lowest terms; or as near as a double where 64 bits do not hold it. */
+/* spacing * records / steps in lowest terms, or the nearest double if 64 bits do not suffice. */
 static void test_steps_are_exact(void) {
     dice d = dice_of("price_trials steps", 11);
     int exact = 0;
@@ -605,7 +601,7 @@ static void test_steps_are_exact(void) {
     TEST_ASSERT_TRUE(exact > 300 && rounded > 30);
 }
 
-/* As a user would write it: no shorter number is the same fraction. */
+/* No shorter decimal is the same fraction. */
 static void test_times_have_as_few_digits_as_they_can(void) {
     dice d = dice_of("price_trials times", 12);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {
@@ -633,7 +629,7 @@ static void test_times_have_as_few_digits_as_they_can(void) {
 
 /* --- scenes ----------------------------------------------------------------------------------------------*/
 
-/* A spring and a pendulum, shown in mm and degrees, that differ in their numbers and in what a step computes. */
+/* A spring and a pendulum, in mm and degrees, with different numbers and operations. */
 static const char *const places[] = {
     "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\noutput twice [mm] = 2*x\n"
     "output heard [mm] = x\nnoise heard deviation 1 [mm] seed 1\n"
@@ -674,7 +670,7 @@ static void test_operations_are_those_of_all_places(void) {
     p.trial.planned_most = most * 0.999;
     TEST_ASSERT_TRUE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     p.trial.planned_most = 1.0;
-    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &rk4, fine)); /* looks for no ranges */
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &rk4, fine)); /* needs no ranges */
     p.trial.planned_most = -1.0;
     TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     bool own = false;
@@ -744,7 +740,7 @@ static void test_what_is_no_component_is_told(void) {
 
 /* --- the horizon -----------------------------------------------------------------------------------------*/
 
-/* y' = y^2 from y(0) is over at 1/y(0): all places end where the first does. */
+/* y' = y^2 from y(0) ends at 1/y(0). */
 static void test_the_horizon_is_that_of_the_place_that_ends_first(void) {
     static const double from[] = {0.5, 1.25, 0.8};
     for (int turn = 0; turn < 3; turn++) {
@@ -771,7 +767,7 @@ static void test_the_horizon_is_that_of_the_place_that_ends_first(void) {
     }
 }
 
-/* Places where nothing moves are left out; if nothing moves at all, that is the report. */
+/* If nothing moves at any place, the report says so. */
 static void test_places_where_nothing_moves_are_left_out(void) {
     static const char *const texts[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
                                         "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",
@@ -828,7 +824,6 @@ static void test_of_places_as_long_the_worst_agrees_least(void) {
 
 /* --- errors ----------------------------------------------------------------------------------------------*/
 
-/* The same of each place by itself. */
 static trial_result each_by_itself(priced *p, const setting *s, deviation_pace pace,
                                    double tolerated, int *looked_at) {
     trial_result r = {.ran = true, .usable = true, .error = -1.0};
@@ -874,7 +869,7 @@ static void test_errors_are_the_worst_of_all_places(void) {
                 priced_setting(methods[dice_one_of(&d, 4)],
                                dice_one_of(&d, 2) == 0 ? &engine_float : &engine_double);
             const deviation_pace pace = {1, i % 3 == 0 ? 5 : 1};
-            /* references that know their columns less well than they do */
+            /* references less accurate than they are */
             for (int k = 0; k < 3; k++) {
                 reference *r = p.trial.reference[k];
                 for (int c = 1; c < r->columns; c++) {
@@ -888,7 +883,7 @@ static void test_errors_are_the_worst_of_all_places(void) {
             int looked_at;
             const trial_result r = trial_run(&p.trial, &s, pace);
             const trial_result want = each_by_itself(&p, &s, pace, p.trial.tolerated, &looked_at);
-            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* none behind one of no use */
+            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* none after a useless one */
             TEST_ASSERT_TRUE(r.ran && r.usable == want.usable && r.bound == want.bound);
             TEST_ASSERT_TRUE(r.error == want.error && r.point == want.point);
             TEST_ASSERT_TRUE(r.column == want.column && r.evaluations == want.evaluations);

@@ -1,5 +1,5 @@
-/* test_price_words.c: what is printed of prices (host/study/table_text.h): figures with their digits and how
- * they are known, rows of a made-up table for people and for programs, read back here. */
+/* test_price_words.c: printed prices (host/study/table_text.h): digits and basis of figures, rows of a made-up table
+ * as text and CSV, parsed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -94,7 +94,7 @@ static void test_legends_have_a_line_for_each_basis_that_is_there(void) {
     }
 }
 
-/* RFC 4180: what is quoted comes back, and what need not be quoted is not. */
+/* RFC 4180: quoted fields parse to the original, and quotes appear only where needed. */
 static void test_fields_come_back(void) {
     static const char pieces[] = "abc \",\r\n\"x";
     dice d = dice_of("price_words fields", 33);
@@ -196,7 +196,7 @@ static const char *expect_figure(const char *at, const cost_figure *f) {
     return expect_field(at, cost_basis_words[f->basis]);
 }
 
-/* "whirl run TARGET CHANGES PLACE OPTIONS --step S --until U"; the line that writes C names no place. */
+/* "whirl run TARGET CHANGES PLACE OPTIONS --step S --until U"; the line that writes C has no place. */
 static char *line_again(const trials *t, const table_row *r, const table_words *words, bool run) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
@@ -267,7 +267,7 @@ static void test_programs_read_what_the_rows_are(void) {
 
 /* --- for people ------------------------------------------------------------------------------------------*/
 
-/* What stands behind the first place where this does, which is there once. */
+/* The text after `what`, which occurs once. */
 static const char *behind(const char *text, const char *what) {
     const char *at = strstr(text, what);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what);
@@ -382,7 +382,7 @@ static void test_people_read_what_the_rows_are(void) {
     }
 }
 
-/* Of a front of drawn rows at most twelve are shown, the cheapest and the least error among them. */
+/* The cheapest and the most accurate row are among them. */
 static void test_at_most_twelve_rows_of_a_front_are_shown(void) {
     dice d = dice_of("price_words fronts", 36);
     priced p;
@@ -436,7 +436,7 @@ static void test_tables_of_nothing_say_why(void) {
     table made = {.unpriced = 3, .why = "a reason"};
     char *text = table_of_nothing(&p.trial, &made);
     (void)behind(text, "\nno setting has a row: 0 settings; 3 without a price here: a reason\n");
-    /* z rests, and is no part of anything; the two agree as they are said to */
+    /* z rests and has no relative error; the two references agree as reported */
     (void)behind(text, "\n  left out    stays at zero but for rounding: z, z'\n");
     const char *at = behind(text, "the two agree within ");
     double number;
@@ -451,7 +451,7 @@ static void test_tables_of_nothing_say_why(void) {
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "\nno setting keeps to the motion:");
     free(text);
-    p.trial.records = 10; /* it ends before what was asked for */
+    p.trial.records = 10; /* ends before the requested time */
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "  horizon     0.2 s of 0.4 s: the reference ends\n");
     free(text);

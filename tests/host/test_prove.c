@@ -1,6 +1,5 @@
-/* test_prove.c: the tube of `whirl prove` holds the exact motion: at every record, against references of 113 bits that share
- * nothing with the program (quad_arms.h); and a motion that is not the scene's, by a millionth of one parameter, falls
- * out. */
+/* test_prove.c: the tube of `whirl prove` contains the exact motion at every record. References of 113 bits share
+ * nothing with the program (quad_arms.h). With a parameter wrong by a millionth, the motion leaves the tube. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,12 +21,12 @@ static quad_arms epicyclic(quad r) {
     quad_arms a = {.coordinates = 2, .carriage = 1, .bodies = 2};
     a.body[0] = (quad_body){m, 0, {{0, 0, 0}}};
     a.body[1] = (quad_body){m, 1, {{2 * r, 1, 0}}};
-    a.spin_kgm2[0] = 4 * m * r * r / 2; /* it turns twice as fast as the arm */
+    a.spin_kgm2[0] = 4 * m * r * r / 2; /* turns twice as fast as the arm */
     a.load[0] = 2;
     return a;
 }
 
-/* Thomson's device: sun gear on the carriage, planet gear on the arm, disc on its rim. */
+/* Sun gear on the carriage, planet gear on the arm, disc on its rim. */
 static quad_arms thomson(quad r) {
     const quad m = 2;
     quad_arms a = {.coordinates = 3, .carriage = 2, .bodies = 3};
@@ -58,8 +57,8 @@ typedef struct scene_case {
     quad start[QUAD_STATES];
     const char *step;
     quad step_s;
-    double usual_s; /* how far make test goes, */
-    double until_s; /* and make check */
+    double usual_s; /* for make test */
+    double until_s; /* for make check */
 } scene_case;
 
 static char *text_of(const scene_case *c, double until_s) {
@@ -70,7 +69,7 @@ static char *text_of(const scene_case *c, double until_s) {
     return c->builtin ? horizons_builtin(c->file, more) : horizons_file(c->file, more);
 }
 
-/* The scene until then, beside a reference whose length is off by this part. */
+/* Runs until `until_s` against a reference whose length has this relative error. */
 static containment_found hold_scene(const scene_case *c, double until_s, double part, beside *b) {
     const quad_arms of = c->by_hand(c->length_m * (1 + (quad)part));
     *b = (beside){.slopes = quad_arms_slopes, .of = &of, .step_s = c->step_s};
@@ -81,8 +80,7 @@ static containment_found hold_scene(const scene_case *c, double until_s, double 
     return h;
 }
 
-/* The scene's own motion stays inside to the end; one that is off by a millionth falls out before, and where the tube is
- * still narrow. */
+/* The true motion stays inside to the end. One wrong by a millionth leaves early, where the tube is narrow. */
 static void expect_proved(const scene_case *c, double widest) {
 #ifdef QUAD_KNOWN
     beside b;

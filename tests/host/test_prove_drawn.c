@@ -1,6 +1,6 @@
-/* test_prove_drawn.c: tubes of `whirl prove` round motions of drawn mechanisms. Masses on arms, whose parameters are decimals
- * that no double is, against motions of 113 bits by d'Alembert's equations; a coefficient that is off by a millionth, or
- * by 1e-12, falls out. Linkages with springs, dampers and drives, against long double. */
+/* test_prove_drawn.c: tubes of `whirl prove` for drawn mechanisms. Masses on arms have decimal parameters that
+ * doubles cannot hold, and references of 113 bits by d'Alembert's equations. A coefficient wrong by a millionth, or
+ * by 1e-12, must leave the tube. Linkages with springs, dampers and drives have references in long double. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,6 @@ void suite_prove_drawn(void);
 
 /* --- masses on arms -----------------------------------------------------------------------------------*/
 
-/* A number of hundredths, as the text writes it and as it is. */
 static quad hundredths(dice *d, int least, int most, char text[16]) {
     const int number = least + (int)dice_one_of(d, (unsigned)(most - least));
     const int size = abs(number);
@@ -34,7 +33,7 @@ typedef struct drawn_arms {
 #define SAY(...) \
     (d->length += (size_t)snprintf(d->text + d->length, sizeof d->text - d->length, __VA_ARGS__))
 
-/* A body at the end of a chain of arms: its speeds and its height, in the text and in numbers. */
+/* A body at the end of a chain of arms: speeds and height, as text and numbers. */
 static void draw_body(drawn_arms *d, dice *die, int b) {
     const int angles = d->arms.coordinates - (d->arms.carriage >= 0 ? 1 : 0);
     quad_body *body = &d->arms.body[b];
@@ -85,7 +84,7 @@ static void draw_scene(drawn_arms *d, dice *die) {
     SAY("; step 2 [ms]; until %g [s] }\n", few_or_all(0, 1) == 1 ? 0.6 : 0.12);
 }
 
-/* Two or three coordinates, the last perhaps a carriage. */
+/* Two or three coordinates, the last possibly a carriage. */
 static void draw_arms(drawn_arms *d, dice *die) {
     char number[16];
     const int angles = 1 + (int)dice_one_of(die, 2);
@@ -116,7 +115,6 @@ static void draw_arms(drawn_arms *d, dice *die) {
     TEST_ASSERT_TRUE(d->length < sizeof d->text);
 }
 
-/* The carriage's name has no number. */
 static void name_carriage(drawn_arms *d) {
     for (char *at = d->text; (at = strstr(at, "X")) != NULL; at++) {
         if (at[1] == '0' + d->arms.carriage) {
@@ -125,7 +123,7 @@ static void name_carriage(drawn_arms *d) {
     }
 }
 
-/* The tube, beside the same motion with one of its coefficients off by a part. */
+/* The tube, against the same motion with one coefficient changed by a part. */
 static beside hold_arms(const drawn_arms *d, const char *text, unsigned which, double part,
                         containment_end *end) {
     quad_arms of = d->arms;
@@ -160,7 +158,7 @@ static void test_drawn_arms(void) {
         to_the_end += end == CONTAINMENT_AT_END ? 1 : 0;
         widest = fmax(widest, b.widest);
         nearest = fmin(nearest, b.nearest);
-        /* the same with a shorter scene: what is off is out soon, or it is not found */
+        /* a shorter scene: the wrong coefficient shows soon or not at all */
         char *until = strstr(d.text, "until ");
         snprintf(until, sizeof d.text - (size_t)(until - d.text), "until 0.03 [s] }\n");
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
@@ -182,7 +180,7 @@ static void test_drawn_arms(void) {
 
 /* --- linkages -----------------------------------------------------------------------------------------*/
 
-/* The energies in numbers, by jets: in long double. Their parameters are doubles, so the tube has nothing but rounding. */
+/* The energies by jets in long double. Their parameters are doubles, so the tube contains only round-off. */
 static void linkage_slopes(const void *of, const quad *state, quad *to) {
     const linkage *l = of;
     long double q[LINKAGE_BODIES];

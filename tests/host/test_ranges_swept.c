@@ -1,6 +1,6 @@
-/* test_ranges_swept.c: what a sweep varies (host/study/grid.h, changes.h), drawn: its values are those of a line or of a
- * geometric series, in the order in which a counter counts; what a point is told of them; each mistake is told in the words
- * of whose option it is and leaves the grid as it was; and everything is given back. */
+/* test_ranges_swept.c: axes of a sweep (host/study/grid.h, changes.h), drawn: linear or geometric values in counting
+ * order, and the changes of each point. An error names its option and leaves the grid unchanged. Also the CSV file,
+ * and leaks. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <fcntl.h>
@@ -88,7 +88,7 @@ typedef struct drawn_axis {
     bool is_log;
 } drawn_axis;
 
-/* Its text is added to the grid. Numbers of 17 digits: none is lost. */
+/* Appends its text to the grid, with 17 digits, which are exact. */
 static void add_axis(drawn_axis *a) {
     char text[200];
     const double sign = names[a->name].column[1] == 't' ? 1.0 : dice_one_of(&die, 2) - 0.5;
@@ -100,7 +100,7 @@ static void add_axis(drawn_axis *a) {
             : sign == 1.0 ? a->from * exp(dice_between(&die, -9.0, 9.0))
                           : dice_between(&die, -900.0, 900.0);
     if (a->is_log && a->count > 1 && strcmp(names[a->name].name, "step") != 0 &&
-        dice_one_of(&die, 4) == 0) { /* ends whose ratio is no number */
+        dice_one_of(&die, 4) == 0) { /* ratio of the ends not finite */
         const double way = dice_one_of(&die, 2) == 0 ? -1.0 : 1.0;
         a->from = copysign(exp(-way * dice_between(&die, 380.0, 690.0)), a->from);
         a->to = copysign(exp(way * dice_between(&die, 380.0, 690.0)), a->from);
@@ -147,7 +147,7 @@ static void expect_point(const drawn_axis *axes, int count, uint64_t point, cons
     TEST_ASSERT_EQUAL_UINT64(0, rest);
 }
 
-/* What a point's run is told: each number to the bit, and all else as the command line has it. */
+/* A point's changes: each number to the bit, the rest as on the command line. */
 static void expect_changes(const drawn_axis *axes, int count, uint64_t point, const double *value) {
     static const char *const sets[] = {"mm=7"};
     static const char *const old[] = {"M=8", "M=9"};
@@ -208,7 +208,6 @@ static void test_values(void) {
     }
 }
 
-/* A state's start has a column as a coordinate's has. */
 static void test_states(void) {
     open_sample();
     TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[1], "x=1..3:3", heard));
@@ -218,7 +217,7 @@ static void test_states(void) {
     close_sample();
 }
 
-/* Shards of grids of any size: as exact fractions of their points, without a gap. */
+/* Shards of any grid are exact fractions of the points, without gaps. */
 static void test_shards(void) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
         grid any = {.points = (uint64_t)exp(dice_between(&die, 0.0, log(1e12)))};
@@ -251,7 +250,7 @@ static const char one_unit[] = ": one end has a unit and the other has not\n";
 static const char no_step[] = ": step must be above zero\n";
 static const char twice[] = ": it is swept already\n";
 
-/* '_' stands for blanks, drawn anew each time. */
+/* '_' stands for drawn blanks. */
 static const struct {
     const char *text;
     const char *problem;
@@ -338,11 +337,11 @@ static void test_mistakes(void) {
     }
 }
 
-/* Of what is declared in a unit that is not SI a bare number is refused; of no other. */
+/* A bare number is refused if and only if the declared unit is not SI. */
 static void test_bare_numbers(void) {
     static const struct {
         const char *text;
-        const char *typed; /* NULL: taken */
+        const char *typed; /* NULL: accepted */
     } bare[] = {{"q=1..2:3", "1"},      {" q = 1 .. 2.5 :3", "1"}, {"q=1..2 [mm]:3", NULL},
                 {"q=1..2 [m]:3", NULL}, {"q=0..0:1", NULL},        {"r=1..2:3", NULL},
                 {"theta=1..2:3", NULL}, {"step=1..2:3", NULL},     {"q=1..2 [mm]:x", NULL}};
@@ -365,7 +364,7 @@ static void test_bare_numbers(void) {
 
 /* --- beside what is given otherwise -----------------------------------------------------------------------------*/
 
-/* What is swept cannot be set as well: its name itself, blanks or none, and no other that begins alike. */
+/* A swept name cannot be set too, with or without blanks; names with the same beginning can. */
 static void test_given_twice(void) {
     static const char *const swept[] = {"m=1..2:2", "mm=1..2:2", "theta=1..2:2", "theta'=1..2:2",
                                         "step=1..2:2"};
@@ -465,8 +464,8 @@ void suite_ranges_swept(void) {
 }
 
 /* === sheet ==================================================================================== */
-/* A sweep's CSV file (host/study/resumable_csv.h): begun, gone on with wherever it was torn off, begun anew, and refused
- * where it is another's, which leaves it as it was; drawn, against what the test writes itself. */
+/* A sweep's CSV file (host/study/resumable_csv.h): created, resumed after truncation anywhere, restarted, or refused
+ * unchanged if another sweep's. Compared with the test's own text. */
 
 enum { ROWS_MOST = 12, TEXT = 2000, PATH = 120 };
 
@@ -475,7 +474,7 @@ static char folder[80];
 static char path[PATH];
 static char path_beside[PATH + 20];
 
-/* A sweep, and its file when it is whole. */
+/* A sweep and its complete file. */
 typedef struct drawn_sheet {
     resumable_csv_settings settings;
     char whole[TEXT];
@@ -485,7 +484,7 @@ typedef struct drawn_sheet {
 
 static drawn_sheet d;
 
-/* What is swept: two numbers of the row. */
+/* The swept columns: two numbers of the row. */
 static void put_swept(const void *context, uint64_t row, FILE *out) {
     TEST_ASSERT_EQUAL_PTR(&d, context);
     fprintf(out, "%u,0.%u", (unsigned)row / 3U + 1U, (unsigned)row % 3U);
@@ -537,13 +536,13 @@ static void expect_file(const char *name, const char *text, size_t length) {
 
 static bool exists(const char *name) { return access(name, F_OK) == 0; }
 
-/* The file is there, as far as `length`, with what belongs beside it. */
+/* Writes the file up to `length`, and its companion. */
 static void leave(size_t length) {
     put_file(path, d.whole, length);
     put_file(path_beside, fingerprint, strlen(fingerprint));
 }
 
-/* Opens it, writes the rows that are missing, and closes it: then it is whole. */
+/* Opens it, writes the missing rows, and closes it complete. */
 static void expect_gone_on(unsigned rows) {
     resumable_csv sh;
     unsigned failed = 0;
@@ -557,15 +556,14 @@ static void expect_gone_on(unsigned rows) {
     TEST_ASSERT_TRUE(sh.out != NULL && sh.is_file);
     TEST_ASSERT_EQUAL_UINT64(rows, sh.rows);
     TEST_ASSERT_EQUAL_UINT64(failed, sh.failed);
-    expect_file(path, d.whole, d.end[rows]); /* what was torn off is gone, and the header there */
+    expect_file(path, d.whole, d.end[rows]); /* the torn row is gone, the header is there */
     expect_file(path_beside, fingerprint, strlen(fingerprint));
     fputs(d.whole + d.end[rows], sh.out);
     TEST_ASSERT_TRUE(resumable_csv_close(&sh));
-    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* again: nothing */
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* again: no effect */
     expect_file(path, d.whole, strlen(d.whole));
 }
 
-/* It is refused so, and is as it was. */
 static void expect_refused(const char *text, size_t length, const char *beside, const char *why) {
     resumable_csv sh;
     char wanted[300];
@@ -601,7 +599,7 @@ static void close_folder(void) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, rmdir(folder), "something else was left there");
 }
 
-/* Nothing there, or an empty file of anybody's. */
+/* No file, or an empty one of any owner. */
 static void test_begun(void) {
     open_folder();
     for (int c = 0; c < 8; c++) {
@@ -616,14 +614,14 @@ static void test_begun(void) {
     close_folder();
 }
 
-/* Torn off anywhere, and about a line's end most of all. */
+/* Truncated anywhere, mostly near line ends. */
 static void test_gone_on_with(void) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(5, 3)); c++) {
         draw_sheet();
         unsigned rows = 0;
         for (size_t length = 0; length <= strlen(d.whole); length++) {
-            const char *at = d.whole + length; /* where it is torn off */
+            const char *at = d.whole + length; /* end of the truncated file */
             const bool ends = strchr("\r\n", *at) != NULL || (length > 0 && at[-1] == '\n');
             if (dice_one_of(&die, ends ? 3 : 25) > 0) {
                 continue;
@@ -652,7 +650,7 @@ static void test_fresh(void) {
     close_folder();
 }
 
-/* A byte of a row is another one: it is not this sweep's, whichever row it is. */
+/* One changed byte in any row makes it another sweep's file. */
 static void test_rows_of_others(void) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
@@ -689,7 +687,6 @@ static void test_rows_of_others(void) {
     close_folder();
 }
 
-/* A field less: where there are some. */
 static void test_too_few_fields(void) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(20, 10)); c++) {
@@ -738,7 +735,7 @@ static void test_settings_of_others(void) {
     close_folder();
 }
 
-/* While one writes it nobody else can: a process of its own tries. */
+/* A second process cannot write it at the same time. */
 static void test_locked(void) {
     resumable_csv sh;
     open_folder();
@@ -763,7 +760,7 @@ static void test_locked(void) {
     close_folder();
 }
 
-/* Where nothing can be written: no such folder; a device that is full, at once or at the end. */
+/* No such folder; a device that is full at the start or the end. */
 static void test_not_written(void) {
     resumable_csv sh;
     open_folder();
@@ -774,7 +771,7 @@ static void test_not_written(void) {
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
     TEST_ASSERT_TRUE(sh.out == NULL && strstr(told, "/nowhere/at all/s.csv") != NULL);
-    d.settings.path = folder; /* no file, and none can be */
+    d.settings.path = folder; /* the path is a folder */
     errors_catch();
     code = resumable_csv_open(&sh, &d.settings);
     told = errors_caught();
@@ -789,7 +786,7 @@ static void test_not_written(void) {
         told = errors_caught();
         TEST_ASSERT_TRUE(opened && put && !closed && strstr(told, "/dev/full") != NULL);
     }
-    /* what belongs beside it cannot be put there: a folder is */
+    /* the companion's path is a folder */
     d.settings.path = path;
     TEST_ASSERT_EQUAL_INT(0, mkdir(path_beside, 0777));
     errors_catch();
@@ -804,7 +801,7 @@ static void test_not_written(void) {
     close_folder();
 }
 
-/* What cannot be gone on with is written as it comes: a device. */
+/* A device cannot be resumed and is written directly. */
 static void test_no_file(void) {
     resumable_csv sh;
     draw_sheet();

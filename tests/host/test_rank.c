@@ -1,5 +1,5 @@
-/* test_rank.c: the rank of matrices that are made to have it, in whatever units their rows and columns are, and how much
- * of a rounding error it takes for none. */
+/* test_rank.c: rank of matrices built with a known rank, in any units of rows and columns, and the round-off that
+ * counts as zero. Also solving, systems, and scenes that cannot be derived. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -32,7 +32,7 @@ static double whole(uint64_t *seed, int most) {
     return (double)(random_bits(seed) % (uint64_t)(2 * most + 1)) - most;
 }
 
-/* The rank of a matrix of small whole numbers, exactly: Bareiss' elimination without fractions. */
+/* Rank of a matrix of small integers by Bareiss' fraction-free elimination. */
 static int exact_rank(const double *m, int n) {
     double a[MOST][MOST] = {{0.0}};
     for (int i = 0; i < n * n; i++) {
@@ -122,7 +122,7 @@ static void test_the_rank_does_not_hang_on_units(void) {
     }
 }
 
-/* [1 1; 1 1 + x]: what is left of the second row is x. */
+/* [1 1; 1 1 + x]: the pivot of the second row is x. */
 static void test_a_pivot_that_is_rounding_is_none(void) {
     for (int k = 0; k < 4; k++) {
         const bool symmetric = k % 2 == 0;
@@ -144,7 +144,7 @@ static void test_a_pivot_that_is_rounding_is_none(void) {
     TEST_ASSERT_EQUAL_INT(0, rank_of(none, error, 2, false));
 }
 
-/* B Bt + I has all eigenvalues above 0; with one row and column less by too much, one is below. */
+/* B Bt + I has all eigenvalues above 0; reducing one row and column too much makes one negative. */
 static void test_what_is_positive_definite(void) {
     uint64_t seed = 23;
     for (int round = 0; round < 1000; round++) {
@@ -180,8 +180,7 @@ static void test_what_is_positive_definite(void) {
     }
 }
 
-/* The first equation whose highest derivatives follow from those above it is the one that is shown; if it has none at
- * all, that is said. */
+/* The report shows the first equation whose highest derivatives follow from earlier ones, or says that it has none. */
 static void test_the_equation_that_depends_is_shown(void) {
     uint64_t seed = 29;
     int shown = 0;
@@ -189,7 +188,8 @@ static void test_the_equation_that_depends_is_shown(void) {
         const int n = 2 + round % (MOST - 1);
         double m[MOST * MOST] = {0};
         const int poor =
-            (int)(random_bits(&seed) % (unsigned)n); /* this row is made from two above, or empty */
+            (int)(random_bits(&seed) %
+                  (unsigned)n); /* this row is a combination of two earlier ones, or empty */
         for (int i = 0; i < n; i++) {
             const double first = i == poor ? whole(&seed, 2) : 0.0;
             const double second = i == poor ? whole(&seed, 2) : 0.0;
@@ -222,7 +222,7 @@ static void test_the_equation_that_depends_is_shown(void) {
                 break;
             }
         }
-        bool used = true; /* each state's rate must stand somewhere, else another thing is said */
+        bool used = true; /* each state's rate must occur, else another error comes first */
         for (int j = 0; j < n; j++) {
             bool in_column = false;
             for (int i = 0; i < n; i++) {
@@ -259,9 +259,8 @@ void suite_rank(void) {
 }
 
 /* === solving ================================================================================== */
-/* Whatever the matrix is that stands before the highest derivatives, the operation list solves for them:
- * systems of one to five equations, entries of every kind, put back into the equations. And which coordinates are
- * kept as turn angles. */
+/* The operation list solves systems of one to five equations with entries of every kind; the results satisfy the
+ * equations. Also the choice of turn angles. */
 
 static unsigned draw(uint64_t *seed, unsigned bound) {
     return (unsigned)(random_bits(seed) % bound);
@@ -269,7 +268,7 @@ static unsigned draw(uint64_t *seed, unsigned bound) {
 
 /* --- equations --------------------------------------------------------------------------------------- */
 
-/* One entry of the matrix: nothing, a number, or what changes with the states, not small as a rule. */
+/* An entry: zero, a number, or a function of the states, usually not small. */
 static void entry(FILE *to, int n, unsigned variety, uint64_t *seed) {
     const unsigned state = draw(seed, (unsigned)n);
     const double number = (double)draw(seed, 9) / 4.0 - 1.0;
@@ -322,7 +321,7 @@ static int check_solution(const derived *d, uint64_t *seed, const char *text) {
             largest = fmax(largest, fabs(result[i]));
         }
         if (!isfinite(largest) || largest > 1e4) {
-            continue; /* next to a singular state */
+            continue; /* nearly singular state */
         }
         for (int i = 0; i < e->count; i++) {
             double size;
@@ -354,7 +353,7 @@ static void test_any_regular_system_is_solved(void) {
     }
 }
 
-/* One equation of a system is made of those above it, in decimals that are no binary fractions: it is named. */
+/* One equation is a combination of earlier ones, in decimals that are not binary fractions. */
 static void test_the_equation_that_repeats_others_is_named(void) {
     uint64_t seed = 47;
     for (int round = 0; round < 60; round++) {
@@ -397,7 +396,7 @@ static void test_the_equation_that_repeats_others_is_named(void) {
 
 /* --- long products ---------------------------------------------------------------------------------------- */
 
-/* Products of up to forty different factors and their powers, alone and in a sum, of which lowering keeps 24 apart. */
+/* Products of up to forty factors and powers, alone and in a sum; lowering keeps 24 apart. */
 static void test_long_products_keep_their_value(void) {
     uint64_t seed = 43;
     for (int factors = 20; factors <= 40; factors++) {
@@ -427,7 +426,7 @@ static void test_long_products_keep_their_value(void) {
 
 /* --- turn angles ---------------------------------------------------------------------------------------- */
 
-/* Is q, which the expression names, inside sines and tangents only, with whole factors? */
+/* Is q only inside sines and tangents, with integer factors? */
 static void test_what_can_be_a_turn_angle(void) {
     static const struct {
         const char *text;
@@ -507,14 +506,12 @@ void suite_solving(void) {
 }
 
 /* === systems ================================================================================== */
-/* Systems given by equations outright, of mixed and high order (dissertation, appendix
- * A: n-th order to first order), run against solutions in closed form. Their highest derivatives are
- * checked in test_methods.c; what cannot be solved is refused in test_bad_input.c. */
+/* Systems of mixed and high order given as equations (dissertation, appendix A: n-th order to first order), compared
+ * with closed forms. Their highest derivatives: test_methods.c; refusals: test_bad_input.c. */
 
 #define PI 3.14159265358979323846
 enum { TEXT_SIZE = 8192 };
 
-/* A file's first scene. */
 static void open_file(motion *m, const char *path, stepping how) {
     char text[TEXT_SIZE];
     FILE *in = fopen(path, "r");
@@ -585,7 +582,7 @@ static void test_ten_coupled_equations_swing_in_one_mode(void) {
 static void test_motor_with_inductance_holds_the_pendulum(void) {
     motion m;
     open_file(&m, "tests/mechanisms/dc_motor_pendulum.whirl", IN_DOUBLE);
-    motion_to(&m, 150.0); /* the pendulum comes to rest at 0.13 per second */
+    motion_to(&m, 150.0); /* the pendulum decays at 0.13 per second */
     /* closed form at rest: current u/R = 8 A; torque K i = m g l sin(theta) = k (phi - theta) */
     const double torque = 0.08 * 8.0;
     const double theta = asin(torque / (0.25 * 9.80665 * 0.4));
@@ -626,7 +623,7 @@ void suite_systems(void) {
 }
 
 /* === underivable ============================================================================== */
-/* What cannot be derived is refused with its place and in bounded time. */
+/* Models that cannot be derived are refused with their place and in bounded time. */
 
 static void expect_refused(const char *text, const char *wanted) {
     const clock_t began = clock();
@@ -638,7 +635,7 @@ static void expect_refused(const char *text, const char *wanted) {
     }
     TEST_ASSERT_NULL(d.image);
     TEST_ASSERT_TRUE(found);
-    TEST_ASSERT_TRUE(seconds < 20.0); /* bounded, sanitizers included */
+    TEST_ASSERT_TRUE(seconds < 20.0); /* bounded, also with sanitizers */
     derived_free(&d);
 }
 
@@ -675,7 +672,7 @@ static void test_kinetic_energy_must_be_positive(void) {
     expect_refused("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
                    "T = 1 [kg*m^2]*(a'^2/2 + b'^2/2 + (2 + cos(a))*a'*b')\n",
                    "t.whirl:4:1: error: the kinetic energy of 'm' is negative for some motion");
-    /* the same matrix, given outright, is a matter of how the equations are written */
+    /* for the same matrix as equations, the advice is to rewrite them */
     derived system = derived_text("mechanism m\nstate x\nstate y\nstate z\n"
                                   "equation 1 [s]*y' = x\nequation 1 [s]*(x' + z') = y\n"
                                   "equation 1 [s]*(y' + z') = z\n");
@@ -683,7 +680,7 @@ static void test_kinetic_energy_must_be_positive(void) {
     derived_free(&system);
 }
 
-/* What is positive, or finite, in a narrow range only: no generic state lies there, the start does. */
+/* Positive, or finite, only in a narrow range: no generic state lies there, but the start does. */
 static void test_the_start_is_tried_too(void) {
     static const char *const texts[] = {
         "mechanism m\ncoordinate x [m]\n"
@@ -726,7 +723,7 @@ static void test_too_many_components(void) {
     free(states);
 }
 
-/* A product of sums of parameters, as in the energies of a long chain. With the hint's change it derives. */
+/* A product of sums of parameters, as in the energies of a long chain. The hint's change makes it derivable. */
 static void test_a_hint_about_parameters_helps(void) {
     dice d = dice_of("parameters", 2);
     for (unsigned k = 0; k < 3; k++) {
