@@ -1,5 +1,5 @@
-/* test_price_front.c: rows of error against price (host/study/price_table.h): sorted, and which are on the front, against
- * all pairs of drawn rows; the steps that are tried; and what of a price a row is sorted by. */
+/* test_price_front.c: rows of error against price (host/study/price_table.h). Sorting and Pareto front are compared
+ * with all pairs of drawn rows. Also the steps tried, counted prices, and motions. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +31,6 @@ void suite_price_motion(void);
 
 enum { ROWS_MOST = 40 };
 
-/* Is row a before row b? */
 static bool comes_before(const table_row *a, const table_row *b) {
     return a->price.value < b->price.value ||
            (a->price.value == b->price.value &&
@@ -39,14 +38,14 @@ static bool comes_before(const table_row *a, const table_row *b) {
              (a->result.error == b->result.error && a->pace.steps < b->pace.steps)));
 }
 
-/* Does a leave nothing to say for b: no dearer, errs no more, and is not the same that was tried later? */
+/* Does a dominate b: no dearer, no less accurate, and, if equal, earlier? */
 static bool beats(const table_row *a, const table_row *b) {
     return a->price.value <= b->price.value && a->result.error <= b->result.error &&
            (a->price.value < b->price.value || a->result.error < b->result.error ||
             a->pace.steps < b->pace.steps);
 }
 
-/* Few values, so that many rows are alike in one or both. */
+/* Few distinct values, so that many rows tie. */
 static void test_drawn_rows_are_sorted_and_their_front_is_marked(void) {
     dice d = dice_of("price_front", 1);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 20000)); n++) {
@@ -102,7 +101,7 @@ static void test_the_ladder_goes_down_by_one_two_five(void) {
     TEST_ASSERT_TRUE(table_pace(&w, 28, &p) && p.steps == 50000000);
 }
 
-/* With a rate: rising numbers of steps in a period of so many to a record, all of 1 to 10 among them. */
+/* With a rate: rising numbers of steps per several records, including all of 1 to 10. */
 static void test_substeps_rise_as_they_are_told(void) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_wish w = {.rate_Hz = 7.0, .periods = periods};
@@ -157,8 +156,7 @@ void suite_price_front(void) {
 }
 
 /* === price measured =========================================================================== */
-/* Prices that are counted (host/study/measured.h) and chosen by (choice.h), in a made-up source tree
- * (made_up_tree.h). */
+/* Counted prices (host/study/measured.h) and choices by them (choice.h), in a made-up source tree (made_up_tree.h). */
 
 /* --- can it be counted? ----------------------------------------------------------------------------------*/
 
@@ -166,7 +164,7 @@ static void test_what_is_missing_is_told(void) {
     static const struct {
         const char *says;
         const char *status;
-        const char *answer; /* NULL: nothing is */
+        const char *answer; /* NULL: nothing */
     } rows[] = {
         {"", "0\n", NULL},
         {"a 'tool' is missing\n", "0\n", NULL},
@@ -221,7 +219,6 @@ static void expect_known(double value, cost_basis basis, const cost_figure *f) {
     TEST_ASSERT_TRUE(f->value == value && f->least == value && f->most == value);
 }
 
-/* Two rows of a setting by two steps. */
 static table table_of(table_row row[2], const setting *s, deviation_pace pace, int point) {
     for (int i = 0; i < 2; i++) {
         row[i] = (table_row){.setting = *s, .pace = {pace.steps * ((uint64_t)i + 1), pace.records}};
@@ -264,7 +261,7 @@ static void test_steps_are_counted_and_kept(void) {
             ("mps2-an386 fixed a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.005 "
              "--until 0.4\n")};
         TEST_ASSERT_EQUAL_STRING(asked[n], tree_taken("asked"));
-        /* a price that varies with the step is that of this one */
+        /* a price that varies with the step belongs to this one only */
         const bool varies = s->number == &engine_fixed;
         int counted = 0;
         for (int i = 0; i < 2; i++) {
@@ -287,7 +284,7 @@ static void test_steps_are_counted_and_kept(void) {
         }
         TEST_ASSERT_EQUAL_INT(varies ? 1 : 2, counted);
     }
-    /* a missing tool leaves the table as it is; rows that are refused leave it */
+    /* a missing tool or refused rows leave the table as it is */
     static const struct {
         const char *status;
         const char *row;
@@ -329,7 +326,7 @@ static void expect_most(double each_least, double each_most, double most, cost_b
     TEST_ASSERT_TRUE(f->value == (basis == COST_RANGE ? 0.0 : most));
 }
 
-/* Of all places the most of each column, the sum of their steps, and bounds where each place has one. */
+/* Maximum of each column over the places, sum of their steps, and bounds if each place has one. */
 static void test_whole_runs_are_the_most_of_all_places(void) {
     static const char *const files[] = {"row0", "row1", "row2"};
     static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
@@ -409,7 +406,7 @@ static void count_progress(void *context, int done, int of) {
     ++*(int *)context;
 }
 
-/* Rows that are predicted to cost 100, 200, ...: counted, the first costs more than all, and what is refused is gone. */
+/* Predictions are 100, 200, ...; counted, the first costs more than all. Refused rows are removed. */
 static void test_the_front_is_counted_until_all_of_it_is(void) {
     priced p;
     priced_open(&p, springs, 1);
@@ -467,8 +464,8 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
 
 /* --- choices -----------------------------------------------------------------------------------------------*/
 
-/* Drawn prices of six settings by three steps. A choice that counts its answers equals the choice from a table that is
- * counted in all, if no prediction is too high. */
+/* Prices of six settings by three steps. Counting only the answers gives the same choice as counting all, if no
+ * prediction is too high. */
 static void test_choices_are_as_if_all_was_counted(void) {
     dice d = dice_of("price_measured choices", 23);
     priced p;
@@ -560,9 +557,8 @@ void suite_price_measured(void) {
 }
 
 /* === price motion ============================================================================= */
-/* What runs are held against (host/study/extrapolation.h, reference_run.h) by closed forms and by their
- * order, and how far off it runs are (deviation.h) by a loop of its own. tests/host/test_price_reference.c asks the same of
- * long motions. */
+/* The reference (host/study/extrapolation.h, reference_run.h) compared with closed forms and its order; deviations
+ * (deviation.h) with the test's own loop. Long motions: test_price_reference.c. */
 
 static const char *const spring =
     "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"
@@ -581,8 +577,8 @@ static derived decay_of(double rate, double start) {
 
 /* --- the extrapolation -----------------------------------------------------------------------------------*/
 
-/* Off a decay's exponential after one second by no more than the tolerance allows, whatever the columns; with a finer
- * tolerance by less, and at more expense. */
+/* A decay after one second is within the tolerance, with any number of columns. A finer tolerance gives a smaller
+ * error at a higher cost. */
 static void test_decays_end_where_they_should(void) {
     dice d = dice_of("price_motion", 91);
     for (unsigned n = 0; n < dice_cases(few_or_all(12, 300)); n++) {
@@ -603,11 +599,11 @@ static void test_decays_end_where_they_should(void) {
                 TEST_ASSERT_TRUE(off <= 30.0 * tolerance);
                 const double took = extrapolation_operations(e);
                 TEST_ASSERT_TRUE(digits == 6 || took >= before);
-                /* a step takes 1 + 1 + 3 + 5 + ... evaluations, and two spans take two steps at least */
+                /* a step takes 1 + 1 + 3 + 5 + ... evaluations; two spans take at least two steps */
                 const double each = of.image->list[IMAGE_STEP]->count * (1.0 + columns * columns);
                 TEST_ASSERT_TRUE(took >= 2.0 * each &&
                                  fabs(took / each - floor(took / each + 0.5)) < 1e-9);
-                /* the finer it is to be, the shorter its steps, by the power of its order less one */
+                /* step length by the power of the order less one */
                 const double finer = pow(tolerance, -1.0 / (2.0 * columns - 1.0));
                 TEST_ASSERT_TRUE(took <= each * (4.0 + 0.25 * (0.3 + rate) * finer));
                 before = took;
@@ -618,14 +614,14 @@ static void test_decays_end_where_they_should(void) {
     }
 }
 
-/* One step of so many columns of y' = -y is a rational function of the step alone: by its power series, two columns more of
- * which are right with each further rule. */
+/* One step of y' = -y is a rational function of the step. Each further rule makes two more terms of its power series
+ * right. */
 static void test_a_step_is_of_twice_its_columns_order(void) {
     for (int columns = 2; columns <= 5; columns++) {
         double off[2];
         for (int half = 0; half < 2; half++) {
             derived of = decay_of(1.0, 1.0);
-            /* a tolerance that any step keeps: one step */
+            /* a tolerance that any step meets: one step */
             extrapolation *e =
                 extrapolation_new(of.image, (extrapolation_setting){columns, 1e3}, 1e9);
             const long double h = half ? 0.5L : 1.0L;
@@ -639,7 +635,7 @@ static void test_a_step_is_of_twice_its_columns_order(void) {
     }
 }
 
-/* y' = y^2 from 1 is over at 1 s: no step is small enough there; and neither is what may be evaluated without an end. */
+/* y' = y^2 from 1 ends at 1 s: no step is small enough there. The number of evaluations is limited too. */
 static void test_poles_and_limits_end_it(void) {
     derived d = derived_scene("mechanism m\nstate y\nequation y' - 1 [1/s]*y^2 = 0 [1/s]\n"
                               "scene s { start y = 1; step 1 [ms]; until 3 [s] }\n",
@@ -665,7 +661,7 @@ static void test_poles_and_limits_end_it(void) {
 
 /* --- fine steps ------------------------------------------------------------------------------------------*/
 
-/* Sixteen times as fine as the scene, rounded up to an even number, unless that takes more operations than there may be. */
+/* A sixteenth of the scene's step, rounded to an even count, unless that needs too many operations. */
 static void test_fine_steps_are_as_fine_as_they_may(void) {
     dice d = dice_of("price_motion steps", 92);
     derived of = derived_scene(spring, "s");
@@ -673,7 +669,7 @@ static void test_fine_steps_are_as_fine_as_they_may(void) {
     const int contacts = of.image->contacts;
     for (int n = 0; n < 500; n++) {
         const double spacing_s =
-            (3 + 10 * dice_one_of(&d, 40)) / 1000.0; /* no whole number of steps */
+            (3 + 10 * dice_one_of(&d, 40)) / 1000.0; /* not a whole number of steps */
         of.image->contacts = n % 2;
         const reference_wish w = {.image = of.image,
                                   .spacing = ratio_of(spacing_s),
@@ -697,7 +693,7 @@ static void test_fine_steps_are_a_cosine(void) {
     derived_expect(&of, spring);
     const reference_wish w = {
         .image = of.image, .spacing = {1, 20}, .records = 20, .operations = 1e8};
-    of.image->settings.method = WH_EULER; /* which they are not made by */
+    of.image->settings.method = WH_EULER; /* which fine steps do not use */
     records *shape = records_open(NULL, of.image, &engine_double);
     long double row[21 * 4];
     TEST_ASSERT_EQUAL_INT(4, shape->columns);
@@ -746,7 +742,7 @@ static void test_references_are_cut_and_their_columns_found(void) {
         TEST_ASSERT_TRUE(fabsl(row[2] + 1000.0L * sinl(4.0L * t)) < 4e-11L);
         TEST_ASSERT_TRUE(fabsl(row[3] - 500.0L * cosl(4.0L * t)) < 2e-11L);
     }
-    /* the largest rate is that of a quarter of a turn, at 0.39 s: later than the fifth record */
+    /* the largest rate is at a quarter turn, 0.39 s: after the fifth record */
     TEST_ASSERT_TRUE(fabsl(r->column[2].largest - 1000.0L * sinl(1.6L)) < 1e-9L);
     r->column[1].off = r->column[1].largest / 8.0L;
     r->column[2].off = r->column[2].largest / 4.0L;
@@ -777,7 +773,7 @@ static void test_deviations_are_the_largest_of_all_records(void) {
             im->settings.method = methods[n / 4 % 3];
             im->step = (whole_ratio){pace.records, 20 * pace.steps};
             im->step_s = (double)pace.records / (20.0 * (double)pace.steps);
-            /* the same steps, and what each record is off; broken off where it is of no use */
+            /* the same steps and the error at each record; stops early at a useless error */
             const double give_up = column < 0 ? 0.3 : 90.0;
             void *run = kind->start(im);
             double worst = -1.0;
@@ -824,7 +820,7 @@ static void test_deviations_are_the_largest_of_all_records(void) {
     derived_free(&of);
 }
 
-/* With contacts steps differ: told is the one that took most evaluations. */
+/* With contacts steps differ; the report has the maximum. */
 static void test_the_step_with_most_evaluations_is_told(void) {
     derived of = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "V = 1 [kg]*9.81 [m/s^2]*x\nstop x >= 0 [m] restitution 0.5\n"
@@ -850,12 +846,12 @@ static void test_the_step_with_most_evaluations_is_told(void) {
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                           (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
-    /* reading each of 19 records evaluates the accelerations once more, and the first how contacts begin: an expense, and none
-     * of the steps' */
+    /* each of 19 records evaluates the accelerations once more, and the first the contacts: a cost, but not the
+     * steps' */
     const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
     TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);
-    /* as far as it may be off, and no further */
+    /* exactly at the limit */
     const deviation same = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                              (deviation_of_what){-1, d.error});
     TEST_ASSERT_TRUE(same.usable && same.error == d.error);
