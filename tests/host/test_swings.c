@@ -1,5 +1,5 @@
-/* test_swings.c: swings of systems that are not linear: what `whirl run` warns of, against what is kept exactly: predator and
- * prey, whose H = u - ln u + v - ln v stays, in any method, step and number. */
+/* test_swings.c: energy warnings of `whirl run` for nonlinear systems. Predator and prey has the invariant H = u - ln
+ * u + v - ln v; the warning is compared with its drift, in any method, step and number. Also a forced swing. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -18,8 +18,8 @@ void suite_forced_swing(void);
 
 /* === swings =================================================================================== */
 
-/* More of the swing's energy (H - 2, at a = b = 1) than this is warned of; less than that is not, where u and v are right to
- * so much of their range. */
+/* Above this part of the swing's energy (H - 2, at a = b = 1) there is a warning. Below it there is none if u and v
+ * are as accurate relative to their ranges. */
 #define TOLD 0.03
 #define SILENT 1e-3
 #define RIGHT 4e-3
@@ -47,8 +47,8 @@ static double kept(const prey *p, double u, double v) {
     return p->b * (u - 1.0 - log(u)) + p->a * (v - 1.0 - log(v));
 }
 
-/* The part of its energy that the run loses or gains, and by how much of u's and v's ranges it is off, at most, the same in
- * twentieths of the step by the method of order 5 and in double. NAN: the run fails. */
+/* Relative change of the energy in a run, and the largest error of u and v relative to their ranges. The reference
+ * has a twentieth of the step, order 5, in double. NAN: the run fails. */
 static double lost_of(const prey *p, const char *text, double *off) {
     enum { PARTS = 20 };
     motion m;
@@ -98,7 +98,7 @@ static void test_predator_and_prey(void) {
         double off = 0.0;
         const double lost = lost_of(&p, text, &off);
         if (!(lost >= 0.0)) {
-            continue; /* out of all bounds, which is told otherwise */
+            continue; /* diverged, which has its own warning */
         }
         said what;
         const char *words[] = {model_keep(text),
@@ -129,16 +129,16 @@ static void test_predator_and_prey(void) {
 void suite_swings(void) { RUN_TEST(test_predator_and_prey); }
 
 /* === forced swing ============================================================================= */
-/* A body on a spring, with or without damping, that a clock's force swings 0.3 to 1.8 rad in each step:
- * fast for the rule by which the books integrate its power, and not for the method. The reference is the closed form. What is
- * right is not warned of, whatever the books' rule leaves over, and what is off is, or is not trusted. */
+/* A damped or undamped body on a spring, driven by a force that turns 0.3 to 1.8 rad a step. That is fast for the
+ * quadrature of its power, but not for the method. The reference is the closed form. A right run gives no warning,
+ * whatever the energy residual; a wrong one gives a warning or is not trusted. */
 
-enum { RECORDS = 20 }; /* which divide the steps */
+enum { RECORDS = 20 }; /* divides the steps */
 
 typedef struct forced_case {
-    bool summed; /* the clock is a sum, which may turn by more than half a turn a step */
+    bool summed; /* the clock is a sum and may turn by more than half a turn a step */
     double swing_radps;
-    double damping; /* of the critical */
+    double damping; /* relative to critical */
     double force_N; /* on 1 kg */
     double clock_radps;
     double step_s;
@@ -181,7 +181,7 @@ static void write(const forced_case *c, char *text, size_t size) {
              angle, start_m, rate, c->step_s, c->steps * c->step_s);
 }
 
-/* Place and rate. */
+/* Position and rate. */
 static void closed_form(const forced_case *c, double time_s, double is[2]) {
     const double w = c->swing_radps;
     const double z = c->damping;
@@ -202,7 +202,7 @@ static void closed_form(const forced_case *c, double time_s, double is[2]) {
             left * (way * (b * cosine - a * sine) - z * w * (a * cosine + b * sine));
 }
 
-/* The most, of either's range; the columns are the time, both coordinates, x first, and both rates. */
+/* Largest error relative to the range; the columns are the time, both coordinates, x first, and both rates. */
 static double off_by(const forced_case *c, const char *csv) {
     double low[2] = {(double)INFINITY, (double)INFINITY};
     double high[2] = {-(double)INFINITY, -(double)INFINITY};
@@ -233,7 +233,7 @@ static double run_with(const forced_case *c, const char *const *words, said *wha
     return off_by(c, what->out);
 }
 
-/* Right, and nothing is said; or wrong, and not trusted. Of what would do each is done. */
+/* A right run without a warning, or a wrong one that is not trusted. Each suggested remedy is applied. */
 static void hold_one(const forced_case *c, const char *number, const char *method, tally *t) {
     char text[900];
     char every[40];
@@ -292,7 +292,7 @@ static void test_other_methods(void) {
     hold("double", "nystroem5");
 }
 
-/* Whole turns a step, and a little more or less: of the little the run makes a slow force that is not there. */
+/* Whole turns a step, and slightly more or less: the difference aliases into a slow force. */
 static void test_nearly_whole_turns(void) {
     static const int turns[] = {1, 2, 3, 4, 5, 6, 8, 12, 16};
     static const char *const methods[] = {"rk4", "nystroem4", "nystroem5", "rk38", "heun"};
@@ -303,12 +303,13 @@ static void test_nearly_whole_turns(void) {
         forced_case c = draw(&d);
         const double more = pow(10.0, dice_between(&d, -2.5, -0.05));
         c.summed = true;
-        c.steps = RECORDS * 10 *
-                  (1 + (int)dice_one_of(&d, 3)); /* records of whole numbers of remedies' steps */
+        c.steps =
+            RECORDS * 10 *
+            (1 + (int)dice_one_of(&d, 3)); /* records of whole numbers of the remedies' steps */
         c.clock_radps = (6.283185307179586 * turns[dice_one_of(&d, 9)] +
                          (dice_one_of(&d, 2) == 0 ? more : -more)) /
                         c.step_s;
-        /* what is not there may be met where it swings, or push all */
+        /* the aliased force may be resonant, or constant */
         c.swing_radps = dice_one_of(&d, 2) == 0 ? fmin(more, 0.1) / c.step_s : c.swing_radps;
         c.swing_radps = fmin(c.swing_radps, 0.1 / c.step_s);
         c.force_N =

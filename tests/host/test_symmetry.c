@@ -1,7 +1,7 @@
-/* test_symmetry.c: affine symmetries (host/derive/symmetry.h) of drawn particles in a plane, held together by springs, with
- * outside forces hidden among them. The reference differentiates the same energies by formulas of its own, and takes the rank of
- * their changes at drawn states. Closed cases of the built-in mechanisms stand in tests/cli/examine.sh.
- * WHIRL_CASES=5000 WHIRL_SEED=...: so many, others. */
+/* test_symmetry.c: affine symmetries (host/derive/symmetry.h) of drawn particles in a plane, connected by springs,
+ * some with hidden outside forces. The reference differentiates the energies by its own formulas and takes the rank
+ * of their changes at drawn states. Built-in mechanisms: tests/cli/examine.sh. WHIRL_CASES=5000 WHIRL_SEED=... draws
+ * more or other cases. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,7 +22,6 @@ enum {
     TEXT = 4000
 };
 
-/* What may act on a mechanism beside its springs. */
 enum {
     GRAVITY = 1,  /* V, along y */
     ANCHOR = 2,   /* V, of one x, about a point of the plane */
@@ -49,7 +48,7 @@ typedef struct particles {
     double mass[BODIES];
     double spring[BODIES]; /* between body i and i + 1 */
     double length[BODIES];
-    double strength; /* of what is hidden: down to a millionth */
+    double strength; /* of the hidden force: down to a millionth */
 } particles;
 
 /* Sums begin with a zero, so that every part can be added. */
@@ -141,7 +140,7 @@ static void slopes(const particles *p, const double *q, const double *v, double 
     force[2] -= inside;
 }
 
-/* The rank of m[rows][columns], destroyed: rows scaled to 1, elimination with full pivoting. */
+/* The rank of m[rows][columns], which is overwritten: rows scaled to 1, full pivoting. */
 static int rank_by_hand(double *m, int rows, int columns) {
     int rank = 0;
     for (int i = 0; i < rows; i++) {
@@ -187,7 +186,7 @@ static int rank_by_hand(double *m, int rows, int columns) {
     return rank;
 }
 
-/* What column k (A row by row, then b) moves, and where from. */
+/* Coefficient of column k (A row by row, then b). */
 static double moved(int n, int k, int i, const double *of) {
     if (k >= n * n) {
         return k - n * n == i ? 1.0 : 0.0;
@@ -195,13 +194,13 @@ static double moved(int n, int k, int i, const double *of) {
     return k / n == i ? of[k % n] : 0.0;
 }
 
-/* The masses of rates i and j in T. */
+/* Entry of the mass matrix for rates i and j. */
 static double mass_of(const particles *p, int i, int j) {
     const bool slides = (p->with & SLIDER) != 0 && (i == 0 || i == 2) && (j == 0 || j == 2);
     return (i == j ? p->mass[i / 2] : 0.0) + (slides ? SLIDER_KG : 0.0);
 }
 
-/* How many motions leave T and V as they are, and of these how many no force or contact works along. */
+/* Number of motions that leave T and V unchanged, and of those along which no force or contact does work. */
 static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *conserved) {
     static double energies[2 * STATES][COLUMNS];
     static double all[ROWS * STATES][COLUMNS];
@@ -235,7 +234,7 @@ static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *co
                     for (int j = 0; j < n; j++) {
                         momentum += mass_of(p, i, j) * v[j];
                     }
-                    /* of the momentum along k, the slopes by what a crossing sets */
+                    /* change of the momentum along k by a crossing */
                     const double kick = (p->with & KICK) != 0 ? mass_of(p, i, x) : 0.0;
                     const bool turns =
                         (p->with & PUT) != 0 && k < n * n && k / n == i && k % n == x;

@@ -1,5 +1,5 @@
-/* test_tables.c: accelerations looked up in tables of one angle's functions (--tables): that the tables are as near to
- * their functions as they say, that the motion is as near as that lets it be, what order is left, and what is refused. */
+/* test_tables.c: accelerations from tables of one angle's functions (--tables): error of the tables, error and order
+ * of the motion, and refusals. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -21,7 +21,7 @@ enum { VALUES = 3 * IMAGE_COMPONENTS_MAX, RESULTS = 8 };
 static const image_tables both[] = {TABLES_LINEAR, TABLES_CUBIC};
 enum { FORMS = 2 };
 
-/* NULL, with what was said in *report (to be freed), where it is refused. */
+/* NULL if refused; *report (to be freed) has the reason. */
 static image *tabled(const derived *d, image_tables form, int cells, char **report) {
     const image_settings settings = {.tables = form, .cells = cells, .method = WH_RK4};
     diags *errors = diags_new();
@@ -81,7 +81,7 @@ static void test_tables_are_as_near_as_they_say(void) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(9, each_builtin_scene(check_scene));
 }
 
-/* Twice the cells: a quarter, and a sixteenth. */
+/* Twice the cells divide the error by 4 and by 16. */
 static void test_errors_of_tables_fall_by_their_order(void) {
     derived d = derived_builtin("epicyclic_from_rest");
     for (int f = 0; f < FORMS; f++) {
@@ -193,8 +193,8 @@ static derived drawn_mechanism(unsigned number, char **text) {
     return d;
 }
 
-/* What both lists give at a random state, and by how much the tables may differ: each by what it says, times what the
- * accelerations take it by, which is what they change by when all of the table is moved by so much. */
+/* Both lists at a random state, and the bound of their difference: each table's error times the sensitivity of the
+ * accelerations, found by shifting the whole table. */
 typedef struct comparison {
     evaluator *exact;
     evaluator *tables;
@@ -228,7 +228,7 @@ static void comparison_free(comparison *c) {
     }
 }
 
-/* The largest share that the differences at a random state are of what they may be. */
+/* Largest difference at a random state relative to its bound. */
 static double compare(const comparison *c, int coordinates, uint64_t *seed, const char *text) {
     double angle[1] = {random_between(seed, -20.0, 20.0)};
     double linear[RESULTS];
@@ -287,7 +287,7 @@ static void test_generated_accelerations_are_as_near_as_the_tables(void) {
     }
     printf("  %d mechanisms: accelerations off by at most %.3f of what they may be\n", cases,
            worst);
-    TEST_ASSERT_TRUE(worst > 0.5); /* what it may be is not more than it is */
+    TEST_ASSERT_TRUE(worst > 0.5); /* the bound is not too wide */
 }
 
 /* The state after `steps` of h. */
@@ -317,9 +317,8 @@ static int by_size(const void *x, const void *y) {
     return (a > b) - (a < b);
 }
 
-/* The motion's error by the size of the cells. The tables' own is of order 2 and 4; but its mean over a cell is nothing to
- * that order, so that of each cell that is passed through only a part is left where the motion begins and ends: one order
- * more. */
+/* Error of the motion by cell size. The tables have order 2 and 4, but the mean error over a cell vanishes at that
+ * order. Only the cells at the start and end of the motion contribute: one order more. */
 static void test_generated_motions_near_the_exact_ones_by_order(void) {
     enum { MOST = 300 };
     double order[MOST];
@@ -357,7 +356,7 @@ static void test_generated_motions_near_the_exact_ones_by_order(void) {
 
 /* --- the order of the step --------------------------------------------------------------------------------- */
 
-/* How fast the error falls with the step, against the same form at a 32nd of it: the median of some seconds of motion. */
+/* Order in the step, against the same form at a 32nd of it: the median over some seconds. */
 static double order_of(image *im) {
     enum { TIMES = 24 };
     double order[TIMES];
@@ -445,7 +444,7 @@ static void test_what_has_not_that_form_is_refused_with_its_place(void) {
     }
 }
 
-/* Angles that only their difference is taken of, and multiples that have a common one. */
+/* Angles that occur only as a difference, or as multiples of one. */
 static void test_one_sum_of_angles_is_one_phase(void) {
     derived d = derived_text("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
                              "T = 1 [kg*m^2]*(a'^2 + b'^2 + a'*b'*cos(4*a - 2*b)/2)\n"

@@ -1,5 +1,5 @@
-/* test_talk.c: a firmware at the other end of a line, as the program hears it (host/pil/talk.h), drawn: what is heard, kept and
- * mixed into the hash, against what the test has written; and each thing that a firmware may say wrong, by its words. */
+/* test_talk.c: a drawn firmware on a line (host/pil/talk.h): messages received, stored and hashed are compared with
+ * those sent; each error of a firmware has its message. Also tapes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ static void expect_same(const stream *wanted, const uint8_t *bytes, size_t lengt
     TEST_ASSERT_TRUE(memcmp(wanted->bytes, bytes, length) == 0);
 }
 
-/* All of it, kept on a tape; then its end. Its hello is asked for first, and its end is answered by the same word. */
+/* The hello is requested first; everything goes to a tape; the end is answered by the same word. */
 static void test_heard_and_kept(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         static talk t;
@@ -66,8 +66,7 @@ static void test_heard_and_kept(void) {
         talk_expect_report(LOCKSTEP_DONE, talk_drawn.turns);
         TEST_ASSERT_EQUAL_INT(status, talk_report.status.status);
         alloc_text_end(onto);
-        expect_same(&talk_on_tape, (const uint8_t *)kept,
-                    length); /* hello and turns, as they were sent */
+        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* hello and turns, as sent */
         free(kept);
         wanted.length = 0;
         talk_put(&wanted, WH_FRAME_ASK, 0, 0, NULL, 0);
@@ -80,7 +79,7 @@ static void test_heard_and_kept(void) {
     }
 }
 
-/* After a good hello and the first turn the firmware says what is in `line` from here on: the second is not heard, so. */
+/* After a good hello and the first turn the firmware sends `line`: the second turn ends with this error. */
 static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     static talk t;
     static stream heard;
@@ -102,7 +101,7 @@ static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     talk_close_line(&heard);
 }
 
-/* The last frame of the line as another version's: coded once more. */
+/* Recodes the last frame of the line with another version. */
 static void make_version(uint8_t version, unsigned from) {
     uint8_t plain[2000];
     uint8_t room[2000];
@@ -189,7 +188,7 @@ static void test_wrong_words(void) {
             TEST_ASSERT_EQUAL_INT(3, talk_report.status.status);
             break;
         default:
-            if (c < 11) { /* it takes its time */
+            if (c < 11) { /* slowly */
                 expect_unheard(LOCKSTEP_FAILED, "the firmware has said nothing for 0.05 s\n",
                                false);
             }
@@ -197,7 +196,7 @@ static void test_wrong_words(void) {
     }
 }
 
-/* None, one that is none, one of no time: the line is closed behind it. Stale words before a good one do not matter. */
+/* No hello, a malformed one, or one without a clock: the line is closed. Stale words before a good one are ignored. */
 static void test_hellos(void) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
@@ -232,7 +231,7 @@ static void test_hellos(void) {
     }
 }
 
-/* Somebody interrupts while it is silent, or as it ends. */
+/* Interrupted during silence, or at the end. */
 static void test_interrupted(void) {
     for (int closed = 0; closed < 2; closed++) {
         static talk t;
@@ -255,7 +254,7 @@ static void test_interrupted(void) {
     }
 }
 
-/* No line, but a program: one that there is not, and one that ends without a word. */
+/* A program instead of a line: missing, or silent. */
 static void test_programs(void) {
     static const char *const programs[] = {"/nowhere/at all", "/bin/true"};
     static const char *const words[] = {
@@ -275,7 +274,7 @@ static void test_programs(void) {
     }
 }
 
-/* A line has nobody who resets: said, and nothing is sent. */
+/* A line cannot be reset: an error, and nothing is sent. */
 static void test_no_reset(void) {
     static talk t;
     static stream heard;
@@ -291,7 +290,7 @@ static void test_no_reset(void) {
     talk_close_line(&heard);
 }
 
-/* All that matters of a hello makes it another one; who speaks and how it counts does not. */
+/* Every relevant field of a hello makes it different; the name and counts do not. */
 static void test_same_hello(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
         wh_signal signal[WH_SIGNALS_MAX];
@@ -320,7 +319,7 @@ static void test_same_hello(void) {
             TEST_ASSERT_EQUAL(change < 3, talk_is_same_hello(&talk_drawn.hello, &other));
             TEST_ASSERT_EQUAL(change < 3, talk_is_same_hello(&other, &talk_drawn.hello));
         }
-        /* a count of the timer in ns, of 64 each instruction */
+        /* a count of the timer in ns, of 64 per instruction */
         const double per_s = 1e3 + 1e4 * talk_one_of(100000);
         talk_drawn.hello.timer_per_s = (uint32_t)per_s;
         TEST_ASSERT_TRUE(fabs(talk_instructions_per_count(&talk_drawn.hello) *
@@ -343,13 +342,12 @@ void suite_talk(void) {
 }
 
 /* === taped ==================================================================================== */
-/* Tapes that no run has made: channels that their hello does not have, words that would break a row, times
- * beyond a wrap of the timer. */
+/* Invalid tapes: channels missing in their hello, words that would break a row, times beyond a wrap of the timer. */
 
 static char name[] = "/tmp/whirl_taped_XXXXXX";
 static char rows[8192];
 static unsigned first;   /* signal of the hello, in its order below */
-static int reset_before; /* which turn, or -1; by the watchdog */
+static int reset_before; /* turn, or -1; by the watchdog */
 
 static void write_frame(FILE *to, uint8_t kind, uint16_t sequence, uint32_t ticks,
                         const uint8_t *payload, unsigned length) {
@@ -413,7 +411,7 @@ static void write_tape(const char *word, const wh_readings *readings, unsigned o
     fclose(to);
 }
 
-/* Into `rows`; what is said on standard error is the caller's affair. */
+/* Writes to `rows`; the caller handles standard error. */
 static bool show(void) {
     char csv[sizeof name + 4];
     snprintf(csv, sizeof csv, "%s.csv", name);
@@ -433,7 +431,7 @@ static const wh_readings heard = {
     .sample = {{.ticks = UINT32_MAX - 2U, .raw = -3, .channel = 0},
                {.raw = 5, .channel = 0, .status = WH_SAMPLE_DISCONNECTED}}};
 
-/* Whatever stands first in the hello: of each kind there is one. */
+/* Any order in the hello: there is one of each kind. */
 static void test_rows(void) {
     static const char *const wanted = "time,heard,kind,channel,signal,value,unit,status\n"
                                       "-0.003,0.000,sample,1,load,-1.5,N,good\n"
@@ -447,8 +445,7 @@ static void test_rows(void) {
                                       "1.997,2.000,sample,1,load,-1.5,N,good\n"
                                       "1.999,2.000,edge,1,push,,,\n"
                                       "2.000,2.000,sample,1,load,2.5,N,disconnected\n";
-    static const unsigned firsts[] = {
-        0, 2, 3}; /* what is set comes in the hello's order: the output, the note */
+    static const unsigned firsts[] = {0, 2, 3}; /* in the hello's order: the output, the note */
     for (unsigned i = 0; i < sizeof firsts / sizeof firsts[0]; i++) {
         first = firsts[i];
         write_tape("push", &heard, 2, 3);
@@ -458,7 +455,7 @@ static void test_rows(void) {
     first = 0;
 }
 
-/* Its timer begins anew, and what was set is told again. */
+/* Its timer restarts, and the settings are written again. */
 static void test_a_reset(void) {
     const char *at = rows;
     unsigned outputs = 0;

@@ -1,6 +1,6 @@
-/* test_tape.c: operations that are entered at random (host/image/op_list.c): they come to what was asked for, by another
- * evaluation; none stands there twice, and each is in the one form that there is for it; what is found and what is dropped,
- * by looking at all of them. */
+/* test_tape.c: operations entered at random (host/image/op_list.c), compared with another evaluation. No operation is
+ * duplicated, and each has its canonical form. Finding and dropping are compared with a search over all. Also
+ * freedoms and gauges. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,7 +66,7 @@ static int entered_wave(int radians, double value, double *wave) {
     phase += radians >= 0 ? value : 0.0;
     const int entered = op_list_phase(list, multiple, offset, radians);
     const op *o = &list->ops[entered];
-    for (int k = 0; k < ANGLES; k++) { /* whole numbers are turns, others parts */
+    for (int k = 0; k < ANGLES; k++) { /* integers are turns, others parts */
         const bool whole = multiple[k] == floor(multiple[k]);
         TEST_ASSERT_TRUE((o->turns != NULL ? o->turns[k] : 0) == (whole ? multiple[k] : 0.0));
         TEST_ASSERT_TRUE((o->parts != NULL ? o->parts[k] : 0.0) == (whole ? 0.0 : multiple[k]));
@@ -76,7 +76,7 @@ static int entered_wave(int radians, double value, double *wave) {
     return op_list_unary(list, is_sine ? OP_SIN : OP_COS, entered);
 }
 
-/* One of two values, which are at a and at b of the list. */
+/* An operation on values at a and at b of the list. */
 static int entered_operation(int a, double x, int b, double y, double *value) {
     static const double exponents[] = {2.0, 3.0, 0.5, 1.5, -1.0, -2.0, -0.5, 7.0, 0.3, 1.0, 0.0};
     const double e = exponents[dice_one_of(&die, 11)];
@@ -124,7 +124,7 @@ static void enter_some(void) {
                        : what == 1
                            ? entered_wave(what % 2 == 0 ? -1 : pool[p], meant[p], &value)
                            : entered_operation(pool[p], meant[p], pool[q], meant[q], &value);
-        /* what has no value, or whose digits or sign are gone, is taken by nothing more; there is one zero */
+        /* an undefined value, or one without digits or sign, is not used again; there is one zero */
         const bool is_zero = value == 0.0 && list->ops[at].code == OP_CONSTANT;
         if (isfinite(value) && ((fabs(value) < 1e6 && fabs(value) > 1e-3) || is_zero)) {
             keep(at, is_zero ? 0.0 : value);
@@ -152,7 +152,7 @@ static bool is_one_form(const op *o) {
     const bool both = fixed_a && fixed_b;
     const op_kind kind = op_rows[o->code].kind;
     if (kind != OP_IS_BINARY && kind != OP_IS_CALL && kind != OP_IS_PHASE && o->b != -1) {
-        return false; /* what is not there is -1 everywhere: equal ones are found by it */
+        return false; /* a missing operation is -1, by which equal ones are found */
     }
     if (kind == OP_IS_CONSTANT && o->a != -1) {
         return false;
@@ -206,7 +206,7 @@ static void expect_each_once(void) {
     }
 }
 
-/* Every sum, difference, product and quotient of two operations is found where it is, and nowhere else. */
+/* Every sum, difference, product and quotient of two operations is found at its place only. */
 static void expect_found(void) {
     static const op_code codes[] = {OP_ADD, OP_SUB, OP_MUL, OP_DIV};
     for (int tries = 0; tries < 400; tries++) {
@@ -278,7 +278,7 @@ static int uses_of(int i) {
     return uses;
 }
 
-/* 1/y, which nothing else wants, times x is x/y. */
+/* 1/y, used only here, times x becomes x/y. */
 static bool is_reciprocal(int i) {
     double one;
     return is_code(i, OP_DIV) && is_number(list->ops[i].a, &one) && one == 1.0 && uses_of(i) == 1;
@@ -324,7 +324,7 @@ static int count_of(op_code code) {
     return count;
 }
 
-/* By squares: as many products as the exponent has binary digits, and ones among them, less two. */
+/* By squaring: binary digits plus ones of the exponent, less two. */
 static void test_powers_take_few_products(void) {
     static double v[EVALUATED_MOST];
     for (int half = 1; half <= 160; half++) {
@@ -352,7 +352,7 @@ static void test_powers_take_few_products(void) {
     }
 }
 
-/* Whole numbers that an int holds. */
+/* Only integers in the range of int. */
 static void test_what_turns_a_phase(void) {
     static const double whole[] = {0.0, 1.0, -3.0, 2147483647.0, -2147483647.0};
     static const double not_whole[] = {0.5, -1e-9, 2147483648.0, -2147483648.0, 1e300, 3.0000001};
@@ -364,7 +364,7 @@ static void test_what_turns_a_phase(void) {
     }
 }
 
-/* A function of a constant is one: nothing is left to evaluate. */
+/* A function of a constant is a constant. */
 static void test_functions_of_constants(void) {
     die = dice_of("functions of constants", 4133);
     list = op_list_new(ANGLES, 1);
@@ -399,19 +399,18 @@ void suite_tape_entered(void) {
 }
 
 /* === tape freed =============================================================================== */
-/* The parts of what op_list_gauge() does (host/image/op_list_gauge.h), each by itself: what rounded constants make of
- * results, to a closed form; lists whose freedoms are known by how they were built; and lists multiplied by whatever a freedom
- * allows, which compute the same. */
+/* Parts of op_list_gauge() (host/image/op_list_gauge.h): the effect of rounded constants on results, against a closed
+ * form; lists with known freedoms; and lists scaled by their freedoms, which compute the same. */
 
-/* A number of few digits, which float does not hold: from 0.1 to 10. */
+/* A short decimal from 0.1 to 10 that float does not hold. */
 static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
 
 /* --- what rounding makes of results --------------------------------------------------------------------------- */
 
 enum { RESULTS_MOST = 5, READ = 1, UNREAD_SHARE = 64 };
 
-/* Results are constants times leaves, so that each is as much off as its constant, whatever the state. What the list does
- * not read again counts a 64th. */
+/* Each result is a constant times a leaf, so its relative error is the constant's. A result not read again counts a
+ * 64th. */
 static void test_a_constants_error_is_the_results(void) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
         const int angles = (int)dice_one_of(&die, 3);
@@ -428,7 +427,7 @@ static void test_a_constants_error_is_the_results(void) {
             int leaf = -1;
             int reads = -1;
             switch (dice_one_of(&die, angles == 2 ? 4 : 3)) {
-            case 0: /* a rate of a result counts as reading it */
+            case 0: /* the rate of a result counts as reading it */
                 leaf = op_list_leaf(t, OP_RATE, k);
                 reads = k;
                 break;
@@ -450,7 +449,7 @@ static void test_a_constants_error_is_the_results(void) {
         }
         const bool *is_read = read;
         for (int i = 0; i < results; i++) {
-            /* of three sizes of rates: at rest, a rate is nothing that could be off */
+            /* three sizes of rates: a rate at rest has no error */
             const op *o = &t->ops[t->result[i]];
             const bool of_rate =
                 o->code == OP_RATE || (o->code == OP_MUL && t->ops[o->b].code == OP_RATE);
@@ -464,7 +463,7 @@ static void test_a_constants_error_is_the_results(void) {
     }
 }
 
-/* Every operation, at a place where its value is one and the constant beside it is off: as much is the result. */
+/* Every operation, at a value of one with an inexact constant: the result has the same relative error. */
 static int made_of(op_list *t, int x, unsigned what) {
     const int two = op_list_constant(t, 2.0);
     switch (what) {
@@ -499,7 +498,7 @@ static void test_errors_go_through_operations(void) {
             t->result[0] =
                 made_of(t, what == 10 ? op_list_mul(t, op_list_constant(t, 0.5), x) : x, what);
             const double bias = op_list_bias(t, t);
-            /* three and two times the number, each off by its half unit, stand for once it */
+            /* three and two times the number, each with its half unit, stand for it once */
             TEST_ASSERT_TRUE(bias <= 5.0 * 0x1p-24 && bias >= 0.0);
             if (what != 2 && what != 9 && what != 4 && what != 5) {
                 const double wanted =
@@ -511,7 +510,7 @@ static void test_errors_go_through_operations(void) {
     }
 }
 
-/* A sine of radians is off by what its slope makes of them. */
+/* A sine of radians has the error of its angle times its slope. */
 static void test_errors_go_through_phases(void) {
     for (int tries = 0; tries < 40; tries++) {
         const double offset = dice_between(&die, 0.1, 1.4);
@@ -532,7 +531,7 @@ static void test_errors_go_through_phases(void) {
 
 /* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
 
-/* A sum of products with constants: it can be multiplied for nothing. `which` tells its leaves from those of others. */
+/* A sum of products with constants can be scaled without a cost. `which` selects its leaves. */
 static int free_sum(op_list *t, int which) {
     const int x = op_list_leaf(t, OP_LINEAR, which);
     const int y = op_list_leaf(t, OP_RATE, which);
@@ -541,7 +540,7 @@ static int free_sum(op_list *t, int which) {
     return op_list_add(t, z, w);
 }
 
-/* That, and so many leaves as they are: multiplying it multiplies them. */
+/* The same with `raws` leaves without constants; scaling multiplies these. */
 static int raw_sum(op_list *t, int which, int raws) {
     int sum = free_sum(t, which);
     for (int k = 0; k < raws; k++) {
@@ -558,7 +557,6 @@ static bool multiplies_raw(const op_list_freedoms *f, int k) {
     return any;
 }
 
-/* Results of list `made` are those of `t`. */
 static void expect_same_results(const op_list *t, const op_list *made) {
     static double v[EVALUATED_MOST];
     double wanted[8];
@@ -573,8 +571,8 @@ static void expect_same_results(const op_list *t, const op_list *made) {
     }
 }
 
-/* Every freedom, by any number: the same results; and without raw values no operation more, `if_alone`: where no product with
- * a constant is taken twice, in two ways. */
+/* Every freedom with any factor gives the same results. Without raw leaves it costs no operation, `if_alone`: if no
+ * product with a constant is used twice in two ways. */
 static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alone) {
     double *times = calloc((size_t)f->length, sizeof *times);
     TEST_ASSERT_NOT_NULL(times);
@@ -586,7 +584,7 @@ static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alo
             times[i] = pow(x, exponent[i]);
             least = exponent[i] != 0.0 ? fmin(least, fabs(exponent[i])) : least;
         }
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* they begin with one */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* scaled to start with one */
         op_list *made = op_list_multiplied(t, times);
         expect_same_results(t, made);
         if (if_alone && !multiplies_raw(f, k)) {
@@ -605,7 +603,7 @@ static int without_raw(const op_list_freedoms *f) {
     return count;
 }
 
-/* Numerators and denominators of sums that are free: each quotient has one freedom, and a root one that is half as much. */
+/* For free numerators and denominators each quotient has one freedom, and a root half of it. */
 static void test_a_quotient_has_one_freedom(void) {
     for (unsigned c = 0; c < dice_cases(60); c++) {
         const int quotients = 1 + (int)dice_one_of(&die, 4);
@@ -639,7 +637,7 @@ static void test_a_quotient_has_one_freedom(void) {
     }
 }
 
-/* With leaves in the sums, the freedom multiplies them: for one or two of these it is there, for three it is not. */
+/* Raw leaves in the sums are multiplied: up to two are accepted, three are not. */
 static void test_few_raw_values_are_multiplied(void) {
     for (int raws = 0; raws <= 3; raws++) {
         for (int in_denominator = 0; in_denominator < 2; in_denominator++) {
@@ -713,8 +711,8 @@ static op_list *some_list(void) {
     return t;
 }
 
-/* Multiplied by one it is the same list, and by what it may be multiplied by, or by anything, the same results: what does not
- * fit is made up for. */
+/* Scaled by one, the list is the same. Scaled by an allowed or any other factor, the results are the same, with
+ * compensation if needed. */
 static void test_multiplied_lists_compute_the_same(void) {
     const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
@@ -738,13 +736,12 @@ static void test_multiplied_lists_compute_the_same(void) {
         expect_free(t, &f, false);
         op_list_freedoms_free(&f);
         free(times);
-        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* or no number, where there is no telling */
+        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* or NaN, if unknown */
         op_list_free(t);
     }
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-/* Where the product with this constant stands. */
 static int place_of(const op_list *t, double constant) {
     int place = -1;
     double number;
@@ -755,8 +752,8 @@ static int place_of(const op_list *t, double constant) {
     return place;
 }
 
-/* Products that operands are made of stand in one order, that of the second first: whatever order a compiler has for the
- * arguments of a call, a scene's code and its hash are the same. */
+/* Products for operands are entered in a fixed order, the second operand's first. So code and hash do not depend on a
+ * compiler's order of evaluation. */
 static void test_operands_are_entered_in_one_order(void) {
     for (int what = 0; what < 6; what++) {
         op_list *t = op_list_new(0, 1);
@@ -796,10 +793,10 @@ void suite_tape_freed(void) {
 }
 
 /* === tape gauged ============================================================================== */
-/* What op_list_gauge() is to find (host/image/op_list_gauge.h), in lists that are built so that a number is known
- * after which no constant is off: products of small primes, and constants that vanish. */
+/* Gauges that op_list_gauge() must find (host/image/op_list_gauge.h), in lists built with a factor that makes all
+ * constants exact: products of small primes, and constants that vanish. */
 
-/* A sum of two products of leaves, with whole numbers below 120 times `unit`. */
+/* A sum of two products of leaves with integers below 120 times `unit`. */
 static int sum_of(op_list *t, int which, double unit) {
     const int x = op_list_leaf(t, OP_LINEAR, which);
     const int y = op_list_leaf(t, OP_RATE, which);
@@ -828,7 +825,7 @@ static void results_of(const op_list *t, double *result) {
     }
 }
 
-/* Gauges the list, which is to be off by nothing then; it computes the same with no operation more. */
+/* Gauges the list, after which all constants are exact, with the same results and no operation more. */
 static void expect_none_off(op_list *t) {
     double before[1];
     double after[1];
@@ -850,7 +847,7 @@ static double primes(int fives, int threes, int sevens) {
     return pow(5.0, fives) * pow(3.0, threes) * pow(7.0, sevens);
 }
 
-/* Is it one that float has, for all whole numbers of sum_of()? Then there is nothing to find. */
+/* Does float hold all multiples in sum_of()? Then there is no gauge to find. */
 static bool is_held(double unit) {
     bool held = true;
     for (int number = 61; number < 120; number += 2) {
@@ -859,7 +856,7 @@ static bool is_held(double unit) {
     return held;
 }
 
-/* Whole numbers over powers of five, three and seven, and times such powers, as far as is looked. */
+/* Integers over powers of five, three and seven, and times such powers, within the search. */
 static void test_decimals_and_thirds_become_whole(void) {
     const long blocks = blocks_in_use();
     const unsigned few = few_or_all(usual_or(4, 12), 1);
@@ -873,7 +870,7 @@ static void test_decimals_and_thirds_become_whole(void) {
                     if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        op_list_free(t); /* as it happens */
+                        op_list_free(t); /* by chance */
                     }
                 }
             }
@@ -882,7 +879,7 @@ static void test_decimals_and_thirds_become_whole(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-/* A number that nobody would guess, which all constants have: without it they are whole. */
+/* A common irrational factor of all constants: without it they are integers. */
 static void test_constants_vanish(void) {
     for (int tries = 0; tries < 20; tries++) {
         const double unit = dice_between(&die, 0.1, 10.0);
@@ -891,8 +888,7 @@ static void test_constants_vanish(void) {
         const int y = op_list_leaf(t, OP_RATE, 1);
         const int times_x = op_list_mul(t, op_list_constant(t, unit), op_list_mul(t, x, x));
         const double a =
-            61.0 +
-            2.0 * dice_one_of(&die, 29); /* no float of 24 bits keeps these ratios by chance */
+            61.0 + 2.0 * dice_one_of(&die, 29); /* no float of 24 bits has these ratios by chance */
         const double b = 151.0 + 2.0 * dice_one_of(&die, 29);
         const int times_y = op_list_mul(t, op_list_constant(t, a * unit), op_list_mul(t, y, y));
         const int third = op_list_mul(t, op_list_constant(t, b * unit), op_list_mul(t, x, y));
@@ -912,7 +908,7 @@ static void test_constants_vanish(void) {
     }
 }
 
-/* Up to 250 operations, constants and leaves among them. */
+/* Up to 250 operations, including constants and leaves. */
 static void test_long_lists_are_left_alone(void) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;

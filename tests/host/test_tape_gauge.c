@@ -1,6 +1,6 @@
-/* test_tape_gauge.c: lists of scenes whose sums are compensated have constants that float keeps: the same results in double,
- * no more operations than allowed, and less that rounded constants make of them. Over generated mechanisms: the states here
- * are others than those that the search looks at, and another evaluator's. */
+/* test_tape_gauge.c: lists with compensated sums are gauged so that float holds their constants: the same results in
+ * double, no more operations than allowed, and less bias by rounded constants. Over generated mechanisms, with other
+ * states than the search's and another evaluator. */
 #include "host/derive/program.h"
 #include "host/image/op_list_scaling.h"
 
@@ -20,7 +20,6 @@ enum { TEXT = 2000, STATES = 30 };
 
 /* --- mechanisms of decimal masses and lengths ----------------------------------------------------------------------*/
 
-/* A number with two or three digits. */
 static double decimal(uint64_t *seed) {
     const double digits = floor(random_between(seed, 10.0, 999.0));
     return digits / (random_bits(seed) % 2 == 0 ? 100.0 : 1000.0);
@@ -55,7 +54,7 @@ static void write_decimal(unsigned kind, uint64_t *seed, char text[TEXT]) {
 
 /* --- a pair of lists ---------------------------------------------------------------------------------------------*/
 
-/* What the gauge starts from where sums are compensated; of a scene, with its conserved coordinates. */
+/* The program before the gauge, with compensated sums and the scene's conserved coordinates. */
 static program *before_gauge(const derived *d, const char *scene_name) {
     const bool *conserve = NULL;
     for (int i = 0; i < d->model->scene_count && scene_name != NULL; i++) {
@@ -79,7 +78,7 @@ static image *compensated_image(const derived *d) {
     return im;
 }
 
-/* The list with its constants rounded to float. The list's own memory: what it had goes to kept[t->count], and back. */
+/* Rounds the list's constants to float in place; kept[t->count] has the originals for restoring. */
 static void round_constants(op_list *t, double *kept) {
     for (int i = 0; i < t->count; i++) {
         kept[i] = t->ops[i].value;
@@ -97,8 +96,8 @@ static void put_back(op_list *t, const double *kept) {
 
 enum { RESULTS = 64, OPERATIONS = 4000 };
 
-/* What rounding a list's constants does to its results, of a decimal mechanism to the accelerations of angles, which all
- * lists there depend on: the mean, over many states, beside the mean size, of each; and the mean of these. */
+/* Bias of a decimal mechanism's angular accelerations by rounded constants: the mean error over many states relative
+ * to the mean size, averaged over the accelerations. */
 static double bias_of(op_list *t, const op_list *like, const derived *d, uint64_t seed) {
     double kept[OPERATIONS];
     double meant[RESULTS];
@@ -126,7 +125,7 @@ static double bias_of(op_list *t, const op_list *like, const derived *d, uint64_
     return sum;
 }
 
-/* Equal but for what double rounds: each constant may have been moved by 1e-15 of itself, nine units. */
+/* Equal up to round-off in double: each constant may change by 1e-15 of itself, nine units. */
 static void expect_equal(const op_list *t, const op_list *other, const derived *d, uint64_t seed,
                          const char *what) {
     double x[RESULTS];
@@ -158,7 +157,7 @@ typedef struct tally {
     double after;
 } tally;
 
-/* One mechanism; false when it cannot be derived. */
+/* False: the mechanism cannot be derived. */
 static bool hold(const char *text, uint64_t seed, tally *all) {
     derived d = derived_text(text);
     const bool derives = d.image != NULL && d.image->list[IMAGE_STEP]->count <= OPERATIONS;
@@ -229,7 +228,7 @@ static void test_any_mechanism_keeps_its_results(void) {
 
 /* --- by hand ---------------------------------------------------------------------------------------------------*/
 
-/* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: with the product of M allowed, no constant is off. */
+/* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: if M may be multiplied, all constants become exact. */
 static void test_a_quotient_gets_whole_numbers(void) {
     op_list *t = op_list_new(1, 1);
     const double one = 1.0;
@@ -246,7 +245,7 @@ static void test_a_quotient_gets_whole_numbers(void) {
     const int operations = op_list_operations(t);
     TEST_ASSERT_TRUE(op_list_bias(t, t) > 1e-8);
     op_list_gauge(&t, 0);
-    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* nothing is free here */
+    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* no free operation here */
     op_list_gauge(&t, 1);
     TEST_ASSERT_EQUAL_INT(operations + 1, op_list_operations(t));
     TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-14);
@@ -257,11 +256,10 @@ static void test_a_quotient_gets_whole_numbers(void) {
     op_list_free(t);
 }
 
-/* Nor is anything in two scenes. */
+/* Two scenes have no freedom without a cost. */
 static void test_scenes_have_no_freedom_for_nothing(void) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
-    static const double left[] = {
-        0.1, 0.5}; /* of the bias; the second is what op_list_gauge() promises */
+    static const double left[] = {0.1, 0.5}; /* of the bias; op_list_gauge() promises the second */
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);
         program *p = before_gauge(&d, names[k]);
@@ -277,8 +275,7 @@ static void test_scenes_have_no_freedom_for_nothing(void) {
     }
 }
 
-/* A list without constants, one that has none but floats, and one whose only constant can be changed by
- * a product more only, stay. */
+/* Lists without constants, with exact constants only, or whose only constant costs a product more. */
 static void test_what_needs_nothing_stays(void) {
     static const double number[] = {1.0, 0.375, 0.3};
     for (int k = 0; k < 3; k++) {

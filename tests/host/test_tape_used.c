@@ -1,5 +1,5 @@
-/* test_tape_used.c: what is told of finished lists and of images (host/image/op_list_use.c, tape_sums.c, image.c): to counts, to
- * ways from operations to results and to comparisons of the tests' own, on lists that are drawn. */
+/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, tape_sums.c, image.c), for
+ * drawn lists, compared with counts, path searches and comparisons of the test's own. */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ static op_list_cost counted(const op_list *t) {
 
 static bool is_operation(op_code code) {
     return code >= OP_SIN &&
-           code != OP_CELL; /* in the order of the rows: behind leaves and phases */
+           code != OP_CELL; /* in the order of the rows: after leaves and phases */
 }
 
 static void check_counts(const op_list *t) {
@@ -62,7 +62,6 @@ static void check_counts(const op_list *t) {
                           op_list_weight(t));
 }
 
-/* Each list of scenes that are drawn. */
 static void each_list(unsigned cases, void (*check)(scene_list *l)) {
     for (unsigned c = 0; c < dice_cases(cases); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -79,7 +78,7 @@ static void test_operations_are_counted(void) { each_list(200, check_list_counts
 
 /* --- numbers that are none, or none of float ------------------------------------------------------------------- */
 
-/* Does the way from operation i to a result lead through operation `by`? */
+/* Does every path from operation i to a result pass operation `by`? */
 static bool leads_from(const op_list *t, int i, int by) {
     int operand[2];
     bool leads = i == by;
@@ -92,7 +91,7 @@ static bool leads_from(const op_list *t, int i, int by) {
 static void check_finite(scene_list *l) {
     op_list *t = &l->list;
     if (t->count > 40) {
-        return; /* ways are many */
+        return; /* the number of paths is large */
     }
     TEST_ASSERT_EQUAL_INT(-1, op_list_not_finite(t));
     const int by = (int)dice_one_of(&die, (unsigned)t->count);
@@ -139,7 +138,7 @@ static void test_what_float_has_no_room_for(void) {
     each_list(100, check_fit);
 }
 
-/* Lists of what moves a scene, and its inputs; not those that are only told of. */
+/* Lists that move the scene, and its inputs; not lists for output only. */
 static void test_images_know_what_float_has_no_room_for(void) {
     for (unsigned c = 0; c < dice_cases(300); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -195,7 +194,7 @@ static void test_images_are_read(void) {
                                       image_shown(u, si) * u->scale / u->divisor);
         }
     }
-    /* what stays on this machine, the books, calls for nothing */
+    /* lists of the host alone, as the energy balance, have no limits */
     op_list *books = op_list_new(0, 1);
     books->result[0] = op_list_call(books, FN_EXP, op_list_leaf(books, OP_LINEAR, 0), -1);
     image im = {.list = {[IMAGE_BOOKS] = books}};
@@ -215,7 +214,7 @@ static uint64_t hash_changed(const op_list *t, double *number) {
     return hash;
 }
 
-/* Another number, factor, operand or result is another list. */
+/* A change of a number, factor, operand or result changes the hash. */
 static void check_hash(scene_list *l) {
     op_list *t = &l->list;
     const uint64_t hash = op_list_hash(t);
@@ -253,7 +252,7 @@ static void test_a_hash_is_of_everything(void) { each_list(60, check_hash); }
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
-/* Of two leaves, a sum and one that has a part twice; whether it is made of the other, for a product less. */
+/* Two leaves' sum, and one with a part doubled. Returns whether one can be made from the other, saving a product. */
 static bool enter_pair(op_list *t, int k, unsigned way) {
     const int a = op_list_leaf(t, OP_LINEAR, 2 * k);
     const int b = op_list_leaf(t, OP_RATE, 2 * k + 1);
@@ -261,7 +260,7 @@ static bool enter_pair(op_list *t, int k, unsigned way) {
     const bool late = dice_one_of(&die, 2) == 0;
     const int times = op_list_mul(t, op_list_constant(t, way == 6 ? 3.0 : 2.0), b);
     int whole = -1;
-    if (late) { /* the half is entered behind it */
+    if (late) { /* the half is entered after it */
         whole = way == 1   ? op_list_sub(t, a, times)
                 : way == 2 ? op_list_sub(t, times, a)
                            : op_list_add(t, times, a);
@@ -278,7 +277,7 @@ static bool enter_pair(op_list *t, int k, unsigned way) {
     }
     t->result[3 * k] = half;
     t->result[3 * k + 1] = whole;
-    t->result[3 * k + 2] = way == 3 ? times : other; /* 3: the double is wanted itself */
+    t->result[3 * k + 2] = way == 3 ? times : other; /* 3: the double itself is a result */
     return way < 3 || way == 7;
 }
 
@@ -319,7 +318,7 @@ static void test_sums_share_their_halves(void) {
     }
 }
 
-/* Where nothing can be shared the list stays as it is, with what no result needs. */
+/* If nothing can be shared, the list stays as it is, including unused operations. */
 static void test_other_lists_are_left_alone(void) {
     for (unsigned way = 3; way < 7; way++) {
         op_list *t = op_list_new(0, 3);
@@ -334,7 +333,6 @@ static void test_other_lists_are_left_alone(void) {
     }
 }
 
-/* All that a list, and what was done with it, has taken is given back with it. */
 static void test_lists_are_given_back(void) {
     const long blocks = blocks_in_use();
     for (int size = 1; size < 600; size *= 2) {
@@ -360,7 +358,7 @@ static void test_lists_are_given_back(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-/* An image takes its lists and its memory along, and none of those that it has of another one. */
+/* An image frees its own lists, and none shared from another image. */
 static void test_images_are_given_back(void) {
     const long blocks = blocks_in_use();
     image_free(NULL);

@@ -1,4 +1,4 @@
-/* test_told_drawn.c: `whirl describe` of scenes that are drawn, for readers: from its first to its last line. */
+/* test_told_drawn.c: the whole output of `whirl describe` for drawn scenes. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

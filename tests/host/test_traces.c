@@ -1,5 +1,5 @@
-/* test_traces.c: what a run leaves for waveform viewers (host/io/traces.h): its unit of time, to whole numbers that the test
- * counts; the names and words of its head, of drawn scenes; and moments of contacts that are known in closed form, to a unit. */
+/* test_traces.c: waveform files of a run (host/io/traces.h): unit of time, compared with integers; names in the head,
+ * of drawn scenes; and times of contacts with closed forms, to one unit. Also VCD. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <inttypes.h>
@@ -30,8 +30,8 @@ static dice die;
 
 /* --- the unit of time ------------------------------------------------------------------------------------------*/
 
-/* The coarsest power of ten of which every spacing is whole, and with contacts a step at least a thousand; else the finest
- * that keeps the end below 2^52 and records apart. -1: none does. */
+/* The coarsest power of ten that divides every spacing and, with contacts, a thousandth of a step. Else the finest
+ * with the end below 2^52 and separate records. -1: none. */
 static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double until_s,
                         bool contacts) {
     int whole = -1;
@@ -41,7 +41,7 @@ static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double un
         if ((long double)until_s * units_per_s >= 0x1p52L) {
             break;
         }
-        /* over * every * 10^k is a multiple of `under`: a factor of ten at a time, so that nothing runs over */
+        /* over * every * 10^k is a multiple of `under`: a factor of ten at a time avoids overflow */
         uint64_t rest = (over % under) * (every % under) % under;
         for (int i = 0; i < k; i++) {
             rest = rest * 10 % under;
@@ -92,7 +92,7 @@ static void test_units(void) {
     }
 }
 
-/* The end itself, at 2^52 units: none is left. */
+/* An end at exactly 2^52 units has no unit. */
 static void test_ends(void) {
     for (int k = 0; k < POWERS; k++) {
         double per_s = 1.0;
@@ -126,7 +126,7 @@ static struct {
     int64_t end;
 } dump;
 
-/* Marks are one character: there are not so many signals. */
+/* Marks have one character: there are few signals. */
 static void read_dump(const char *path) {
     char line[400];
     char mark[SIGNALS] = {0};
@@ -179,7 +179,7 @@ static int signal_named(const char *name) {
     return -1;
 }
 
-/* Its changes from the first on are at these times, to a unit, with these values. */
+/* Changes from the first on, at these times to a unit, with these values. */
 static void expect_changes(const char *name, const double *time_s, const double *value, int count,
                            double units_per_s) {
     const int signal = signal_named(name);
@@ -231,8 +231,8 @@ typedef struct bodies {
     bool inputs;
 } bodies;
 
-/* Of every third, what is held goes and what crosses does in the first step; of every third it crosses in the step of the first
- * hit, before that. */
+/* In every third case, the held body is released and the other crosses in the first step. In another third it crosses
+ * in the step of the first hit, before it. */
 static bodies draw_bodies(unsigned c) {
     bodies b = {.height_m = dice_between(&die, 0.5, 0.7),
                 .restitution = dice_between(&die, 0.5, 0.9),
@@ -320,7 +320,7 @@ static void expect_head(const bodies *b) {
     TEST_ASSERT_EQUAL_INT(8 + 2 + 5 + 3 + (b->inputs ? 2 : 0), dump.signals);
 }
 
-/* Each record's value, as it is then: of what moves evenly. */
+/* Each record's value at its time, in an even motion. */
 static void expect_records(const bodies *b, double units_per_s, double off_m) {
     const int z = signal_named("z");
     const double spacing_s = 1e-3 * b->step_ms * (double)b->every;
@@ -339,7 +339,7 @@ static void expect_records(const bodies *b, double units_per_s, double off_m) {
     TEST_ASSERT_EQUAL_INT(1 + (int)ceil(0.9 / spacing_s - 1e-9), rows);
 }
 
-/* Every column of the rows that the same run wrote, in their order: at each record what is another than before, and nothing else. */
+/* Every column of the CSV of the same run: exactly the records with a changed value. */
 static void expect_columns(const char *csv, double units_per_s) {
     enum { COLUMNS = 10 };
     static double row[CHANGES][COLUMNS + 1];
@@ -410,7 +410,7 @@ static void test_moments(void) {
         (void)remove(side);
         in_head(unit);
         expect_head(&b);
-        /* summed up in float: a rounding a step */
+        /* sums in float: one rounding a step */
         expect_records(&b, units_per_s, kind == &engine_float ? 900 * 0x1p-23 : 1e-9);
 
         double hits_s[40];
@@ -432,7 +432,7 @@ static void test_moments(void) {
         const double above_s[] = {0.0, b.crosses_m / b.passes_mps};
         static const double rises[] = {0.0, 1.0};
         static const double falls[] = {1.0, 0.0};
-        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s: of x, summed up in float */
+        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s: of x, summed in float */
         if (off == 0.0 && rests_s > 0.95 && fabs(next_s - 0.9) > 1e-3 &&
             (hits == 0 || fabs(hits_s[hits - 1] - 0.9) > 1e-3)) {
             expect_changes("stop2_hit", hits_s, ones, hits, units_per_s);
@@ -453,7 +453,7 @@ static void test_moments(void) {
         free(dump.head);
         derived_free(&d);
     }
-    TEST_ASSERT_TRUE(blocks_in_use() == before); /* all is given back */
+    TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
 void suite_traces(void) {
@@ -464,13 +464,13 @@ void suite_traces(void) {
 }
 
 /* === vcd ====================================================================================== */
-/* Value change dumps (host/io/vcd.h), read back by a reader of the test's own: drawn changes of many signals,
- * a little out of order, come out in order, each once; what is too late is counted; notes stand behind their signals. */
+/* Value change dumps (host/io/vcd.h), parsed by the test: drawn changes of many signals, slightly out of order, come
+ * out sorted, each once. Late changes are counted, and notes follow their signals. */
 
 enum { VCD_SIGNALS = 100, VCD_CHANGES = 400, VCD_VALUE = 40, JITTER = 20 };
 typedef enum kind_of { WIRE, REAL, EVENT } kind_of;
 
-/* As it must be printed. */
+/* As printed. */
 typedef struct happening {
     int64_t time;
     int signal;
@@ -534,7 +534,7 @@ static int signal_of(const char *code) {
     return -1;
 }
 
-/* Times rise. Returns how many changes there are; the last time into *end. */
+/* Times rise. Returns the number of changes; *end has the last time. */
 static int read_changes(const char *at, int64_t *end) {
     int count = 0;
     int64_t now = -1;
@@ -565,7 +565,6 @@ static int read_changes(const char *at, int64_t *end) {
     return count;
 }
 
-/* A change's time is at least 0. */
 static int64_t draw_time(dice *d, int64_t now) {
     const int64_t time = now - (int64_t)dice_one_of(d, JITTER);
     return time > 0 ? time : 0;
@@ -583,7 +582,7 @@ static void add_signals(vcd *v) {
     }
 }
 
-/* What must come out: by time, at one time as it came; what is as before is left out, but events. */
+/* The expected order: by time, then by arrival. Unchanged values are omitted, except events. */
 static int sort_made(int count) {
     char last[VCD_SIGNALS][VCD_VALUE];
     int kept = 0;
@@ -633,7 +632,7 @@ static void test_changes_come_in_order(void) {
             highest = h->time > highest ? h->time : highest;
             now += (int64_t)dice_one_of(&d, 4);
             if (dice_one_of(&d, 10) == 0) {
-                vcd_settle(v, now - JITTER); /* nothing earlier comes */
+                vcd_settle(v, now - JITTER); /* no earlier change follows */
                 highest = now - JITTER > highest ? now - JITTER : highest;
             }
         }
@@ -651,7 +650,7 @@ static void test_changes_come_in_order(void) {
     }
 }
 
-/* Behind what is written already: at the last time that was, and told. */
+/* A late change appears at the last time written, and is counted. */
 static void test_what_is_late_is_counted(void) {
     dice d = dice_of("vcd", 52);
     for (unsigned round = 0; round < 10U; round++) {

@@ -1,19 +1,19 @@
-/* test_trajectory.c: `whirl run` in double against end states that were computed independently to
- * 18 digits (tests/reference/trajectory.txt, made by trajectory.py).
+/* test_trajectory.c: `whirl run` in double compared with independent end states of 18 digits
+ * (tests/reference/trajectory.txt, made by trajectory.py).
  *
- * A fixed-step method has an error of its own, so the test is on how that error falls: halving the
- * step must divide it by 2^4 or more, the order of RK4, until rounding takes over. Error: the largest
- * difference of a state, relative to the largest entry of the reference state.
+ * The method has an error of its own, so the test checks its order: halving the step must divide it by about 2^4,
+ * RK4's order, until round-off dominates. Error: the largest difference of a state, relative to the largest entry of
+ * the reference state.
  *
- *  - measured order log2(e(h)/e(h/2)) at least 3.7, or e(h/2) below 1e-11 (rounding). There is no
- *    upper bound: in fast swings RK4's amplitude error, of order 5, outweighs its phase error, and
- *    orders of 5 to 6 are measured;
- *  - e(h/2) below 1e-5 in any case: a wrong trajectory may converge, too.
+ * - The measured order log2(e(h)/e(h/2)) is at least 3.7, or e(h/2) is below 1e-11 (round-off). There is no upper
+ * bound: in fast swings RK4's amplitude error, of order 5, exceeds its phase error, and orders of 5 to 6 occur.
  *
- * Each mechanism's step is one at which its fastest swing is well resolved. Thomson's set B at 5 s
- * is so far into chaos that no order shows; there only the error at a fine step is judged.
+ * - e(h/2) is below 1e-5, because a wrong trajectory may converge too.
  *
- * The program is build/whirl, or what the environment variable WHIRL names; run from the root. */
+ * The step resolves the fastest swing of each mechanism. Thomson's set B is chaotic before 5 s, so only the error at
+ * a fine step is checked.
+ *
+ * The program is build/whirl or $WHIRL; run from the root. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -33,7 +33,7 @@ void suite_trajectory(void);
 #define VALUES_MAX 16
 #define TEXT_MAX 4096
 
-/* The last row of the CSV of a run. Returns false when the run failed or no row came. */
+/* The last row of a run's CSV. False: the run failed or had no row. */
 static bool last_row(const char *scene, const char *until, double step_ms, char header[TEXT_MAX],
                      char row[TEXT_MAX]) {
     const char *whirl = getenv("WHIRL");
@@ -56,7 +56,7 @@ static bool last_row(const char *scene, const char *until, double step_ms, char 
     return true;
 }
 
-/* The value of a column. The header's and row's fields need no quotes here. */
+/* The value of a column; the fields have no quotes. */
 static double column(const char *header, const char *row, const char *name) {
     const size_t length = strlen(name);
     for (;;) {
@@ -107,7 +107,7 @@ static double run_error(const char *scene, const char *until, double step_ms, co
     return largest / scale;
 }
 
-/* Check the reference lines that contain `part`, of which there must be `lines_wanted`. */
+/* Checks the reference lines that contain `part`, of which there must be `lines_wanted`. */
 static void check_lines(const char *part, double step_ms, int lines_wanted) {
     FILE *file = fopen(REFERENCE, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");
@@ -124,7 +124,7 @@ static void check_lines(const char *part, double step_ms, int lines_wanted) {
         TEST_ASSERT_EQUAL_INT(1, sscanf(strtok_r(line, "|", &rest), "%255s", scene));
         TEST_ASSERT_EQUAL_INT(1, sscanf(strtok_r(NULL, "|", &rest), "%31s", until));
         const char *wanted = strtok_r(NULL, "|", &rest);
-        /* Real pounds are stiff: their fastest part dies away at 884 per second. */
+        /* real pounds are stiff: their fastest part decays at 884 per second */
         const double h_ms = strstr(scene, "_physical") != NULL ? step_ms / 10.0 : step_ms;
         const double coarse = run_error(scene, until, h_ms, wanted);
         const double fine = run_error(scene, until, h_ms / 2.0, wanted);

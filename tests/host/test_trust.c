@@ -1,5 +1,5 @@
-/* test_trust.c: until when a run can be trusted, as `whirl trust` estimates it, against references in long double that share
- * no step with it: four chaotic systems in float, float with compensated sums and double. */
+/* test_trust.c: accuracy horizon estimated by `whirl trust`, compared with independent references in long double:
+ * four chaotic systems in float, compensated float and double. Also built-in scenes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,7 @@ static const arithmetic arithmetics[] = {
 };
 enum { ARITHMETICS = sizeof arithmetics / sizeof arithmetics[0] };
 
-/* What the references may differ by where the run passes the tolerance, in parts of that. */
+/* Limit of the references' difference when the run passes the tolerance, relative to it. */
 #define KNOWN 0.05
 
 static void say(const char *what, const horizons *h) {
@@ -56,7 +56,7 @@ static void expect_near(const char *what, const horizons *h, double least, doubl
     }
 }
 
-/* `file` with a scene that begins so and ends then, in each arithmetic. */
+/* `file` with a scene of this start and end, in each arithmetic. */
 static void chaotic(const char *name, bool builtin, const char *file, const char *starts,
                     const double *until_s) {
     const int count = (int)few_or_all(3, ARITHMETICS);
@@ -107,11 +107,11 @@ void suite_trust(void) {
 }
 
 /* === trust scenes ============================================================================= */
-/* Until when runs of built-in scenes can be trusted: where nothing diverges, to the end; where steps are
- * too coarse, methods too simple or tables too small, until the reference says so; and with contacts, against steps a 32nd as
- * long, which find their events anew. */
+/* Horizons of built-in scenes. Without divergence they reach the end. With coarse steps, simple methods or small
+ * tables they agree with the reference. With contacts the reference has steps a 32nd as long and finds its own
+ * events. */
 
-/* A built-in scene of a file, with its own step, or again with another step and end. */
+/* A built-in scene with its own step, or with another step and end. */
 static horizons built_in(const char *file, const char *name, horizons_setting how,
                          double tolerance) {
     char *text = horizons_builtin(file, "");
@@ -150,7 +150,7 @@ static void test_where_nothing_diverges(void) {
     expect_the_end("eccentric.whirl", "rig_fixed", in_float);
     expect_the_end("eccentric.whirl", "rig_fixed", compensated);
     expect_the_end("spherical_particle.whirl", "spherical_flight", in_float);
-    expect_the_end("cuff.whirl", "cuff_equal", in_float); /* X and Y are rounding alone */
+    expect_the_end("cuff.whirl", "cuff_equal", in_float); /* X and Y are only round-off */
 }
 
 /* --- the step, not chaos, ends it ------------------------------------------------------------------------*/
@@ -169,7 +169,7 @@ static void expect_ratio(const char *what, const horizons *h, double least, doub
     TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(h) >= least && horizons_ratio(h) <= most, what);
 }
 
-/* The error grows evenly here: what is left out of it would show in proportion. */
+/* The error grows evenly here, so an omitted part would show in proportion. */
 static void test_steps_and_methods_that_are_too_coarse(void) {
     static const struct {
         wh_method method;
@@ -195,7 +195,7 @@ static void test_steps_and_methods_that_are_too_coarse(void) {
     }
 }
 
-/* Rounding of float, and of tables: against any tolerance. */
+/* Round-off of float and of tables, for any tolerance. */
 static void test_rounding_and_tables(void) {
     static const double tolerances[] = {1e-4, 3e-6, 3e-7};
     static const horizons_setting settings[] = {
@@ -223,7 +223,7 @@ static void test_rounding_and_tables(void) {
 
 /* --- contacts --------------------------------------------------------------------------------------------*/
 
-/* Near the truth; a tolerance near what float can tell at all may end it earlier. 1: it ended before the run. */
+/* Near the true horizon; a tolerance near float's resolution may end it earlier. 1: it ended before the run. */
 static unsigned expect_contacts(const char *name, horizons_setting how, double tolerance) {
     horizons h = built_in(strncmp(name, "thomson", 7) == 0    ? "thomson.whirl"
                           : strncmp(name, "carriage", 8) == 0 ? "eccentric.whirl"
@@ -259,7 +259,7 @@ static void test_contacts(void) {
     TEST_ASSERT_TRUE(ended >= count);
 }
 
-/* More events than a step takes: both runs let the ball rest, and agree. */
+/* Beyond the event limit of a step both runs let the ball rest and agree. */
 static void test_steps_with_too_many_events(void) {
     horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);

@@ -1,5 +1,5 @@
-/* test_turned.c: which scenes turn their sines, and that turning them moves like looking them up: over generated
- * mechanisms, and for every built-in scene. */
+/* test_turned.c: scenes that rotate their sines, and agreement of rotation with table lookup, for generated
+ * mechanisms and every built-in scene. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -18,7 +18,7 @@
 
 void suite_turned(void);
 
-/* A pendulum with more in its potential. */
+/* A pendulum with an additional potential. */
 static bool turns(const char *more, const char *start, image_settings settings) {
     char text[600];
     snprintf(text, sizeof text,
@@ -41,9 +41,9 @@ static void test_settings_and_lists_choose(void) {
         TEST_ASSERT_TRUE(turns("", "a = 1", turned) == wh_method_turns((wh_method)m));
         TEST_ASSERT_FALSE(turns("", "a = 1", lookup));
         TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned) ==
-                         wh_method_turns((wh_method)m)); /* however fast */
+                         wh_method_turns((wh_method)m)); /* at any speed */
     }
-    /* a sine of an angle and a length is no sum of angles, and is looked up */
+    /* a sine of an angle and a length is not of a sum of angles, and is looked up */
     TEST_ASSERT_TRUE(turns(" + 0.01 [N/m]*x^2", "a = 1", plainly));
     TEST_ASSERT_FALSE(turns(" + 0.01 [J]*cos(a + x/(1 [m]))", "a = 1", plainly));
 }
@@ -66,7 +66,7 @@ static int after(image *im, const engine_kind *kind, image_angles angles, uint64
     return status == WH_OK ? im->angles + im->reals : 0;
 }
 
-/* The same for a step that is `parts` times shorter. */
+/* The same with a step `parts` times shorter. */
 static int after_parts(image *im, const engine_kind *kind, image_angles angles, uint64_t steps,
                        int parts, double value[VALUES]) {
     const double step_s = im->step_s;
@@ -84,7 +84,7 @@ static double distance(int count, const double *x, const double *y) {
     return sum;
 }
 
-/* What both forms are apart, over the error of the one that looks up; -1: that one is refused, or both are exact. */
+/* Difference of both forms relative to the error of lookup. -1: lookup is refused, or both are exact. */
 static double apart(image *im, const char *text) {
     double turned[VALUES];
     double looked_up[VALUES];
@@ -104,9 +104,9 @@ static double apart(image *im, const char *text) {
     return error > 1e-11 * size ? distance(count, turned, looked_up) / error : -1.0;
 }
 
-/* A scene `s` whose angles stand in sines only: pendulums and masses that carry each other, swung by sums, differences
- * and multiples of angles; every third a system of equations of first and second order. Angles are driven by up to
- * `drive` rad/s^2, and start with up to `speed` rad/s. */
+/* A scene `s` with angles only inside sines: coupled pendulums and masses, with sums, differences and multiples of
+ * angles. Every third is a system of equations of first and second order. Drives reach `drive` rad/s^2, initial rates
+ * `speed` rad/s. */
 static void write_mechanism(unsigned number, double drive, double speed, uint64_t *seed, char *text,
                             size_t size) {
     const int angles = 1 + (int)(random_bits(seed) % 3);
@@ -162,7 +162,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
     fclose(out);
 }
 
-/* The share of generated mechanisms in which both forms are apart by more than `within` of the error. */
+/* The share of mechanisms in which both forms differ by more than `within` of the error. */
 static double share_apart(double within, double drive, double speed) {
     const unsigned cases = dice_cases(few_or_all(60, 200));
     uint64_t seed = 20261122;
@@ -193,14 +193,14 @@ static void test_generated_mechanisms_move_alike(void) {
     TEST_ASSERT_TRUE(share_apart(0.02, 0.1, 3.0) == 0.0);
 }
 
-/* Beyond what is small for a turn, which is 100 rad/s here at the most, from the start or on their way: what looking up
- * takes, turning takes. The error is that of a motion that its steps do not resolve. */
+/* Rates above the small-rotation limit, here at most 100 rad/s, from the start or later: rotation still runs wherever
+ * lookup does. The error is that of an unresolved motion. */
 static void test_generated_mechanisms_that_become_fast_go_on(void) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 
-/* Systems of first order whose angles' rates depend on them so strongly that a stage is far from where the rates at the begin
- * lead: near the limit of stability, where half a turn more or less is soon another equilibrium. */
+/* First-order systems whose rates depend strongly on the angles, near the stability limit: stages are far from the
+ * initial slope, and half a turn soon leads to another equilibrium. */
 static void test_stiff_angles_of_first_order_move_alike(void) {
     const unsigned cases = dice_cases(few_or_all(100, 300));
     uint64_t seed = 20261122;

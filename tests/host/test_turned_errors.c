@@ -1,8 +1,8 @@
-/* test_turned_errors.c: what turning sines on does to the errors of the built-in scenes: a table for docs/dev/numerics.md,
- * beside looking them up at each stage.
+/* test_turned_errors.c: errors of built-in scenes with rotated sines, a table for docs/dev/numerics.md, compared with
+ * lookup at each stage.
  *
- * The distance of the whole state, rates included, SI units, from runs with a sixteenth of the step that look up. In
- * double, sums compensated, so that the errors are the method's. */
+ * Distance of the whole state, rates included, SI units, from lookup runs with a sixteenth of the step. In double
+ * with compensated sums, so that the errors are the method's. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,6 @@ enum { VALUES = 3 * IMAGE_COMPONENTS_MAX, FINER = 16 };
 
 #define UNTIL_S 2.0
 
-/* The state at UNTIL_S. */
 static int end_of(const char *name, image_angles angles, double step_s, double value[VALUES]) {
     const stepping how = {.kind = &engine_double,
                           .method = WH_RK4,
@@ -71,7 +70,7 @@ static void test_turning_errs_as_looking_up_does(void) {
         for (int a = 0; a < 2; a++) {
             const image_angles angles = a == 0 ? ANGLES_TURNED : ANGLES_LOOKUP;
             error[a] = error_of(name, angles, 1e-3, exact);
-            /* where steps resolve the motion, and before rounding shows */
+            /* steps resolve the motion, and round-off does not show */
             const double fine_s = error[a] < 1e-8 ? 2e-3 : 0.5e-3;
             order[a] = log2(error_of(name, angles, 2.0 * fine_s, exact) /
                             error_of(name, angles, fine_s, exact));
@@ -86,7 +85,7 @@ static void test_turning_errs_as_looking_up_does(void) {
 
 /* --- by method -----------------------------------------------------------------------------------------------------*/
 
-#define SWING_S 30.0 /* some five periods */
+#define SWING_S 30.0 /* about five periods */
 enum { SWING_POINTS = 20 };
 
 /* A pendulum with w = 1 rad/s from 2 rad: angle and rate at some times. */
@@ -117,7 +116,7 @@ static double apart(const double *a, const double *b) {
     return most;
 }
 
-/* Turning errs by h^6, which beside the error of a method of order 5 is no little. */
+/* Rotation has an error of h^6, not small next to a method of order 5. */
 static void test_turning_beside_the_error_of_each_method(void) {
     static const wh_method methods[] = {WH_NYSTROEM3, WH_RK4, WH_RK38, WH_NYSTROEM4, WH_NYSTROEM5};
     static const double step_s[] = {0.05, 0.1, 0.3, 0.5};

@@ -1,6 +1,6 @@
-/* test_undefined.c: nothing that is no number passes for nothing. In generated mechanisms one expression of a
- * contact, an energy, a force or an output stops being a number at a known moment; the run must end then, with
- * status 1, and name the expression's line and text. */
+/* test_undefined.c: undefined expressions end a run. In generated mechanisms one expression of a contact, an energy,
+ * a force or an output becomes undefined at a known time. The run must end then with status 1 and name the
+ * expression's line and text. */
 #include "command.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 
 void suite_undefined(void);
 
-/* Where each kind of expression stands; the others of its mechanism are numbers throughout. */
+/* The kind of expression that becomes undefined; the others stay defined. */
 typedef enum victim {
     GAP,
     CONDITION,
@@ -35,7 +35,7 @@ typedef enum victim {
     VICTIMS
 } victim;
 
-/* `d` falls through zero at a known moment; no numbers behind it. */
+/* `d` falls through zero at a known time; the forms are undefined after it. */
 static const char *const forms[] = {"sqrt(d)",     "1/(sign(d) + 1)",     "sqrt(sign(d))",
                                     "d^1.5",       "min(2, sqrt(d))",     "max(sqrt(d), 0.25)",
                                     "log(d)",      "asin(1 - min(d, 1))", "acos(2*sqrt(d)/(1 + d))",
@@ -45,17 +45,16 @@ enum { FORMS = sizeof forms / sizeof forms[0], FORMS_IN_FLOAT = 6 };
 typedef struct trial {
     victim victim;
     char text[2048];
-    char statement[160]; /* what the message must quote */
-    int line;            /* where it stands */
-    double end_s;        /* the moment */
+    char statement[160]; /* quoted by the message */
+    int line;            /* of the statement */
+    double end_s;        /* time of the end */
     double step_s;
     bool is_float;
-    bool
-        is_infinite; /* behind the end: an event may come before it in the same step, and end that */
-    bool ends_later; /* a restitution counts when the stop is hit */
+    bool is_infinite; /* after the end; an event may come first in the same step, and end that */
+    bool ends_later;  /* a restitution is evaluated when the stop is hit */
 } trial;
 
-/* The statement with `form` in it. `y` is free, at rest (or sliding), and nothing else happens to it. */
+/* The statement with `form` in it. `y` is free, at rest or sliding, and has no other events. */
 static void state(trial *t, const char *form, dice *d) {
     const double a = dice_between(d, 0.1, 0.9);
     char *s = t->statement;
@@ -100,22 +99,21 @@ static void make(trial *t, dice *d) {
     const double c = dice_between(d, 0.2, 1.5) * v; /* 0.2 to 1.5 s */
     unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
     if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
-        form += form == 1; /* infinity takes part in `and` and `or` like any number */
+        form += form == 1; /* infinity is valid in `and` and `or` */
     } else if (t->victim == HELD && (form == 1 || form == 2 || form == 6)) {
-        form =
-            0; /* of what is held only the rate counts: that of a logarithm has a value everywhere */
+        form = 0; /* a hold uses only the rate, and that of a logarithm is defined everywhere */
     }
     t->is_infinite = form == 1;
     const bool slides = t->victim == NORMAL_SLIDING || t->victim == KINETIC;
     t->step_s = 1e-3 * (1.0 + dice_one_of(d, 5));
     t->end_s = c / v;
     t->ends_later = t->victim == RESTITUTION;
-    /* Where what is named stands on a line of its own, the message still has the statement's. */
+    /* A name defined on another line: the message still has the statement's line. */
     const bool named = t->victim != HELD && dice_one_of(d, 2) == 0;
     state(t, named ? "e" : forms[form], d);
     const int blank = (int)dice_one_of(d, 4);
     char around[200];
-    if (t->victim == SETTING) { /* is taken at a moment behind the end */
+    if (t->victim == SETTING) { /* evaluated at a time after the end */
         snprintf(around, sizeof around, "when x crosses c + 0.1 [m] { %s }", t->statement);
         t->end_s = (c + 0.1) / v;
     } else {
@@ -155,12 +153,12 @@ static void check(const trial *t, const char *file) {
     TEST_ASSERT_TRUE_MESSAGE(strncmp(what.err, place, strlen(place)) == 0, note);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "is not a finite number"), note);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, t->statement), note);
-    /* The step after which it happened begins at most a step before; an output is seen at the step's end. */
+    /* The reported step starts at most a step earlier; an output is evaluated at the step's end. */
     const double late_s = time_told(what.err) - t->end_s;
     const double most = t->ends_later                           ? 5.0
                         : t->victim == OUTPUT || t->is_infinite ? 1.01 * t->step_s
                                                                 : 1e-3 * t->step_s;
-    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* of x, summed up in float */
+    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* of x, summed in float */
     TEST_ASSERT_TRUE_MESSAGE(
         late_s <= most + rounding_s && late_s >= -1.01 * t->step_s - rounding_s, note);
 }
@@ -183,7 +181,7 @@ static void test_expressions_that_stop_being_numbers(void) {
     printf("  %u runs ended with the expression's name\n", tried);
 }
 
-/* The same mechanisms are left before that: not a word. */
+/* The same mechanisms stopped before that time give no message. */
 static void test_expressions_that_are_numbers_throughout(void) {
     dice d = dice_of("defined", 20262);
     const unsigned rounds = dice_cases(usual_or(3, 1));
@@ -212,8 +210,7 @@ static void test_expressions_that_are_numbers_throughout(void) {
     model_drop();
 }
 
-/* A stop ends where the motion ends, and an expression may end there too: the step looks beyond it, the motion
- * does not go there. */
+/* A stop ends the motion where an expression also ends: the step looks further, the motion does not go there. */
 static void test_expressions_that_end_where_a_stop_is(void) {
     static const char *const effects[] = {"hold y while sqrt(x/u) > 9",
                                           "when sqrt(x/u) crosses 9 { set y = 1 [m] }",
@@ -233,7 +230,7 @@ static void test_expressions_that_end_where_a_stop_is(void) {
     model_drop();
 }
 
-/* `whirl accel` at states where something of the equations is no number. */
+/* `whirl accel` at states with an undefined term. */
 static void test_accelerations_that_are_no_numbers(void) {
     static const char *const terms[] = {"V = 1 [J]*log(x/u)", "V = 1 [J]*u/x",
                                         "Q(x) = 1 [N]*sqrt(x/u - 1)", "F = 1 [N*s/m]*x'^2/(x/u)",
@@ -257,7 +254,7 @@ static void test_accelerations_that_are_no_numbers(void) {
     model_drop();
 }
 
-/* A step over a pole leaves the force a number and the energy none: the books say so. */
+/* A step over a pole leaves the force defined and the energy undefined: the energy balance reports it. */
 static void test_energies_that_are_no_numbers(void) {
     dice d = dice_of("energies", 20263);
     for (unsigned i = 0; i < dice_cases(usual_or(10, 4)); i++) {

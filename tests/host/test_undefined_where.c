@@ -1,5 +1,5 @@
-/* test_undefined_where.c: which expression is no number, and where it is looked for (host/check/nonfinite.h): the innermost part of
- * drawn formulas, by its column; the places on a step's way at which is looked; and the angle whose sine is not known. */
+/* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of drawn
+ * formulas, by its column; the sampled places of a step; and the angle without a sine. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@ enum { FORMULA = 600 };
 
 static dice die;
 
-/* What is said of it, "" for nothing; to be freed. */
+/* The message, "" if none; to be freed. */
 static char *told_of(const nonfinite_at *at, bool (*ask)(const nonfinite_at *, diags *)) {
     char *told = NULL;
     size_t length = 0;
@@ -39,12 +39,12 @@ static derived scene_of(const char *text) {
 
 /* --- the innermost part --------------------------------------------------------------------------------------*/
 
-/* Around what is no number: '@' stands for it. Each is none where that is none, and so is none of its own. */
+/* '@' stands for the undefined part. Each form is undefined if that is, and never by itself. */
 static const char *const around[] = {
     "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
     "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
 static const char *const parts[] = {"log(x/u)", "sqrt(x/u)", "sqrt(9 + log(x/u))", "(x/u)^0.5"};
-/* Of a power, it stands where its sign does. */
+/* For a power, the column of its sign. */
 static const int inside[] = {0, 0, 9, 5};
 
 static void put_around(char *formula, int *column, const char *wrapper) {
@@ -100,7 +100,7 @@ static void test_the_innermost_part_is_named(void) {
 
 /* --- on the way ------------------------------------------------------------------------------------------------*/
 
-/* A term that is none in a window of the way: it is found where one of the places lies in that, as far as is to be looked. */
+/* A term undefined in a window of the step is found if a sampled place lies in it, within the range. */
 static void test_the_places_on_the_way(void) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
@@ -170,7 +170,7 @@ static void test_what_it_is_made_of(void) {
     }
 }
 
-/* Angles that turn have theirs, and go on by their rates: a, b and x, of which any may be declared first. */
+/* Turning angles advance by their rates: a, b and x, declared in any order. */
 static void test_angles_that_it_is_made_of(void) {
     static const char *const orders[] = {
         "coordinate a [rad]\ncoordinate b [rad]\ncoordinate x [m]\n",
@@ -189,7 +189,7 @@ static void test_angles_that_it_is_made_of(void) {
         TEST_ASSERT_EQUAL_INT(2, im->angles);
         double angle_rad[2];
         double real[4];
-        double of[3][2]; /* of a, b and x: place and rate */
+        double of[3][2]; /* of a, b and x: position and rate */
         for (int i = 0; i < 6; i++) {
             const component at = image_component(im, i);
             const char name = im->unknown[at.unknown].name[0];
@@ -199,7 +199,7 @@ static void test_angles_that_it_is_made_of(void) {
         }
         bool none = false;
         const double ahead =
-            c % 2U == 0 ? 0.0 : 0.25; /* steps, of 0.5 s; and looked at twice as far */
+            c % 2U == 0 ? 0.0 : 0.25; /* steps of 0.5 s; the range is twice as long */
         const double shares[] = {0.0, 0.25, 0.5};
         for (int i = 0; i < 3 && shares[i] <= 2.0 * ahead; i++) {
             const double t = 0.5 * shares[i];
@@ -221,14 +221,14 @@ static void test_angles_that_it_is_made_of(void) {
 
 /* --- angles ----------------------------------------------------------------------------------------------------*/
 
-/* a, b and c turn: sines are taken of a and of b - 2 c; d is an angle that swings, e none. */
+/* a, b and c turn, with sines of a and of b - 2 c; d is an angle that swings, e is not an angle. */
 static const char angles[] =
     "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\ncoordinate d [rad]\n"
     "coordinate e [m]\nT = 1 [kg*m^2]*(a'^2 + b'^2 + c'^2 + d'^2)/2 + 1 [kg]*e'^2/2\n"
     "V = 1 [J]*cos(a) + 1 [J]*sin(b - 2*c) + 1 [J]*d^2 + 1 [N/m]*e^2\n"
     "scene s { start a = 1; step 1 [ms]; until 1 [s] }\n";
 
-/* About the limit, a millionth of it below and above. */
+/* Near the limit, a millionth below and above. */
 static double drawn_angle(double limit) {
     static const double shares[] = {0.0, 0.5, 1.0 - 2e-6, 1.0 - 0.5e-6, 1.0, 1.0 + 0.5e-6, 1.7};
     const double sign = dice_one_of(&die, 2) == 0 ? 1.0 : -1.0;
@@ -293,7 +293,7 @@ static void test_the_angle_that_is_too_far(void) {
     derived_free(&d);
 }
 
-/* A sine somewhere in a formula, of what is about its limit; in float not where whole turns are none. */
+/* A sine anywhere in a formula with an argument near the limit. Float accepts it where turns are counted. */
 static void test_the_sine_that_is_too_far(void) {
     unsigned told_of_sines = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(400, 100)); c++) {

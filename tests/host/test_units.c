@@ -1,7 +1,6 @@
-/* test_units.c: every unit of the language against what the standards say of it: the SI Brochure (9th edition, 2019:
- * tables 2, 4, 7 and 8), and for inch, foot, pound and what follows from them the agreement of 1959 and the standard
- * gravity of 1901. Nothing here is read from host/lang/units.c but the names: a unit that is neither in this table nor an
- * SI prefix before an SI symbol of it fails. */
+/* test_units.c: every unit compared with the standards: the SI Brochure (9th edition, 2019: tables 2, 4, 7 and 8),
+ * the agreement of 1959 for inch, foot and pound, and the standard gravity of 1901. From host/lang/units.c it reads
+ * only names. A unit outside this table that is not an SI prefix with one of its SI symbols fails. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -71,7 +70,7 @@ static const struct {
 } prefixes[] = {{'T', 1e12}, {'G', 1e9},  {'M', 1e6},  {'k', 1e3},  {'h', 1e2},  {'d', 1e-1},
                 {'c', 1e-2}, {'m', 1e-3}, {'u', 1e-6}, {'n', 1e-9}, {'p', 1e-12}};
 
-/* What the standards say of that name, in *found; false when they say nothing. */
+/* The standards' definition of the name in *found; false: none. */
 static bool define(const char *name, definition *found) {
     for (int i = 0; i < DEFINITIONS; i++) {
         if (strcmp(definitions[i].name, name) == 0) {
@@ -121,8 +120,8 @@ static void test_every_unit_is_what_the_standards_say(void) {
     TEST_ASSERT_TRUE(count >= 60);
 }
 
-/* Factors are whole numbers where the definition is one over or under a power of ten: 7 [ms] is 7/1000, correctly
- * rounded, as 7e-3 is. */
+/* A factor is an integer ratio if the definition is one over or under a power of ten: 7 [ms] is 7/1000, correctly
+ * rounded, like 7e-3. */
 static void test_prefixes_round_as_decimal_numbers_do(void) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         definition wanted;
@@ -143,7 +142,7 @@ static void test_prefixes_round_as_decimal_numbers_do(void) {
     }
 }
 
-/* What `whirl list --units` says of each: so many of a unit that is one of SI, of the same dimension. */
+/* `whirl list --units` gives each as a number of an SI unit of the same dimension. */
 static void test_every_unit_is_told_in_si(void) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         char si[DIM_TEXT_SIZE];
@@ -158,7 +157,7 @@ static void test_every_unit_is_told_in_si(void) {
     }
 }
 
-/* m^1.5 of Hertz's law: decimal exponents are those written as fractions. */
+/* m^1.5 of Hertz's law: decimal exponents equal those written as fractions. */
 static void test_decimal_exponents(void) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         for (int halves = -7; halves <= 7; halves++) {
@@ -176,7 +175,7 @@ static void test_decimal_exponents(void) {
     }
     unit_scale result;
     unit_error error;
-    TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error)); /* no twelfth */
+    TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error)); /* not a twelfth */
 }
 
 static void test_names_are_apart(void) {
@@ -191,7 +190,6 @@ static void test_names_are_apart(void) {
     }
 }
 
-/* Every name that this table has without a prefix is a unit: none gets lost. */
 static void test_no_unit_is_missing(void) {
     for (int i = 0; i < DEFINITIONS; i++) {
         bool there = false;
@@ -202,7 +200,7 @@ static void test_no_unit_is_missing(void) {
     }
 }
 
-/* What people write by habit: the hint gives the same in the language's words. */
+/* The hint for a habitual notation has the same meaning in the language. */
 static void test_hints_for_habits_mean_the_same(void) {
     static const definition habits[] = {
         {"Nm", 1, 2, 1, -2, 0, 0, false},
@@ -253,8 +251,7 @@ static void test_hints_for_habits_mean_the_same(void) {
     }
 }
 
-/* The units that are written for a dimension, in records and in hints: of that dimension, of SI, and for those that have
- * a usual one, that. */
+/* The unit printed for a dimension, in records and hints, is SI, of that dimension, and the usual one if any. */
 static void test_dimensions_are_written_in_their_usual_units(void) {
     static const char *const recorded[] = {"N", "N*m", "W", "N*m*s", "V"};
     static const char *const hinted[] = {"N",       "N*m", "W",   "Pa", "N/m", "N*s/m", "rad/s",

@@ -1,5 +1,5 @@
-/* test_unjumped.c: what only looks like a pole that a step jumped over (host/check/pole_crossing.h): limits, tangents, losses, impacts and
- * places at events, told of only where there is one. */
+/* test_unjumped.c: false poles (host/check/pole_crossing.h): limits, tangents, losses, impacts and places at events.
+ * A jump is reported only over a true pole. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@ static dice die;
 
 static char *no_more[JUMPS_WORDS];
 
-/* Passed by s' = v, at s = a: of each there is a limit, or what may be integrated. */
+/* s' = v passes s = a: each form has a limit there or is integrable. */
 static const char *const harmless[] = {
     "sin(s - a)/(s - a)",
     "(s^2 - a^2)/(s - a)",
@@ -29,10 +29,10 @@ static const char *const harmless[] = {
     "abs(s - a)^(-0.8)",
     "1/tanh(s - a) - 1/(s - a)",
     "1/tanh((s - a)/0.1) - 0.1/(s - a)",
-    "1/(exp(s - a) - 1) - 1/(s - a)", /* what rounding leaves grows */
+    "1/(exp(s - a) - 1) - 1/(s - a)", /* round-off grows */
     "(exp(s - a) - 1 - (s - a))/(s - a)^2",
-    "1/(s - a + 1e-9/(s - a))", /* grows, and ends growing */
-    /* whose divisor touches zero, or nearly */
+    "1/(s - a + 1e-9/(s - a))", /* grows up to its end */
+    /* its divisor touches zero, or nearly */
     "(s - a)^2/(1 - cos(s - a))",
     "sin(s - a)^2/(s^2 - 2*a*s + a^2)",
     "1/sqrt(sqrt(s^2 - 2*a*s + a^2))",
@@ -42,7 +42,7 @@ static const char *const harmless[] = {
     "1/((s - a)^2 + y^2*1e-3 + 1e-6)",
     "(s - a)^3/(s^3 - 3*a*s^2 + 3*a^2*s - a^3)",
     "(3 - 4*cos(s - a) + cos(2*(s - a)))/(1 - cos(s - a))^2",
-    "(s - a)/sqrt((s - a)^2 + 1e-12)", /* bounded, and what turns it is small */
+    "(s - a)/sqrt((s - a)^2 + 1e-12)", /* bounded, with a small width */
     "1e-6/sqrt((s - a)^2 + 1e-12)",
     "1e-9/sqrt((s - a)^2 + 1e-18)",
 };
@@ -64,8 +64,8 @@ static void test_what_has_limits(void) {
     }
 }
 
-/* Losses that a body feels while another passes s = a: along the rate alone, so that one over a root, whose slope along s
- * grows faster than a pole, slows it down and no more. */
+/* Losses of one body while another passes s = a. They act along the rate alone, so one over a root slows the body
+ * down and no more, although its slope along s grows faster than a pole. */
 static void test_losses(void) {
     static const char *const laws[] = {
         "/sqrt(abs(s - a))", "/abs(s - a)",          "/(1 - cos(s - a))^0.25", "/(s - a)^2",
@@ -87,10 +87,10 @@ static void test_losses(void) {
     }
 }
 
-/* An impact turns a rate past where it is divided by, without having been there. */
+/* An impact turns a rate past a zero of its divisor without reaching it. */
 static void test_impacts(void) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
-                                       "tan(x'/v0 + 1)"}; /* of 2 and of 0, about */
+                                       "tan(x'/v0 + 1)"}; /* of about 2 and of 0 */
     for (unsigned c = 0; c < jumps_cases(3, 12, 3); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 1.0, 2.0);
@@ -108,8 +108,8 @@ static void test_impacts(void) {
     }
 }
 
-/* Passed by a rate of its own, in steps with impacts of another body and without: the place of a pole, of a force, and of
- * what a friction presses with, and of its coefficient; and where that place is behind the end. */
+/* A pole of a force, a friction's pressure or its coefficient, passed at constant rate, in steps with and without
+ * impacts of another body; also poles after the end. */
 static void test_places_at_events(void) {
     static const char *const laws[] = {
         "Q(x) = 1e-6 [N*m]/(x - %.17g [m])\n",
