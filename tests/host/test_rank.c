@@ -772,12 +772,12 @@ static void test_expressions_that_explode_are_refused(void) {
                        "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
         free(text);
     }
-    /* nothing to multiply out and few objects, but 2^40 leaves for whoever walks through them all */
+    /* little to expand and few objects, but 2^40 leaves for a traversal without memoization */
     char *doubled = repeated(front, "let a# = exp(a@) + atan(a@)\n", 40,
                              "T = 1 [kg*m^2]*(x'^2 + y'^2)\noutput o = a40\n");
     expect_refused(doubled, "error: the equations of 'm' grow beyond what can be handled");
     free(doubled);
-    /* one unknown less deep, so that the algebra gets further before it gives up */
+    /* each unknown less deep lets the algebra get further */
     for (int deep = 4; deep < 12; deep++) {
         char end[96];
         snprintf(end, sizeof end, "T = 1 [kg*m^2]*(x'^2 + y'^2)*(1 + a%d^2)\n", deep);
@@ -791,7 +791,7 @@ static void test_expressions_that_explode_are_refused(void) {
     }
 }
 
-/* A length in the motion, with a number in it; of drawn sums, products and functions. */
+/* A length during the motion, of drawn sums, products and functions, with a number in it. */
 static void length_of(dice *d, int depth, double number, char *to, size_t size) {
     static const char *const ways[] = {"%s + gap", "-(%s)*0.5",      "max(%s, y)",
                                        "abs(%s)",  "(%s)^2/(1 [m])", "(%s)*cos(phi)"};
@@ -808,7 +808,7 @@ static const char two[] = "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoor
                           "parameter e = 0.5\nlet gap = x - y\n"
                           "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\n";
 
-/* What is compared with itself never changes; with another number in it, it does. */
+/* A comparison of an expression with itself never changes; with another number in it, it does. */
 static void test_nothing_is_compared_with_itself(void) {
     static const char *const statements[] = {
         "stop %s >= %s restitution e\n", "stop %s <= (%s) restitution e\n",

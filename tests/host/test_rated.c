@@ -1,5 +1,5 @@
-/* test_rated.c: the rows of accuracy and cost that end a run, and the step that `--error` chooses, on drawn scenes
- * against motions that the test knows itself (rated.h). */
+/* test_rated.c: accuracy and cost at the end of a run, and the step of `--error`, for drawn scenes with known motions
+ * (rated.h). */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +31,6 @@ typedef struct told {
 
 /* --- a run and what it says ------------------------------------------------------------------------*/
 
-/* The run of the scene with these words behind it. */
 static void run(const rated *r, const char *const *more, said *what) {
     const char *words[WORDS] = {"",        model_keep(r->text), "--method",
                                 r->method, "--number",          r->number};
@@ -70,7 +69,7 @@ static bool read_rows(const char *text, const char *number, told *t) {
     return true;
 }
 
-/* The largest deviation of a run from the motion, of one state or (-1) of the worst as a part of its largest value. */
+/* Largest deviation of a run: of one state, or (-1) of the worst relative to its largest value. */
 static double error_of(const rated *r, double step_s, double spacing_s, int records,
                        const long double *row, int state) {
     char step[40];
@@ -93,7 +92,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
         what.status == said_owes(what.err) && fgets(line, sizeof line, in) != NULL; /* the head */
     for (int k = 0; k <= records && whole; k++) {
         whole = fgets(line, sizeof line, in) != NULL;
-        const char *at = line + (whole ? strcspn(line, " ") : 0); /* behind the time */
+        const char *at = line + (whole ? strcspn(line, " ") : 0); /* after the time */
         for (int i = 0; i < r->states && whole; i++) {
             const long double now = row[(size_t)k * (size_t)r->states + (size_t)i];
             char *end;
@@ -117,7 +116,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
 
 /* --- rows --------------------------------------------------------------------------------------------*/
 
-/* The time of the line `trusted`; the end; below 0 where it is not told. */
+/* The time of the line `trusted`, or the end; negative: no line. */
 static double trusted_s(const char *text, const rated *r) {
     double until_s = -1.0;
     const char *at = strstr(text, "\ntrusted            ");
@@ -132,11 +131,10 @@ static double trusted_s(const char *text, const rated *r) {
     return until_s;
 }
 
-/* The same prediction as of an image that the test makes itself. */
 static void check_cost(const rated *r, const told *t) {
     static char text[RATED_TEXT + 40];
     double each_s =
-        1e-6; /* the step of `whirl price`: 1, 2 or 5 times a power of ten, for 1000 of them at least */
+        1e-6; /* the step of `whirl price`: 1, 2 or 5 times a power of ten, at least 1000 steps */
     for (int i = 0; each_s * (i % 3 == 1 ? 2.5 : 2.0) <= r->until_s / 1000.0 * (1.0 + 1e-9); i++) {
         each_s *= i % 3 == 1 ? 2.5 : 2.0;
     }
@@ -170,8 +168,8 @@ static void check_cost(const rated *r, const told *t) {
 }
 
 typedef struct measure {
-    unsigned compared;    /* rows whose error both know */
-    unsigned at_rounding; /* rows in double whose error is rounding */
+    unsigned compared;    /* rows with a known error */
+    unsigned at_rounding; /* rows in double limited by round-off */
     unsigned unsaid;      /* scenes without rows */
     double worst_double, worst_float;
 } measure;
@@ -243,7 +241,6 @@ static void test_rows_are_right(void) {
 
 /* --- beside `whirl price` ------------------------------------------------------------------------------*/
 
-/* One field of a CSV line without quotes. */
 static const char *field(const char *line, int at, char text[80]) {
     for (; at > 0 && line != NULL; at--) {
         line = strchr(line, ',');
@@ -265,7 +262,7 @@ enum {
     COLUMN_FLASH = 17
 };
 
-/* A row of price with the same setting and step says the same error and cost. */
+/* With the same setting and step, `whirl price` prints the same error and cost. */
 static unsigned check_price(const rated *r, const told *t, FILE *in) {
     static char line[2000];
     char text[80];
@@ -342,7 +339,7 @@ static double coordinate_error(const rated *r, double step_s, double until_s) {
     return error;
 }
 
-/* The chosen step keeps the error, and twice the step does not, or the run says that longer ones are not tried. */
+/* The chosen step meets the error and twice the step does not, or the run says that longer ones are not tried. */
 static bool check_chosen(dice *d, const rated *r) {
     static const char *const names[] = {"q0", "x", "a", "r"};
     static said what;
@@ -364,7 +361,7 @@ static bool check_chosen(dice *d, const rated *r) {
     double step_s;
     double until_s;
     const char *chosen =
-        strstr(what.out, "chosen step"); /* behind the reader's sentence, if there is one */
+        strstr(what.out, "chosen step"); /* after the reader's sentence, if there is one */
     TEST_ASSERT_NOT_NULL_MESSAGE(chosen, what.out);
     TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
     const char *longer = strstr(chosen, " s keeps the error, too, but with warnings\n");
@@ -377,7 +374,7 @@ static bool check_chosen(dice *d, const rated *r) {
     snprintf(about, sizeof about, "%s%s %s, %s: %.100s", r->text, r->method, r->number, error,
              what.out);
     TEST_ASSERT_TRUE_MESSAGE(coordinate_error(r, step_s, until_s) <= 1.05 * allowed, about);
-    if (longer != NULL) { /* which is warned of, and keeps the error */
+    if (longer != NULL) { /* gives a warning but meets the error */
 
         static said other;
         while (longer[-1] != ' ') {

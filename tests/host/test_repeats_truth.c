@@ -1,6 +1,6 @@
-/* test_repeats_truth.c: errors that repeat each turn: a cell that clips, plays or bends, a torque twice a turn; and healthy
- * benches beside them. The rotor is integrated finely in double (rig_orbit.c). Level, side, speed, noise and seed are drawn.
- * WHIRL_FULL=1 (`make rig-truth`) draws more, and prints the tallies. */
+/* test_repeats_truth.c: errors that repeat each turn: a cell that clips, has play or bends, and a torque twice a
+ * turn; compared with healthy benches. The rotor is integrated finely in double (rig_orbit.c). Level, side, speed,
+ * noise and seed are drawn. WHIRL_FULL=1 (`make rig-truth`) draws more and prints the tallies. */
 #include <math.h>
 #include <stdio.h>
 
@@ -25,7 +25,7 @@ static double drawn(double least, double most) {
     return least + (most - least) * ((double)(scattered() >> 11) * 0x1p-53);
 }
 
-/* A bench with its noise, and the whole turns of its record. */
+/* A bench with its noise, and the number of whole turns of its record. */
 static void draw_bench(bool fed) {
     plant = rig_plant_nominal;
     plant.inertia_kgm2 *= drawn(0.75, 1.45);
@@ -66,14 +66,14 @@ static void draw_error(error kind) {
 }
 
 typedef struct tally {
-    unsigned off;    /* by more than an uncalibrated bench's interval and 1 % */
-    unsigned lies;   /* of them, called good, though the error shows; */
-    unsigned hidden; /* and does not show: docs/rig.md, errors that a good result can hide */
-    unsigned seen;   /* with next to no noise the error is above 1.5 times the limit with it */
+    unsigned off;    /* error above an uncalibrated bench's interval plus 1 % */
+    unsigned lies;   /* marked good although the error is visible */
+    unsigned hidden; /* and invisible: docs/rig.md, errors that a good result can hide */
+    unsigned seen;   /* with almost no noise the error is above 1.5 times the limit with it */
     unsigned missed;
 } tally;
 
-/* Against the orbit's truth; a torque turns the rotor itself, so that the truth has it. */
+/* Compared with the orbit's truth. A torque turns the rotor itself, so the truth contains it. */
 static void judge(const wh_measured *measured, tally *found) {
     const double amplitude_N = fabs((double)measured->amplitude_N - orbit.amplitude_N);
     const double phase_rad = fabs((double)measured->phase_rad - orbit.phase_rad);
@@ -81,7 +81,7 @@ static void judge(const wh_measured *measured, tally *found) {
     const double half_N =
         hypot((double)measured->amplitude_half_N, (double)WH_UNCALIBRATED_PART * orbit.amplitude_N);
     const double half_rad = hypot((double)measured->phase_half_rad, (double)WH_UNCALIBRATED_RAD);
-    const rig_noise silent = {/* but for some: the turns of a cell that stands still do not count */
+    const rig_noise silent = {/* exceptions: the turns of a cell that stands still do not count */
                               .cell_N = 0.01,
                               .clips = noise.clips,
                               .play_N = noise.play_N,
@@ -145,7 +145,7 @@ static void test_a_torque_twice_a_turn_is_not_good(void) {
 
 /* --- healthy benches --------------------------------------------------------------------------------- */
 
-/* Noise and hum to 0.3 N, jitter to 100 us, inertia, any set-point: at most one in a hundred is doubtful. */
+/* Noise and hum up to 0.3 N, jitter up to 100 us, drawn inertia and set-point: at most 1 % are doubtful. */
 static void check_healthy(uint64_t seed, unsigned slower) {
     const unsigned runs = few_or_all(usual_or(400, slower > 1U ? 200 : 50), 2000);
     unsigned doubtful = 0;
@@ -154,7 +154,7 @@ static void check_healthy(uint64_t seed, unsigned slower) {
         wh_measured measured;
         draw_bench(run % 5U == 4U);
         noise.slower = slower;
-        if (slower > 1U) { /* noise would hide what few samples do */
+        if (slower > 1U) { /* noise would hide the effect of few samples */
             noise.cell_N = noise.hum_N = noise.jitter_s = 0.0;
         }
         rig_orbit_find(&plant, rpm, LEAD_RAD, &orbit);
@@ -169,7 +169,7 @@ static void check_healthy(uint64_t seed, unsigned slower) {
 
 static void test_healthy_benches_are_good(void) { check_healthy(UINT64_C(0x5eed0a35), 1U); }
 
-/* A sample each 8 ms, as an ATmega2560 takes them: 21 a turn at 360 rpm. */
+/* A sample every 8 ms, as on an ATmega2560: 21 a turn at 360 rpm. */
 static void test_healthy_benches_with_few_samples_are_good(void) {
     check_healthy(UINT64_C(0x5eed0a36), 4U);
 }

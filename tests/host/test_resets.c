@@ -1,5 +1,5 @@
-/* test_resets.c: `reset` and `watchdog-resets`, of a plant without a firmware: when the processor is in reset and for how
- * long, that nothing is driven meanwhile, and what is lost by it. */
+/* test_resets.c: `reset` and `watchdog-resets` of a plant without firmware: start and length of a reset, no outputs
+ * meanwhile, and losses. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -35,20 +35,20 @@ static const wh_hello hello = {.program = "bench",
                                .signals = sizeof signals / sizeof signals[0]};
 
 typedef struct heard {
-    double edge_s[EDGES_MAX];  /* was told of, */
-    double stamp_s[EDGES_MAX]; /* and when it was, by a timer that is 0 when the processor starts */
+    double edge_s[EDGES_MAX];  /* as reported */
+    double stamp_s[EDGES_MAX]; /* and its stamp, by a timer that starts at 0 with the processor */
     int edges;
     double reset_s[RESETS_MAX];
     double again_s[RESETS_MAX];
     bool starved[RESETS_MAX];
     int resets;
-    double push[READS + 1]; /* what was in effect at each reading */
+    double push[READS + 1]; /* in effect at each reading */
 } heard;
 
 static heard h;
 static heard well;
 
-/* To until_ticks, whether or not it is reset meanwhile. Nothing pushes while it is. */
+/* Advances to until_ticks, through resets. Outputs are zero during a reset. */
 static void go_on(plant *on, double until_ticks) {
     do {
         TEST_ASSERT_TRUE(plant_advance(on, until_ticks));
@@ -102,7 +102,7 @@ static void run_with(const char *words) {
     motion_close(&bench);
 }
 
-/* At the first step at or after its instant, which need not be when anybody speaks, and once; out of it so much later. */
+/* A reset starts once, at the first step at or after its instant, even between exchanges, and ends after its length. */
 static void test_instants(void) {
     for (int i = 0; i < 40; i++) {
         const double at_s = 0.2 + i * 0.01037;
@@ -120,34 +120,34 @@ static void test_instants(void) {
     TEST_ASSERT_EQUAL_INT(3, h.resets);
     TEST_ASSERT_TRUE(fabs(h.reset_s[0] - 0.499) < 1.1e-3 && fabs(h.reset_s[1] - 0.7) < 1.1e-3 &&
                      fabs(h.reset_s[2] - 0.9) < 1.1e-3);
-    run_with("reset=0.1@0.5,reset=0.1@0.55"); /* one in the other: they are one */
+    run_with("reset=0.1@0.5,reset=0.1@0.55"); /* overlapping ones are one */
     TEST_ASSERT_TRUE(h.resets == 2 && h.reset_s[1] >= 0.6);
 }
 
-/* What was on its way is lost; the timer begins anew. */
+/* Data in transit is lost; the timer restarts. */
 static void test_what_is_lost(void) {
     run_with(NULL);
     well = h;
     TEST_ASSERT_EQUAL_INT(4, well.edges);
-    run_with("edge-late=0.3,reset@0.3"); /* on their way are two */
+    run_with("edge-late=0.3,reset@0.3"); /* two are in transit */
     TEST_ASSERT_EQUAL_INT(2, h.edges);
     for (int i = 0; i < 2; i++) {
         TEST_ASSERT_TRUE(fabs(h.stamp_s[i] + h.again_s[0] - well.stamp_s[2 + i]) < 1.1e-6);
         TEST_ASSERT_TRUE(fabs(h.edge_s[i] - well.edge_s[2 + i] - 0.3) < 1e-9);
     }
-    run_with("reset=0.15@0.07"); /* two come while it is in it */
+    run_with("reset=0.15@0.07"); /* two arrive during it */
     TEST_ASSERT_EQUAL_INT(2, h.edges);
-    run_with("orders-lost=1@0.397,reset@0.4"); /* nor is there a last order that stays */
+    run_with("orders-lost=1@0.397,reset@0.4"); /* no last order remains either */
     TEST_ASSERT_TRUE(h.push[200] > 0.0 && h.push[210] == 0.0);
-    run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* those that were not yet in effect never are */
+    run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* orders not yet in effect never are */
     TEST_ASSERT_TRUE(h.resets == 1 && h.push[200] > 0.0 && h.push[201] == 0.0);
 }
 
-/* Too long without a kick: it cuts, or resets what then has to be started again. */
+/* Without kicks the watchdog cuts, or resets the processor, which must then be restarted. */
 static void test_watchdog(void) {
     run_with("unkicked@0.5");
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[240] > 0.0 && h.push[260] == 0.0);
-    run_with("watchdog-resets@0.6"); /* who kicks has nothing to fear */
+    run_with("watchdog-resets@0.6"); /* a firmware that kicks is not reset */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == (double)READS);
     run_with("watchdog-resets=3ms,unkicked@0.5+5ms");
     TEST_ASSERT_TRUE(h.resets == 1 && h.starved[0]);

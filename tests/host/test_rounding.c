@@ -1,10 +1,10 @@
-/* test_rounding.c: what float costs: its error at the usual step, how that grows with the number of
- * steps, what carrying the sums' rounding along gains, and angles after a million turns.
+/* test_rounding.c: error of float: at the usual step, its growth with the number of steps, the gain by compensated
+ * sums, and angles after a million turns.
  *
- * Bounds come from a model of rounding, not from the runs. u = 2^-24 is half a unit in the last place
- * of one. A plain sum of N steps walks at random: sqrt(N/3) u times the sum's power of two. A
- * compensated one keeps the rate to about u of itself, so that an angle is off by u of itself: the
- * constants of the step (its length, phase units a radian) are rounded that much, too. */
+ * Bounds come from a model of round-off, not from the runs. u = 2^-24 is half a unit in the last place of one. A
+ * plain sum of N steps walks at random: sqrt(N/3) u times the sum's power of two. A compensated sum keeps the rate to
+ * about u of itself, and the angle has a relative error of u. The constants of the step (its length, phase units a
+ * radian) are rounded by as much. */
 #include "command.h"
 #include "motion.h"
 
@@ -32,8 +32,8 @@ static double error_at(const char *name, const char *time, stepping how) {
     return error;
 }
 
-/* Walk of theta' (16 ... 32 rad/s towards the end) over so many steps, integrated to theta at 9 s:
- * a sum of rates that walk is off by 9 s / sqrt(3) times where the walk ends. */
+/* Walk of theta' (16 ... 32 rad/s at the end) over so many steps, integrated to theta at 9 s. A sum of rates that
+ * walk has an error of 9 s / sqrt(3) times the final walk. */
 static double gear_walk(double steps) { return sqrt(steps / 3.0) * 16.0 * U * 9.0 / sqrt(3.0); }
 
 static void test_float_on_the_epicyclic_gear(void) {
@@ -47,8 +47,8 @@ static void test_float_on_the_epicyclic_gear(void) {
     expect_within("S6 gain", 10.0, 1000.0, plain / compensated);
 }
 
-/* The motion amplifies a change made at the start 6e3-fold by 5 s (test_accuracy.c). theta2' goes up
- * to 16 rad/s: each step rounds it by up to 8 U. */
+/* The motion amplifies an initial change 6e3-fold by 5 s (test_accuracy.c). theta2' reaches 16 rad/s: each step
+ * rounds it by up to 8 U. */
 static void test_float_on_thomson_device(void) {
     const double amplified = 6e3 * U;
     const double plain = error_at("thomson_a", "5.0", IN_FLOAT_STEP(1e-3));
@@ -61,7 +61,7 @@ static void test_float_on_thomson_device(void) {
 
 /* --- the whole state, rates included, compensated, at every step ------------------------------------------ */
 
-/* The largest component's distance from double with a sixteenth of a millisecond; `start` as stepping has it. */
+/* Distance of the worst component from double with a step of 1/16 ms. */
 static double whole_error(const char *name, const char *start, double until_s, double step_s) {
     double value[2][3 * IMAGE_COMPONENTS_MAX];
     double worst = 0.0;
@@ -87,7 +87,7 @@ static double whole_error(const char *name, const char *start, double until_s, d
 
 enum { STARTS = 9 };
 
-/* The middle one of starts that differ by up to 4e-5 rad: chaos amplifies 2e4-fold, and one run alone is luck. */
+/* The median of starts that differ by up to 4e-5 rad: chaos amplifies 2e4-fold, so a single run is luck. */
 static double middle_error(const char *name, double until_s, double step_s) {
     double error[STARTS];
     for (int i = 0; i < STARTS; i++) {
@@ -103,9 +103,9 @@ static double middle_error(const char *name, double until_s, double step_s) {
     return error[STARTS / 2];
 }
 
-/* The step's own constants are in two parts, and those of the lists are floats: an error that grows as steps get smaller, or
- * with steps that are no floats, is not among those that are left. Of the gear without its carriage one constant is
- * rounded, 25/9, whatever one operation more can do. */
+/* The step's constants have two parts, the lists' are floats. The error must not grow as steps shrink, nor with steps
+ * that float cannot hold. The gear without its carriage has one rounded constant, 25/9; one operation more cannot
+ * remove it. */
 static void test_no_step_is_too_small_for_compensated_sums(void) {
     static const double step_s[] = {1e-3, 0.9e-4, 1e-5};
     const double theta_at_9s = 89.63;
@@ -118,7 +118,7 @@ static void test_no_step_is_too_small_for_compensated_sums(void) {
         expect_within(what, 0.0, theta_at_9s * U,
                       whole_error("epicyclic_conserved", NULL, 9.0, step_s[i]));
         snprintf(what, sizeof what, "S8c compensated, %g ms, whole state at 8 s", step_s[i] * 1e3);
-        if (i != 1) { /* no whole number of steps */
+        if (i != 1) { /* not a whole number of steps */
             expect_within(what, 5e-6, 1e-4, middle_error("thomson_a_conserved", 8.0, step_s[i]));
         }
     }
@@ -126,8 +126,8 @@ static void test_no_step_is_too_small_for_compensated_sums(void) {
 
 /* --- until when a chaotic trajectory is worth something ---------------------------------------------- */
 
-/* First time at which a position of thomson_a is 1e-3 (rad or m) off a run in double with steps of
- * 0.125 ms, which itself is off by 1e-9 at 8 s (test_convergence.c). */
+/* First time at which a position of thomson_a has an error of 1e-3 (rad or m). The reference is double with steps of
+ * 0.125 ms, whose error is 1e-9 at 8 s (test_convergence.c). */
 static double good_until_s(stepping how) {
     static const char *const names[] = {"theta1", "theta2", "X"};
     motion fine;
@@ -150,9 +150,8 @@ static double good_until_s(stepping how) {
     return time_s;
 }
 
-/* The motion amplifies a change made at the start 6e3-fold by 5 s, 2e4-fold by 9 s and 1e9-fold by
- * 10 s: an error of 200 U in all is 1e-3 at about 5 s, one of U or less gets beyond 9 s, and the
- * 1e-11 that double's step stands for cannot reach 10 s either. */
+/* The motion amplifies an initial change 6e3-fold by 5 s, 2e4-fold by 9 s and 1e9-fold by 10 s. An error of 200 U in
+ * all reaches 1e-3 at about 5 s, one of U or less after 9 s. The 1e-11 of double's step cannot reach 10 s either. */
 static void test_how_long_a_chaotic_trajectory_is_good(void) {
     expect_within("S8 good to 1e-3 until, s: float, 1 ms", 4.0, 8.5,
                   good_until_s(IN_FLOAT_STEP(1e-3)));
@@ -164,8 +163,7 @@ static void test_how_long_a_chaotic_trajectory_is_good(void) {
 
 /* --- many steps -------------------------------------------------------------------------------------- */
 
-/* Root mean square, over eight torques, of what float makes of theta and theta' at 5 s beyond what
- * double does with the same step. */
+/* RMS over eight torques of float's extra error in theta and theta' at 5 s, compared with double at the same step. */
 static double rms_of_float(double step_s, bool compensated) {
     enum { RUNS = 8 };
     double sum = 0.0;
@@ -227,8 +225,8 @@ static const char rotor[] = "mechanism rotor\n"
                             "  until 1 [s]\n"
                             "}\n";
 
-/* Constant rate, theta = rate * time: a million turns are right to the rounding of one product. The
- * same sum in float radians stops being one: half a radian is the least it can still tell apart. */
+/* theta = rate * time: after a million turns the error is that of one product. A sum in float radians resolves only
+ * half a radian there. */
 static void test_a_million_turns_at_constant_rate(void) {
     const double step_rad = 2500.0 / 1024.0; /* exact in float */
     const unsigned steps = 2573593;
@@ -265,9 +263,9 @@ static const char started[] = "mechanism started_rotor\n"
                               "  until 100 [s]\n"
                               "}\n";
 
-/* theta = a t^2/2 with a = 2^-14 and h = 2^-10 s: every rate is exact, so the angle's own rounding is
- * what is left. To the nearest it walks, sqrt(N/12) steps of 1.5e-9 rad; without their fractions
- * 1e5 steps would lose half of that each, 7e-5 rad. The constants of the step add 2 U of the angle. */
+/* theta = a t^2/2 with a = 2^-14 and h = 2^-10 s: every rate is exact, so only the angle is rounded. Rounded to
+ * nearest it walks by sqrt(N/12) steps of 1.5e-9 rad. Truncation would lose half of that in each of 1e5 steps, 7e-5
+ * rad. The constants of the step add 2 U of the angle. */
 static void test_angle_steps_are_rounded_not_cut(void) {
     const double N = 1e5;
     const double t = N / 1024.0;
@@ -283,7 +281,7 @@ static void test_angle_steps_are_rounded_not_cut(void) {
     }
 }
 
-/* A gear that starts a million turns on moves as one that starts at zero, to the bit. */
+/* A gear that starts a million turns on moves like one from zero, to the bit. */
 static void test_motion_after_a_million_turns_is_the_same(void) {
     static const char *const others[] = {"X", "theta'", "X'"};
     stepping how = IN_FLOAT;

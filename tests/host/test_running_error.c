@@ -1,6 +1,5 @@
-/* test_running_error.c: how far off a list's results may be for rounding, on drawn lists of every kind of operation, against
- * the definition: each operation's own rounding, and what its operands are off, times its slopes, which are taken
- * here as differences of its values. */
+/* test_running_error.c: bound on a list's round-off, for drawn lists of every operation. By definition it is each
+ * operation's own rounding plus the operands' errors times the slopes. Here the slopes are finite differences. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +13,7 @@ void suite_running_error(void);
 
 enum { LEAVES = 6, ANGLES = 2, DRAWN = 14, MOST_OPS = 80 };
 
-/* A list, and what each of its operations comes to at a state. */
+/* A list and its values at a state. */
 typedef struct drawn_list {
     op_list *list;
     double leaf[LEAVES];
@@ -36,7 +35,6 @@ static double phase_of(const drawn_list *l, const op *o) {
     return sum;
 }
 
-/* Of operands x and y. */
 static double computed(const drawn_list *l, const op *o, double x, double y) {
     switch (o->code) {
     case OP_CONSTANT: return o->value;
@@ -80,7 +78,7 @@ static bool takes_one(const op *o) {
            op_rows[o->code].kind == OP_IS_WAVE || op_rows[o->code].kind == OP_IS_CALL;
 }
 
-/* False where something has no value, is large, or is next to a place where its slope jumps. */
+/* False: a value is undefined, large, or near a jump of its slope. */
 static bool compute(drawn_list *l) {
     for (int i = 0; i < l->list->count; i++) {
         const op *o = &l->list->ops[i];
@@ -101,7 +99,7 @@ static bool compute(drawn_list *l) {
 
 /* --- errors ------------------------------------------------------------------------------------------------*/
 
-/* The size of the slope by the first operand, or by the second: a difference over this part of it. */
+/* Size of the slope by the first or second operand: a difference over this part of it. */
 static double slope(const drawn_list *l, const op *o, double x, double y, bool second,
                     double part) {
     const double step = part * fmax(1e-3, fabs(second ? y : x));
@@ -110,7 +108,7 @@ static double slope(const drawn_list *l, const op *o, double x, double y, bool s
     return fabs(up - down) / (2.0 * step);
 }
 
-/* What comes without a rounding of its own: what is stored, and what changes no digit. */
+/* Stored values and operations that change no digit have no rounding. */
 static bool is_exact(op_code code) {
     return code == OP_LINEAR || code == OP_RATE || code == OP_INPUT || code == OP_ACCEL ||
            code == OP_TIME || code == OP_RADIANS || code == OP_NEG || code == OP_ABS ||
@@ -133,11 +131,11 @@ static void define(const drawn_list *l, double least, double part, double *error
         const double y = takes_two(o) ? l->value[o->b] : 0.0;
         error[i] = takes_one(o) ? slope(l, o, x, y, false, part) * error[o->a] : 0.0;
         error[i] += takes_two(o) ? slope(l, o, x, y, true, part) * error[o->b] : 0.0;
-        if (o->code == OP_CONSTANT) { /* what a float holds is exact */
+        if (o->code == OP_CONSTANT) { /* a constant that float holds is exact */
             error[i] = (double)(float)o->value == o->value ? 0.0 : fabs(o->value);
         } else if (o->code == OP_PHASE) {
             error[i] = phase_error(l, o, error);
-        } else if (o->code == OP_SIN || o->code == OP_COS) { /* as of a table of them: of 1 */
+        } else if (o->code == OP_SIN || o->code == OP_COS) { /* as from a table: relative to 1 */
             error[i] += 1.0;
         } else if (!is_exact(o->code)) {
             error[i] += fmax(fabs(l->value[i]), least);
@@ -181,7 +179,7 @@ static int draw_op(dice *d, op_list *t, int a, int b) {
     }
 }
 
-/* Of leaves and of what is made of them; its results are the last operations and some others. */
+/* The results are the last operations and some others. */
 static void draw_list(dice *d, drawn_list *l) {
     int made[LEAVES + DRAWN];
     l->list = op_list_new(ANGLES, 4);
@@ -221,7 +219,7 @@ static void test_drawn_lists(void) {
             rounding_of(l.list, &at, got);
             for (int i = 0; i < 4; i++) {
                 const double error = wanted[l.list->result[i]];
-                /* else a difference reaches to where a function bends sharply, or ends */
+                /* else the difference reaches a sharp bend or the end of a function */
                 if (fabs(coarser[l.list->result[i]] - error) < 1e-4 * error) {
                     TEST_ASSERT_DOUBLE_WITHIN(1e-3 * error, error, got[i]);
                     held++;
@@ -242,7 +240,7 @@ static void test_drawn_lists(void) {
     }
 }
 
-/* What rounds a sum or a root of nothing, exactly: nothing, but for what is too small to be a normal number. */
+/* A sum or root of zero operands is exact: no error, except for underflow. */
 static void test_nothing_is_off_by_nothing(void) {
     op_list *t = op_list_new(0, 2);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
@@ -261,7 +259,7 @@ static void test_nothing_is_off_by_nothing(void) {
     op_list_free(t);
 }
 
-/* z/(x*y): float has no room for a product beyond its largest number, and all that it divides is lost; double has. */
+/* z/(x*y): a product above float's largest number destroys the quotient; double holds it. */
 static void test_what_is_beyond_float(void) {
     dice d = dice_of("running_error", 2316);
     op_list *t = op_list_new(0, 1);
@@ -290,7 +288,7 @@ static void test_what_is_beyond_float(void) {
     op_list_free(t);
 }
 
-/* What has no bound has none behind a division either: z/(y + sqrt(x + w)) where that root is of nothing. */
+/* An infinite bound stays infinite after a division: z/(y + sqrt(x + w)) with a root at zero. */
 static void test_no_bound_stays_none(void) {
     dice d = dice_of("running_error", 2317);
     op_list *t = op_list_new(0, 1);

@@ -1,6 +1,6 @@
-/* test_show.c: every expression of the language, printed, is read back by the language's own parser as the
- * same thing, and is LaTeX that compiles (latex.h). Random expressions and mechanisms, the same ones every
- * time; SHOW_CASES=N in the environment takes N of them instead of some hundreds. */
+/* test_show.c: printed expressions: the language's parser reads them back as the same expression, and their LaTeX
+ * compiles (latex.h). Random expressions and mechanisms with fixed seeds; SHOW_CASES=N takes N of them instead of
+ * some hundreds. Also events. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -56,7 +56,7 @@ static char *shown(algebra *a, const poly *p, show_style style) {
     return text;
 }
 
-/* What never is, a derivation refuses. */
+/* A derivation refuses one that is never finite. */
 static bool is_ever_finite(const poly *p, uint64_t *seed) {
     bool finite = false;
     for (int k = 0; k < 8 && !finite; k++) {
@@ -66,7 +66,7 @@ static bool is_ever_finite(const poly *p, uint64_t *seed) {
     return finite;
 }
 
-/* Each expression and its slope, which has more powers still. */
+/* Each expression and its slope, which has more powers. */
 enum { BATCH = 10, FORMULAS = 2 * BATCH };
 
 static int check_batch(uint64_t *seed, int depth, int tame) {
@@ -92,8 +92,7 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
         count++;
     }
     int kept = 0;
-    const bool overflowed =
-        algebra_overflow(a); /* before printing; printing may overflow as well */
+    const bool overflowed = algebra_overflow(a); /* before printing, which may overflow as well */
     for (int i = 0; i < count && !overflowed; i++) {
         if (!is_ever_finite(p[i], seed)) {
             continue;
@@ -145,7 +144,7 @@ static void test_expressions_are_read_back_as_printed(void) {
 
 /* --- whole mechanisms ------------------------------------------------------------------------------*/
 
-/* The formulas between `from` and the line's end, parted by " = ": their copies, to be freed. */
+/* Copies of the formulas from `from` to the line's end, separated by " = ". */
 static int formulas_of(char *line, char **formula) {
     int count = 0;
     for (char *next = line; next != NULL; line = next) {
@@ -159,7 +158,7 @@ static int formulas_of(char *line, char **formula) {
     return count;
 }
 
-/* Both sides of an equation as printed against what was derived: A q'' - f. */
+/* Both sides of a printed equation against the derived one: A q'' - f. */
 static int compare_sides(const equations *e, int row, const read_back *b, const char *text,
                          uint64_t *seed) {
     algebra *a = e->algebra;
@@ -194,7 +193,7 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     return good ? top / bottom : (double)NAN; /* it has products of these */
 }
 
-/* LaTeX: what stands between \begin{align} and \end{align}. */
+/* The text between \begin{align} and \end{align}. */
 static void check_align(const derived *d) {
     char *text = printed(d, LATEX);
     int blocks = 0;
@@ -214,7 +213,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
     TEST_ASSERT_NOT_NULL(source_text);
     expression_mechanism(depth, seed, source_text, TEXT_SIZE);
     derived d = derived_text(source_text);
-    if (d.equations == NULL) { /* never finite, say */
+    if (d.equations == NULL) { /* for example never finite */
         TEST_ASSERT_TRUE_MESSAGE(strstr(d.errors, "finite") != NULL ||
                                      strstr(d.errors, "grow beyond") != NULL,
                                  d.errors);
@@ -299,8 +298,8 @@ static double q_or_n(void *context, const char *name, int length) {
                           : n;
 }
 
-/* Factored, this right side would have a square of a large sum in it, multiplied out: that overflows. It used to be
- * printed without what overflowed. */
+/* Factored, this right side would contain the expanded square of a large sum, which overflows. Once the print lacked
+ * the overflowed part. */
 static void test_printing_outlives_an_overflow(void) {
     char *source_text =
         repeated("mechanism m\ncoordinate q\nparameter n = 0.1\nlet a0 = q\n",
@@ -348,7 +347,7 @@ static const char text[] =
     "effect wall { stop x <= 3 [m] restitution e }\n"
     "stop x >= 0 [m] restitution e^2\n";
 
-/* The events stand in what is printed, in their order, with `mark` before each. */
+/* The events appear in order, each after `mark`. */
 static void expect(void (*print)(FILE *, const derived *), const char *mark, bool wanted) {
     static const char *const lines[] = {"stop x >= 0, restitution e^2", "hold phi' = 0 while",
                                         "friction on phi: sticks up to 6*mu, slides with 3*mu",
@@ -391,7 +390,7 @@ static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "blo
 
 static void test_events_stand_beside_the_equations(void) {
     expect(as_text, "", true);
-    expect(as_octave, "%", true); /* comments: no part of the function */
+    expect(as_octave, "%", true); /* comments: not part of the function */
 }
 
 static void test_no_events_no_word_of_them(void) {
@@ -400,7 +399,7 @@ static void test_no_events_no_word_of_them(void) {
     expect(as_octave, "%", false);
 }
 
-/* Lines of a text that begin with the words, LaTeX's comments apart. */
+/* Lines that begin with the words, after any LaTeX comment mark. */
 static int lines_with(const char *all, const char *words) {
     int found = 0;
     for (const char *line = all; (line = strchr(line, '\n')) != NULL;) {
@@ -410,7 +409,7 @@ static int lines_with(const char *all, const char *words) {
     return found;
 }
 
-/* A compiled page of LaTeX prints the rows, and they are no wider than A4 between margins of an inch. */
+/* The rows compile in LaTeX and fit A4 between margins of an inch. */
 static void check_rows(const char *name, const char *all) {
     enum { PAPER = 455 };
     static const char begin[] = "\\begin{align*}";
@@ -424,7 +423,7 @@ static void check_rows(const char *name, const char *all) {
     free(rows);
 }
 
-/* Every form names each contact of the file and each `when` of the scene that takes part. */
+/* Every form lists each contact of the file and each active `when` of the scene. */
 static int check_scene(const scene *of) {
     static const char *const begins[][2] = {{"  stop ", "  \\text{stop, "},
                                             {"  friction on ", "  \\text{friction on } "},

@@ -1,6 +1,5 @@
-/* test_simulated.c: one run from start to end (host/check/simulate.h), in this process: its rows, of scenes in which each is
- * known in closed form; what is said of a run that is interrupted, diverges, has an output that ends, or is not believed; files
- * that cannot be written; and all is given back. */
+/* test_simulated.c: a run from start to end (host/check/simulate.h) in this process: rows with closed forms; the
+ * report of a run that is interrupted, diverges, has an output that ends, or is not trusted; write errors; and leaks. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -38,7 +37,7 @@ static void begin(void) {
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
 }
 
-/* What was taken is given back, and nothing else was left in the folder. */
+/* No leaks, and no other files in the folder. */
 static void end(void) {
     static const char *const names[] = {"r.csv", "r.csv.toml", "r.txt", "r.vcd", "r.svg"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -56,7 +55,7 @@ static derived scene_of(const char *text) {
 
 static unsigned fails; /* findings of the last run, as bits */
 
-/* What it said; static. */
+/* Its messages; static. */
 static const char *simulated(const image *im, const simulation_settings *s,
                              simulation_result wanted) {
     simulation_trust trust;
@@ -95,7 +94,7 @@ static const char steady[] =
     "output twice [m] = 2*x\noutput far [km] = 1000*x\n"
     "scene s { start x = %.17g [m], x' = %.17g [m/s], a' = %.17g [rad/s]; step 1 [ms]; until 1 [s] }\n";
 
-/* Of what moves evenly each number of each row is known. Read as the two forms separate them. */
+/* In an even motion each number of each row is known. Parsed by the separators of both forms. */
 static void expect_rows(const char *text, const char *header, const char *between, const char *end,
                         const double *start, uint64_t every, uint64_t steps) {
     const char *at = said_exactly(text, header);
@@ -146,7 +145,7 @@ static void test_rows(void) {
     end();
 }
 
-/* Free bodies of which some are integrated and some follow from their momenta: all are where they should be, each in its unit. */
+/* Free bodies, some integrated and some following from their momenta, each in its unit. */
 static void test_rows_of_what_follows_from_its_momentum(void) {
     static const double of_si[] = {1e3, 1.0, 1e2};
     begin();
@@ -200,7 +199,7 @@ static void test_rows_of_what_follows_from_its_momentum(void) {
 
 /* --- the summary --------------------------------------------------------------------------------------------------*/
 
-/* Runs with the summary on standard error, and the records out of the way. */
+/* The summary goes to standard error, the records to a discarded file. */
 static const char *summary_of(const image *im) {
     const simulation_settings s = {.kind = &engine_double, .every = 1, .csv = "-"};
     fflush(stdout);
@@ -213,7 +212,6 @@ static const char *summary_of(const image *im) {
     return told;
 }
 
-/* Two runs of one scene print the same summary, so that a diff of two summaries shows only how the runs differ. */
 static void test_summary_repeats(void) {
     static char first[TEXT];
     begin();
@@ -232,7 +230,7 @@ static void test_summary_repeats(void) {
 
 /* --- interrupted -------------------------------------------------------------------------------------------------*/
 
-/* It is asked before each step: the rows are those until then. */
+/* The interrupt is checked before each step; the rows end there. */
 static void test_interrupted(void) {
     char text[500];
     begin();
@@ -256,7 +254,7 @@ static void test_interrupted(void) {
             TEST_ASSERT_EQUAL_INT(2, lines_in(rows));
         }
     }
-    /* of what was not run to its end, no digits are judged */
+    /* no accuracy is reported for an incomplete run */
     derived far =
         scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nscene s { start x = 1e6 "
                  "[m], x' = 1 [m/s]; step 1 [ms]; until 1 [s] }\n");
@@ -264,7 +262,7 @@ static void test_interrupted(void) {
     TEST_ASSERT_EQUAL_STRING("whirl run: interrupted at t = 0 s of 1 s\n",
                              simulated(far.image, &float_settings, SIMULATION_INTERRUPTED));
     derived_free(&far);
-    d.image->steps = 0; /* done before anybody asks */
+    d.image->steps = 0; /* done before the first check */
     const simulation_settings s = {.kind = &engine_double, .every = 1, .quiet = true};
     TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
     interrupted = 0;
@@ -308,8 +306,8 @@ static void test_held_values(void) {
 
 /* --- what is no number -------------------------------------------------------------------------------------------*/
 
-/* sqrt(c - x) of x = t is none from the first step behind c on: in how many records that is, and when first; without records it
- * is looked at in the end. */
+/* sqrt(c - x) of x = t is undefined from the first step after c on. The report has the count and first time of such
+ * records; without records it checks the end. */
 static void test_outputs_that_end(void) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
@@ -364,7 +362,7 @@ static void test_outputs_that_end(void) {
     end();
 }
 
-/* x' = x^n passes all bounds at a known time: it is said of the unknown that it is, with its primes; the records end there. */
+/* x' = x^n diverges at a known time. The message names the unknown with its primes, and the records end there. */
 static void test_diverged(void) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {

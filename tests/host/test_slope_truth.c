@@ -1,6 +1,6 @@
-/* test_slope_truth.c: what the rig's measurement makes of motors whose torque line has another slope than the one configured,
- * through a cell with noise and marks with jitter: against a rotor integrated finely in double (rig_orbit.c). Seeds are
- * fixed; WHIRL_FULL=1 (`make rig-truth`) takes 200 runs of each kind, and prints what the load says. */
+/* test_slope_truth.c: the rig's measurement with motors whose torque slope differs from the configured one, with
+ * noise and jitter. The reference is a rotor integrated finely in double (rig_orbit.c). Seeds are fixed; WHIRL_FULL=1
+ * (`make rig-truth`) takes 200 runs of each kind and prints the loads. */
 #include <math.h>
 #include <stdio.h>
 
@@ -19,11 +19,11 @@ static rig_orbit orbit;
 
 typedef struct tally {
     unsigned good;
-    unsigned doubted;   /* for the swing's sake */
-    unsigned lies;      /* good, and off by more than the interval and 1 % */
-    unsigned prevented; /* doubted, and off by as much */
-    double said_rad;    /* sums: what the load says, */
-    double phase_rad;   /* and the error of the phase */
+    unsigned doubted;   /* because of the swing */
+    unsigned lies;      /* marked good, with an error above the interval plus 1 % */
+    unsigned prevented; /* doubted, with such an error */
+    double said_rad;    /* sum of the reported loads */
+    double phase_rad;   /* sum of the phase errors */
 } tally;
 
 static bool is_off(const wh_measured *measured) {
@@ -56,8 +56,8 @@ static tally measure_many(double cell_N, unsigned runs, uint64_t seed) {
     return found;
 }
 
-/* What is good is right: always with the cell's own noise; with more an interval for 95 % leaves some out, whatever the motor.
- * And the right slope never makes a doubt. */
+/* A good result is right: always with the cell's own noise. With more noise a 95 % interval misses some, with any
+ * motor. The right slope never causes a doubt. */
 static void test_other_slopes(void) {
     static const double rpms[] = {170.0, 200.0, 260.0, 330.0};
     static const double slopes[] = {0.0, 0.3, 0.5, 0.8, 1.0, 1.3, 1.5};

@@ -1,5 +1,5 @@
-/* test_slow_angles.c: it is told of a float angle whose steps are too small for its units, and of no other:
- * measured by how far it gets, against the same run in double. WH_SLOW=N: so many random rotors. */
+/* test_slow_angles.c: warning about float angles whose steps are too small for their units, and only those. The
+ * reference is the same run in double. WH_SLOW=N: number of random rotors. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ static double random_share(void) { /* xorshift64 (Marsaglia, 2003) */
     return (double)(seed_now >> 11) * 0x1p-53;
 }
 
-/* Where an angle got to, and whether it is told of. */
+/* Final angle, and whether there was a warning. */
 typedef struct outcome {
     double way_rad;
     bool told;
@@ -52,8 +52,8 @@ static stepping in_float(wh_method method, bool compensated, double step_s) {
 static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                             "scene s { start a = %.17g, a' = %.17g [rad/s] }\n";
 
-/* By how much the angle is off is what decides, with room for the rounding of rates and constants, and for
- * where it was at its worst before the end. */
+/* The error of the angle decides, with an allowance for round-off of rates and constants, and for a larger error
+ * before the end. */
 static void test_slow_rates_are_told_and_others_are_not(void) {
     const char *wanted = getenv("WH_SLOW");
     const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;
@@ -62,7 +62,7 @@ static void test_slow_rates_are_told_and_others_are_not(void) {
     seed_now = UINT64_C(0x510a);
     printf("  %d rotors, seed %" PRIx64, count, seed_now);
     for (int i = 0; i < count; i++) {
-        /* 1e-13 to 1e-3 rad a step, in steps from a microsecond to a second, either way round */
+        /* 1e-13 to 1e-3 rad a step, in steps from a microsecond to a second, in both directions */
         const double step_rad =
             (i % 2 != 0 ? -1.0 : 1.0) * pow(10.0, -13.0 + 10.0 * random_share());
         const double step_s = pow(10.0, -6.0 + 6.0 * random_share());
@@ -150,8 +150,8 @@ static void test_of_other_motions_those_that_are_false(void) {
     }
 }
 
-/* In a step with events some tries are thrown away: what is asked of the kept ones is all there is. A body
- * beside the angle crosses a point every third step, which changes nothing. */
+/* In a step with events some tries are discarded; only accepted ones count. A second body crosses a point every third
+ * step, which must change nothing. */
 static void test_steps_with_events_count_once(void) {
     static const char text[] = "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
                                "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2\nV = 1e6 [N/m]*x^2/2\n"

@@ -1,5 +1,5 @@
-/* test_springs.c: the scene springs_ring, whose forces take every function that the core has, against its
- * equations written down by hand, integrated by the classic Runge-Kutta method in long double with libm. */
+/* test_springs.c: the scene springs_ring, whose forces use every function of the core, compared with its equations by
+ * hand, integrated by classic Runge-Kutta in long double with libm. */
 #include <math.h>
 #include <stdio.h>
 
@@ -14,7 +14,7 @@ typedef struct plane {
     long double x, y, vx, vy;
 } plane;
 
-/* The forces on the block, law by law, as core/models/springs.whirl tells them in words. */
+/* The forces on the block, as in core/models/springs.whirl. */
 static plane slope_of(plane at) {
     const long double m = 2.0L;
     const long double strap = -300.0L * logl(at.x) / at.x;
@@ -50,7 +50,7 @@ static plane stepped(plane at, long double h) {
     return moved(at, k4, h / 6.0L);
 }
 
-/* Largest distance in 5 s, from the reference at an eighth of the step. */
+/* Largest distance within 5 s from the reference, which has an eighth of the step. */
 static double distance(stepping how) {
     motion m;
     motion_open(&m, "springs_ring", how);

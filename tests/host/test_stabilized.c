@@ -1,5 +1,5 @@
-/* test_stabilized.c: energy that is given back (core/step/stabilize.h), on drawn chains of pendulums on a cart, whose energy is
- * computed here from places and velocities; and what is left alone by it. */
+/* test_stabilized.c: energy restored by --stabilized (core/step/stabilize.h), for drawn chains of pendulums on a
+ * cart. The test computes their energy from positions and velocities. Also motions that must not change. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,10 +16,10 @@ void suite_stabilized_beside(void);
 
 /* === stabilized =============================================================================== */
 
-enum { LINKS = 3, TEXT = 4096, GO = 41, WINDOW = 25 }; /* steps; goes that make some 1024 */
+enum { LINKS = 3, TEXT = 4096, GO = 41, WINDOW = 25 }; /* steps; iterations that make about 1024 */
 #define GRAVITY 9.81
 
-/* Point masses on rods, one behind the other, from a cart on a spring. Angles are from the vertical. */
+/* Point masses on rods in a chain, from a cart on a spring. Angles are from the vertical. */
 typedef struct chain {
     int links;
     double cart_kg;
@@ -27,7 +27,7 @@ typedef struct chain {
     double mass_kg[LINKS];
     double length_m[LINKS];
     double start_rad[LINKS];
-    double fastest; /* rad/s, or some way above it */
+    double fastest; /* rad/s, or somewhat above it */
 } chain;
 
 static chain drawn_chain(dice *d) {
@@ -77,7 +77,7 @@ static void write_chain(const chain *c, char text[static TEXT]) {
     snprintf(text + at, TEXT - (size_t)at, "\nstep 1 [ms]\nuntil 1e6 [s]\n}\n");
 }
 
-/* Kinetic and potential energy, counted from where all hangs. */
+/* Kinetic and potential energy above the hanging rest. */
 static double energy_J(const chain *c, const motion *m) {
     const double x = motion_value(m, "s");
     double vx = motion_value(m, "s'");
@@ -98,8 +98,8 @@ static double energy_J(const chain *c, const motion *m) {
     return sum;
 }
 
-/* The energies' largest term, of which the books have digits, in parts of the energy of a start at rest: V is counted from
- * the cart's height, and where all hangs it is far from zero. */
+/* The largest energy term relative to the initial energy at rest. It limits the digits of the balance: V is relative
+ * to the cart's height, so it is large when all hangs. */
 static double terms_of(const chain *c) {
     double terms = 0.0;
     double begin = 0.0;
@@ -115,7 +115,7 @@ static double terms_of(const chain *c) {
 }
 
 typedef struct drift {
-    double first; /* largest part of the energy that was missing or too much, in the first half */
+    double first; /* largest relative energy error in the first half */
     double second;
     double whole;
     double last;
@@ -145,13 +145,13 @@ static drift drift_of(const chain *c, stepping how, uint64_t steps) {
     return seen;
 }
 
-/* A thousandth of the drift is given back in each step: so what is missing is at most some times what goes in a thousand
- * steps, however many there are. */
+/* Each step restores a thousandth of the drift. So the deficit is at most a few times the loss of a thousand steps,
+ * in a run of any length. */
 static void test_energy_stays(void) {
     static const struct {
         const engine_kind *kind;
         bool compensated;
-        double rounds; /* what the last digits leave, of the energies' terms */
+        double rounds; /* round-off relative to the energies' terms */
     } numbers[] = {
         {&engine_float, true, 5e-7}, {&engine_double, true, 1e-12}, {&engine_double, false, 1e-12}};
     dice d = dice_of("stabilized", 20261128);
@@ -159,7 +159,7 @@ static void test_energy_stays(void) {
     const uint64_t steps = usual_or(200000, 40000);
     double most[3] = {0.0, 0.0, 0.0};
     double without = 0.0;
-    unsigned bursts = 0; /* what is chaotic may lose more in its second half */
+    unsigned bursts = 0; /* a chaotic motion may lose more in its second half */
     for (unsigned i = 0; i < cases; i++) {
         const chain c = drawn_chain(&d);
         /* coarse enough for RK4 to lose energy */
@@ -188,7 +188,7 @@ static void test_energy_stays(void) {
     TEST_ASSERT_TRUE(without > 1e-5 && bursts <= cases / 20);
 }
 
-/* Largest distance of the coordinates at the end from those of a run in double by an eighth of the step. */
+/* Largest final distance of the coordinates from double with an eighth of the step. */
 static double way_off(const char *text, const chain *c, stepping how, double end_s) {
     double end[2][LINKS + 1];
     stepping fine = {.kind = &engine_double, .method = WH_NYSTROEM5, .compensated = true};
@@ -213,8 +213,7 @@ static double way_off(const char *text, const chain *c, stepping how, double end
     return most;
 }
 
-/* A motion that is driven and damped, for which the energy is what the books say, goes where it goes without: about as
- * near to the truth. */
+/* In a driven and damped motion with a right energy balance, the error is about the same with and without. */
 static void test_motion_is_left_alone(void) {
     dice d = dice_of("stabilized motions", 20261129);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 80)), 4);
@@ -244,7 +243,7 @@ static void test_motion_is_left_alone(void) {
     printf("%u motions: at most %.1e off after 8 s\n", cases, worst);
 }
 
-/* What rests goes on resting, and where no rate has energy to give none is asked. */
+/* Without a rate that has energy to give, nothing is restored. */
 static void test_rest_stays_rest(void) {
     dice d = dice_of("stabilized rests", 20261130);
     for (unsigned i = 0; i < 10; i++) {
@@ -265,7 +264,7 @@ static void test_rest_stays_rest(void) {
     }
 }
 
-/* `whirl run` of the text with these options, NULL behind the last. */
+/* `whirl run` with these options; NULL ends them. */
 static void run_with(const char *text, const char *const *options, said *what) {
     const char *words[8] = {model_keep(text)};
     for (int k = 0; options[k] != NULL; k++) {
@@ -276,8 +275,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, what->err);
 }
 
-/* A step that is too coarse is not made to look good: what loses the hundredth that is warned of in a thousand steps still
- * does, and is warned of. */
+/* Stabilization must not hide a coarse step: a loss of one hundredth in a thousand steps still gives the warning. */
 static void test_coarse_steps_are_told(void) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
@@ -296,8 +294,8 @@ static void test_coarse_steps_are_told(void) {
     }
 }
 
-/* Two masses, a slow swing of both and a fast one of each against the other, which has part of the energy and is too fast for
- * the step: what it loses is given to both. So it is told as it is without. */
+/* Two masses with a slow common swing and a fast relative one, too fast for the step. Its loss is given to both, so
+ * the warning must be the same as without. */
 static void test_what_others_lost_is_told(void) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
@@ -327,7 +325,7 @@ static void test_what_others_lost_is_told(void) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* How far `name` is at the end from where it is without, which is right there. */
+/* Final distance of `name` from the run without, which is right there. */
 static double apart(const char *text, const char *name, stepping plain, double end_s) {
     double end[2];
     for (int way = 0; way < 2; way++) {
@@ -341,8 +339,8 @@ static double apart(const char *text, const char *name, stepping plain, double e
     return fabs(end[0] - end[1]);
 }
 
-/* A swing that shows in no coordinate, and is too fast for half the step, too: what it loses goes into one whose period depends
- * on its energy. And a light pendulum beside one that hangs, so heavy that its energy's last digits are part of the light one's. */
+/* A hidden swing, too fast even for half the step, loses energy into one whose period depends on energy. Second, a
+ * light pendulum next to one so heavy that its last digits of energy matter to the light one. */
 static void test_what_is_made_wrong_is_not_trusted(void) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
@@ -396,15 +394,14 @@ void suite_stabilized(void) {
 }
 
 /* === stabilized beside ======================================================================== */
-/* What --stabilized does to what is slow beside a swing: a wheel or a cart that goes on by itself with
- * a small part of the energy, which the swing loses to its step. By the closed form of what a step loses, (h w)^6/72 of a swing's
- * energy with Runge-Kutta 4, all rates are to get the same part; were more given where the swing turns back, the slow one, which
- * moves there alone, would get most of it. */
+/* Effect of --stabilized on a slow motion next to a swing: a free wheel or cart with little energy. The swing loses
+ * (h w)^6/72 of its energy a step with Runge-Kutta 4. All rates must get the same part. If more were restored at the
+ * swing's turning points, the slow motion would get most of it. */
 
 typedef struct beside {
     double step_s;
     double angular_radps; /* of the swing */
-    double slow;          /* its rate, in parts of the swing's fastest */
+    double slow;          /* its rate relative to the swing's fastest */
     double start_m;
     double start_mps;
     bool is_angle; /* the slow one */
@@ -425,7 +422,7 @@ static double amplitude_m(const beside *b) {
     return sqrt(b->start_m * b->start_m + other_m * other_m);
 }
 
-/* Largest part by which the slow rate has changed. */
+/* Largest relative change of the slow rate. */
 static double slow_off(const beside *b, stepping how, uint64_t steps) {
     char text[900];
     motion m;

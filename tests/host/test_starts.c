@@ -1,6 +1,6 @@
-/* test_starts.c: whether a run can start: drawn scenes with stops on some of their coordinates, of which any may be passed,
- * and with losses on some of their rates, which methods of kicks at positions do not take. Each stop that is passed is
- * told, where it stands and by how much, and no other; the coordinate that is told is the first with a loss. */
+/* test_starts.c: checks of a start: drawn scenes with stops on coordinates, any of which may be passed, and with
+ * losses on rates, which kick-drift methods do not take. The report has each passed stop with its place and depth,
+ * and no other. For losses it has the first coordinate. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -140,8 +140,8 @@ static void test_kicks_know_no_rates(void) {
     }
 }
 
-/* Angles whose sines are asked for, any of which starts further than float counts its turns: each is told, where it is declared or
- * started, and no other. */
+/* Angles used in sines that start further than float counts turns: the report names each, at its declaration or
+ * start, and no other. */
 static void test_angles_that_start_too_far(void) {
     dice d = dice_of("starts", 2317);
     for (unsigned n = few_or_all(60, 600); n > 0; n--) {
@@ -189,7 +189,7 @@ static void test_angles_that_start_too_far(void) {
     }
 }
 
-/* Of coordinates that are integrated from their momenta the first is told. */
+/* The report has the first coordinate that follows from its momentum. */
 static void test_momenta_are_no_kicks(void) {
     for (int first = 0; first < 3; first++) {
         char text[TEXT];

@@ -1,5 +1,6 @@
-/* test_stepping.c: one run of a sweep, measured (host/study/point.h): against samples that the test takes of the same steps,
- * and closed forms of the motions; which samples count; how a run is given up; and why one has no measures, by its words. */
+/* test_stepping.c: measures of one run of a sweep (host/study/point.h), compared with the test's own samples and with
+ * closed forms: which samples count, early stops, and the reasons why a run has no measures. Also settings of a
+ * sweep. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +32,6 @@ enum { MEASURES_MOST = 8, SAMPLES_MOST = 6000 };
 
 static dice die;
 
-/* What came of a point. */
 typedef struct measured_point {
     bool good;
     double value[MEASURES_MOST + 1];
@@ -71,7 +71,6 @@ static const engine_kind *drawn_kind(void) {
 
 /* --- against samples of one's own ------------------------------------------------------------------------------*/
 
-/* A swing, an angle that turns, and an output of both. */
 static derived drawn_swing(double *omega_radps) {
     char text[1000];
     const double k = dice_between(&die, 250.0, 900.0);
@@ -100,7 +99,7 @@ static double sample_of(const engine_kind *kind, void *run, channel from) {
     return output[from.index];
 }
 
-/* What the measure comes to, of samples from `from` on. */
+/* The measure of the samples from `from` on. */
 static double worth(measure_kind kind, const double *sample, int from, int count) {
     double least = sample[from];
     double most = sample[from];
@@ -177,7 +176,7 @@ static void test_samples(void) {
     }
 }
 
-/* Its period is that of the spring, whatever is measured beside it; float angles that hardly turn are counted. */
+/* The period is the spring's, with any other measures; slow float angles count. */
 static void test_period(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         double omega_radps;
@@ -194,7 +193,7 @@ static void test_period(void) {
         drop(&p);
         derived_free(&s);
     }
-    /* what hardly swings has a period, as far as its numbers tell it apart from rounding */
+    /* a small swing has a period if its numbers resolve it */
     double omega_radps;
     derived little = drawn_swing(&omega_radps);
     const measured period = {MEASURE_PERIOD, "l", {FROM_OUTPUT, 2}};
@@ -224,7 +223,7 @@ static void test_period(void) {
 
 #define CLOCK "mechanism m\nstate x [s]\nequation x' = 1\n"
 
-/* What it has counted until then is what is measured, of any number of steps, where no sample is kept. */
+/* Measures without samples cover the steps until the stop. */
 static void test_given_up(void) {
     derived longest =
         scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
@@ -238,7 +237,7 @@ static void test_given_up(void) {
     derived_free(&longest);
 }
 
-/* It has no measures, which is said: a reason on a line of its own, or an error at its place. */
+/* A run without measures has a reason on a line of its own, or an error with its place. */
 static void expect_failed(const char *text, const measuring *w, const char *reason,
                           const char *error) {
     derived s = scene_of(text);
@@ -257,7 +256,7 @@ static void test_failed(void) {
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
                   "--from 1.5 s lies behind the last step", "");
-    list.kind = MEASURE_FINAL; /* which takes no series: any time will do */
+    list.kind = MEASURE_FINAL; /* needs no series: any time will do */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
     measured_point p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
@@ -272,7 +271,7 @@ static void test_failed(void) {
     w.from_s = 0.0;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
                   "period() takes at most 1e+08 samples: a later --from or a larger step", "");
-    /* 1/x of x = 1 - t, whose step to 0 is the last that is good: an output that is none at the end */
+    /* 1/x of x = 1 - t: the step to 0 is the last good one, and the output is undefined there */
     list = (measured){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
                   "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
@@ -284,8 +283,8 @@ static void test_failed(void) {
                   &w, "the measure 'large' is not a finite number: what it takes is too large", "");
 }
 
-/* x' = x^2 from 1/t1 on is 1/(t1 - t): gone in the step in which t1 lies, or in the one behind it. And a root that is none
- * from t1 on, which is told at its place. */
+/* x' = x^2 from 1/t1 is 1/(t1 - t): it ends in the step of t1 or the next. Also a root undefined from t1 on, reported
+ * with its place. */
 static void test_diverged(void) {
     const measured list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
     for (int c = 0; c < 6; c++) {
@@ -324,7 +323,7 @@ static void test_diverged(void) {
     }
 }
 
-/* An energy that is none, while the motion goes on: told at its place, with its time. */
+/* An energy becomes undefined while the motion goes on: reported with place and time. */
 static void test_energies(void) {
     const measured list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
     for (int c = 0; c < 2; c++) {
@@ -355,11 +354,10 @@ static void test_contacts(void) {
 
 /* --- whole runs ------------------------------------------------------------------------------- */
 
-/* What `whirl sweep` measures of whole runs, of motions whose measures are known in closed form:
- * of coordinates, outputs and expressions, from the start or from later on, of runs of few steps.
- * */
+/* Measures of `whirl sweep` over whole runs with closed forms: of coordinates, outputs and expressions, from the
+ * start or later, with few steps. */
 
-/* What moves by itself at v from a: x = a + v t, at each of n + 1 ends of steps. */
+/* A free motion x = a + v t at each of n + 1 ends of steps. */
 static void write_free(char *text, size_t size, double a, unsigned steps) {
     snprintf(text, size,
              "mechanism free\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n"
@@ -384,7 +382,7 @@ static double wanted(int measure_stepping, double a, double v, double from_s, do
     case 3: return 2.0 * fmin(first, last);
     case 4: return first + last;
     case 5: return 0.5 * fabs(last - first);
-    /* the chords' mean of a parabola: a step's is v^2 h^2/6 above the curve's */
+    /* mean of a parabola by chords: v^2 h^2/6 a step above the curve's */
     case 6:
         return (first * first + first * last + last * last) / 3.0 +
                (n > 0.0 ? v * v * 0.125 * 0.125 / 6.0 : 0.0);
@@ -450,12 +448,12 @@ void suite_stepping(void) {
 }
 
 /* === sweep settings =========================================================================== */
-/* A sweep's header, the settings that stand beside its file, and its points as workers run them: each
- * way in which one ends, which gives everything back. */
+/* A sweep's header, the settings stored with its file, and its points as run by workers: each way a point ends frees
+ * all memory. */
 
 /* --- headers and settings ----------------------------------------------------------------------------------------*/
 
-/* As RFC 4180 has it: read back, they are the names. */
+/* RFC 4180: parsed, the fields are the names. */
 static void test_headers(void) {
     static const char *const asked[] = {"x",      "max(x, y)", "amplitude(x)", " x' ",
                                         "x\t+ y", "max(x,y)",  "min(y)",       "2*x"};
@@ -505,7 +503,7 @@ static const char settings_text[] =
     "F += b*x'^2/2 }\n"
     "effect tug { F += 1 [N*s/m]*x'^2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
 
-/* Every setting that decides the rows stands there as it is, to the last digit. */
+/* Every setting that affects the rows is stored exactly. */
 static void test_settings(void) {
     for (unsigned c = 0; c < 60U; c++) {
         static const char *const axes[] = {"x=1..9:9", "m=0.1..7:70,log"};
@@ -535,7 +533,7 @@ static void test_settings(void) {
         size_t length = 0;
         FILE *out = alloc_text(&text, &length);
         fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\nscene: s\n");
-        /* FNV-1a of eight bytes a letter, the first of which is the letter */
+        /* FNV-1a over eight bytes a letter, the first of which is the letter */
         uint64_t hash = 14695981039346656037ULL;
         for (const char *at = c % 3U == 0 ? "text" : "other"; *at != '\0'; at++) {
             hash = (hash ^ (unsigned char)*at) * 1099511628211ULL;
@@ -576,7 +574,7 @@ static void test_settings(void) {
 
 /* --- given back --------------------------------------------------------------------------------------------------*/
 
-/* Points as workers run them, in this process: each way in which they end; and whole sittings. */
+/* Points as run by workers, in this process, in each way they end; and whole sweeps. */
 static void run_points(void) {
     static const struct {
         const char *text;
@@ -584,11 +582,11 @@ static void run_points(void) {
         const char *measure;
         bool good;
     } points[] = {
-        {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused where it starts */
-        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* none: kept samples */
-        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* no number */
-        {settings_text, "m=1..2:2", "max(x)", true},        /* derived anew */
-        {settings_text, "m=0..2:2", "max(x)", false},       /* which cannot be */
+        {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused at the start */
+        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* undefined: stored samples */
+        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* not a number */
+        {settings_text, "m=1..2:2", "max(x)", true},        /* derived again */
+        {settings_text, "m=0..2:2", "max(x)", false},       /* which fails */
         {"mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\nscene s { step 1 [ms]; until 2 [s] }\n",
          "x=4..1:2", "x", false}, /* diverges */
         {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J]*sqrt(x/(1 [m]))\n"

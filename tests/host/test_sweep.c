@@ -1,5 +1,5 @@
-/* test_sweep.c: the parts of `whirl sweep`: grids, measures. Workers are test_jobs.c's; files and whole sweeps are
- * tested by tests/cli/sweep.sh. */
+/* test_sweep.c: grids and measures of `whirl sweep`. Workers: test_jobs.c; files and whole sweeps:
+ * tests/cli/sweep.sh. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>
@@ -66,7 +66,7 @@ static void test_last_axis_runs_fastest(void) {
     close_sample();
 }
 
-/* 1e12 points are enough, and 1e12 are taken; what is too much is not added. */
+/* The limit is 1e12 points; an axis above it is not added. */
 static void test_grids_have_an_end(void) {
     static const char *const axes[][3] = {{"m=1..2:1000000", "r=1..2:1000000", "M=1..2:2"},
                                           {"m=1..2:1000000000", "r=1..2:1000", "M=1..2:1000"},
@@ -88,7 +88,7 @@ static void test_grids_have_an_end(void) {
     }
 }
 
-/* No axis has more than twelve digits of points. */
+/* An axis has at most twelve digits of points. */
 static void test_counts_have_an_end(void) {
     static const char *const counts[] = {"0",  "1000000000000", "99999999999999999999",
                                          "-3", "1e3",           ""};
@@ -186,8 +186,8 @@ static void test_series_of_a_sine(void) {
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_AMPLITUDE, 1.5, 2.5, 0.2, 2001, 1e-3) - 2.5) <= miss);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MEAN, 1.5, 2.5, 0.2, 2001, 1e-3) - 1.5) <= 1e-13);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_PERIOD, 1.5, 2.5, 0.2, 2001, 1e-3) - 0.2) <= 1e-13);
-    /* a period that is no whole number of steps: linear interpolation errs by less than 1e-3 steps,
-     * shared by 18 periods */
+    /* a fractional number of steps per period: linear interpolation errs by less than 1e-3 steps, shared by 18
+     * periods */
     const double odd_s = 0.1 * sqrt(1.23);
     const double measured_s = of_sine(MEASURE_PERIOD, 0.0, 1.0, odd_s, 2001, 1e-3);
     TEST_ASSERT_TRUE(fabs(measured_s - odd_s) <= 2e-3 * 1e-3);
@@ -197,7 +197,7 @@ static void test_series_of_a_sine(void) {
 static void test_series_without_a_value(void) {
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* one crossing */
     TEST_ASSERT_FALSE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 500, 1e-3)));
-    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3))); /* rounding */
+    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3))); /* round-off */
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_MEAN, 0.0, 1.0, 0.2, 0, 1e-3)));
     TEST_ASSERT_TRUE(of_sine(MEASURE_MEAN, 2.0, 0.0, 0.2, 1, 1e-3) == 2.0);
     for (measure_kind kind = MEASURE_FINAL; kind <= MEASURE_PERIOD; kind++) {
@@ -257,7 +257,7 @@ static void test_measures_are_read(void) {
     }
 }
 
-/* A measure inside of another expression is told where it stands, and nowhere else; names that only begin so are names. */
+/* A measure inside an expression is reported with its place; longer names with the same beginning are names. */
 static void test_measures_inside_are_told(void) {
     static const char *const words[] = {"amplitude", "mean", "period"};
     static const char *const before[] = {"2*", "theta + ", "1/(3*", "sin(2) - ", "theta*mean_2 + "};
@@ -288,7 +288,7 @@ static void test_measures_inside_are_told(void) {
     }
 }
 
-/* Two measures in one text are refused at the comma between them; a function's own commas are no list. */
+/* Two measures in one text are refused at their comma; commas of a function are accepted. */
 static void test_a_list_of_measures_is_told(void) {
     static const char *const one[] = {"theta",       "max(theta)",        "mean(2*theta)",
                                       "theta*theta", "atan2(theta, 2)",   "max(theta, 1)",

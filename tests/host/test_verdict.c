@@ -1,8 +1,8 @@
-/* test_verdict.c: `whirl sweep` says of a point what `whirl run` says of it alone: they ask one judge. Drawn springs,
- * dampers, swings of systems, flights past a pole, fast forces, springs far away and balls between stops, in steps from fine to
- * useless, by all methods, and rods that do not fit where they start, of which `whirl trust` says the same: the findings of both
- * are the same, and so are the exit statuses: 1 exactly after a warning, 0 with --strict=off, by the energy's ratio with a limit.
- * The judge has said something of every kind, and nothing of many. */
+/* test_verdict.c: `whirl sweep` and `whirl run` share one judge, so their findings agree, and so do their exit
+ * statuses: 1 exactly after a warning, 0 with --strict=off, by the energy ratio with a limit. Drawn: springs,
+ * dampers, swings of systems, flights past a pole, fast forces, springs far from the origin, and balls between stops.
+ * Steps range from fine to useless, with all methods. Rods that do not fit at the start get the same words from
+ * `whirl trust`. Every kind of finding occurs, and many runs have none. */
 #include <glob.h>
 #include <math.h>
 #include <stdbool.h>
@@ -35,7 +35,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
             "V = 1 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
             coarse, until);
         break;
-    case 1: /* the books' own rule is in doubt */
+    case 1: /* the quadrature of the energy balance is doubtful */
         snprintf(text, TEXT,
                  "mechanism m\ncoordinate x [m]\nparameter p = 1\nT = 1 [kg]*x'^2/2\n"
                  "F = 1 [N*s/m]*x'^2/2\n"
@@ -60,7 +60,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  r, -4.0 / r, 4.0 * past / (r * r));
         break;
     }
-    case 4: /* a spring that a force shakes, up to 900 times a step */
+    case 4: /* a driven spring, up to 900 periods a step */
         snprintf(text, TEXT,
                  "mechanism m\ncoordinate x [m]\ncoordinate y [rad]\nparameter p = 1\n"
                  "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*y'^2/2\nV = 1 [N/m]*x^2/2\nQ(x) = 1 [N]*cos(y)\n"
@@ -81,7 +81,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  "scene s { start x = 0.5 [mm], x' = %.12g [m/s]\nstep 1 [ms]\nuntil 50 [ms] }\n",
                  pow(10.0, dice_between(d, 0.0, 1.7)));
         break;
-    case 7: { /* a pendulum on a rod: of its length or not, along it or across */
+    case 7: { /* a pendulum on a rod of right or wrong length, along it or across */
         const double rod_m = dice_between(d, 0.2, 3.0);
         const double angle_rad = dice_between(d, -3.0, 3.0);
         const double at_m = rod_m * (dice_one_of(d, 2) == 0 ? 1.0 : dice_between(d, 0.8, 1.2));
@@ -102,7 +102,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
     }
 }
 
-/* Once more with this --strict: the same is written, and standard error begins the same. */
+/* Repeated with this --strict: the same output, and standard error begins the same. */
 static void say_with(const char *strict, int (*command)(int, char **), const char **words,
                      const said *before, said *what) {
     int count = 0;
@@ -124,7 +124,7 @@ static const char *value_at(const said *what, const char *path) {
     return value;
 }
 
-/* --json: one object, with the same findings, the same words on standard error and the same status. */
+/* --json: one object with the same findings, standard error and status. */
 static void expect_json(int (*command)(int, char **), const char **words, const said *before,
                         const char *list) {
     said what;
@@ -163,7 +163,7 @@ static void expect_json(int (*command)(int, char **), const char **words, const 
     TEST_ASSERT_EQUAL_INT(is_failed(before) ? 0 : told, (int)in_text);
 }
 
-/* The next field of a row in CSV, and what JSON has at that path: null is empty, or no finite number. */
+/* The next CSV field, and the JSON value at that path: null is an empty or non-finite field. */
 static void expect_field(char **at, const said *what, const char *path) {
     char *end = *at + strcspn(*at, ",\r");
     const char behind = *end;
@@ -181,7 +181,8 @@ static void expect_field(char **at, const said *what, const char *path) {
     *at = behind == '\0' ? end : end + 1;
 }
 
-/* The rows of --csv - are those of `list` in the object of --json, whose standard error and status are the same but for the words. */
+/* The rows of --csv - equal those of `list` in the object of --json. Standard error and status are equal except for
+ * the words. */
 static void expect_rows(int (*command)(int, char **), const char *const *words, const char *list,
                         const char *const *keys) {
     static said csv;
@@ -213,7 +214,7 @@ static void expect_rows(int (*command)(int, char **), const char *const *words, 
     TEST_ASSERT_EQUAL_INT(json_length(object.out, list), rows);
 }
 
-/* What trust is told of, and the sentence about the run; pairs of a map. */
+/* The findings and the sentence about the run; pairs of a map. */
 static void test_json_of_trust_and_map(void) {
     static const char *const columns[] = {"name",  "unit", "verdict", "until_s",
                                           "range", "off",  NULL};
@@ -290,7 +291,7 @@ static void test_json_of_price_and_choose(void) {
     }
 }
 
-/* Every built-in scene, and a title with all that must be escaped. */
+/* Every built-in scene, and a title with all characters that need escapes. */
 static void test_json_of_all_scenes(void) {
     said list;
     said what;
@@ -325,7 +326,7 @@ static void test_json_of_all_scenes(void) {
     model_drop();
 }
 
-/* A failed run has its reason in the object, as on standard error; others have none. */
+/* A failed run has its reason in the object, as on standard error. Others have no reason. */
 static void test_json_of_failures(void) {
     dice d = dice_of("json_failed", 29112026);
     for (int i = 0; i < 12; i++) {
@@ -349,7 +350,7 @@ static void test_json_of_failures(void) {
     }
 }
 
-/* With no option, with --strict=off and with a drawn limit. Returns whether the status is 1 because of a finding. */
+/* Without an option, with --strict=off and with a drawn limit. Returns whether a finding gives status 1. */
 static bool expect_statuses(dice *d, const char **run, const char **sweep, const said *ran,
                             const said *swept, const char *about) {
     said off[2];
@@ -377,7 +378,7 @@ static bool expect_statuses(dice *d, const char **run, const char **sweep, const
     return !failed && ran->status == 1;
 }
 
-/* The ratio of the energy decides, and the other findings as ever. */
+/* The energy ratio decides; other findings still count. */
 static void test_a_limit_is_one_of_the_energy(void) {
     dice d = dice_of("limit", 15005);
     unsigned of[2] = {0};
@@ -436,7 +437,7 @@ static void test_a_point_is_judged_as_its_run(void) {
                                "--jobs",   "1",       NULL};
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
-        if (shape == 7) { /* it does not ask for the other findings */
+        if (shape == 7) { /* does not ask for the other findings */
             const char *trust[] = {file, "--quiet", "--number", number, NULL};
             command_say(command_trust, trust, &trusted);
         }
@@ -473,7 +474,7 @@ static void test_a_point_is_judged_as_its_run(void) {
 
 /* --- a common speed ---------------------------------------------------------------------------------------------*/
 
-/* Wagons on a line, or discs on a shaft, that springs and perhaps a damper hold, all moving with `speed` as well. */
+/* Wagons on a line, or discs on a shaft, with springs and possibly a damper, all moving with a common `speed`. */
 static void write_chain(dice d, double speed, char text[TEXT]) {
     const bool turns = dice_one_of(&d, 2) == 0;
     const int count = 2 + (int)dice_one_of(&d, 3);
@@ -505,7 +506,7 @@ static void write_chain(dice d, double speed, char text[TEXT]) {
              step_s * (20.0 + dice_one_of(&d, 200)));
 }
 
-/* The findings of a run do not depend on the frame in which it is told. */
+/* Findings do not depend on the inertial frame. */
 static void test_a_common_speed_changes_nothing(void) {
     dice d = dice_of("frames", 4701);
     const unsigned cases = dice_cases(few_or_all(20, 300));
@@ -538,7 +539,7 @@ static void test_a_common_speed_changes_nothing(void) {
 
 /* --- what all looks cost -----------------------------------------------------------------------------------*/
 
-/* Operations of `whirl run`, on standard error, behind what it says. */
+/* Operations of `whirl run`, printed on standard error after its messages. */
 static int run_counted(int count, char **words) {
     const uint64_t before = engine_operations;
     const int status = command_run(count, words);
@@ -546,7 +547,7 @@ static int run_counted(int count, char **words) {
     return status;
 }
 
-static double total; /* the largest part of what may be spent */
+static double total; /* largest share of the limit */
 static void expect_cost(const char *target, double share) {
     said what;
     char until[40];
@@ -613,13 +614,13 @@ static int of_files(const char *pattern) {
     return scenes;
 }
 
-/* No more than twice its steps and a fixed number of operations: all scenes, built in or of the catalogue, at 10 %
- * of their time and, with all cases, at 1 and 100 %. */
+/* Checks take at most twice the run's steps and a fixed number of operations: all scenes, built in or of the
+ * catalogue, at 10 % of their time and, with all cases, at 1 and 100 %. */
 static void test_looks_take_what_they_may(void) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);
     expect_cost("tests/reference/stack.whirl", 1.0);
-    TEST_ASSERT_TRUE(total > 0.5); /* of which these balls take a good part */
+    TEST_ASSERT_TRUE(total > 0.5); /* these balls use a good part */
     TEST_ASSERT_TRUE(each_builtin_scene(built_in) > 60);
     TEST_ASSERT_TRUE(of_files("docs/*/*.whirl") + of_files("tests/mechanisms/*.whirl") > 35);
     printf("  looks: at most %.2f of what they may take\n", total);

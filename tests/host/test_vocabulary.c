@@ -1,8 +1,8 @@
-/* test_vocabulary.c: the order of rows, where something outlives it, and what rows say that only some input asks for.
+/* test_vocabulary.c: the order of rows that hashes depend on, and messages for rare input.
  *
- * Models are hashed, and sums ordered, by numbers that rows have by their places: a row between others moves the hashes
- * of models that never use it, and with them what sweeps and boards hold each other to. The lists here are the record:
- * who adds a row adds it at the end of both; nobody changes what stands here. */
+ * Models are hashed, and sums ordered, by the places of rows. A row inserted between others would change the hashes
+ * of models that never use it, and break sweeps and boards. The lists here are the record: append a new row to both,
+ * and never change an existing one. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
@@ -53,7 +53,7 @@ static void test_operations_are_in_their_recorded_order(void) {
     }
 }
 
-/* Not hashed, but handled in this order at one moment: by the core and by what is told of it. */
+/* Not hashed, but the core and the output handle contacts of one time in this order. */
 static void test_contacts_are_in_the_core_s_order(void) {
 #define SAME(id, ...) TEST_ASSERT_EQUAL_INT_MESSAGE(WH_##id, CONTACT_##id, #id);
     CONTACT_KIND_ROWS(SAME)
@@ -74,8 +74,8 @@ static bool is_among(const char *word, const char *words) {
     return false;
 }
 
-/* At the beginning of a line inside a block, these words say that the block's brace was forgotten; all others are read
- * there, or refused. The block is closed behind them: it lacks no brace otherwise. */
+/* At the start of a line inside a block, these words show that its brace is missing; all others are parsed there, or
+ * refused. The block is closed before them, without a second error. */
 static void test_which_words_end_a_block(void) {
     static const struct {
         const char *before;
@@ -143,7 +143,7 @@ static void expect_word_hint(const char *form, const char *word) {
     expect_report(line, wanted);
 }
 
-/* Words of other languages, wherever they stand, and first attempts: all get a hint, never a comparison by spelling. */
+/* Words of other languages, in any place, and first attempts: each gets its hint, never a guess by spelling. */
 static void test_first_words_get_a_hint(void) {
     static const char *const words[] = {
         "t",          "time",       "if",      "floor", "heaviside",  "table",
@@ -187,8 +187,7 @@ static void test_first_words_get_a_hint(void) {
     }
 }
 
-/* Statements as other languages write them, of drawn names and numbers. The hint has the words that mend them, and with these
- * the statement is read. */
+/* Statements of other languages with drawn names and numbers. The statement changed by the hint is accepted. */
 static void test_other_notations_are_mended(void) {
     static const char names[][6] = {"q", "theta", "x_1", "arm"};
     static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};
@@ -257,14 +256,14 @@ static void test_other_notations_are_mended(void) {
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, made[1]), report);
         const char *first = strstr(report, ": error: ");
         TEST_ASSERT_NOT_NULL_MESSAGE(first, text);
-        const bool bars = strchr(made[0], '|') != NULL; /* both are told */
+        const bool bars = strchr(made[0], '|') != NULL; /* the hint has both */
         TEST_ASSERT_TRUE_MESSAGE(bars || strstr(first + 1, ": error: ") == NULL, report);
         snprintf(text, sizeof text, form, name, name, made[2]);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", report_of_text(text), text);
     }
 }
 
-/* Numbers as some countries write them, wherever one may stand. */
+/* A decimal comma at every place of a number. */
 static void test_a_decimal_comma_gets_a_hint(void) {
     static const char *const forms[] = {
         "parameter a = %u,%u [m]", "V = %u,%u [N/m]*x^2", "scene s { step %u,%u [ms] }",

@@ -1,5 +1,5 @@
-/* test_walled.c: a body between walls that its potential puts up, as -log(1 - (x/l)^2): its motion never leaves them, and a step
- * that is too coarse does, to where the potential is no number. Such a run fails, names the expression, and a cure; which does. */
+/* test_walled.c: a body in a potential well such as -log(1 - (x/l)^2), which the motion never leaves. A coarse step
+ * leaves it, to where the potential is undefined. The run fails and names the expression and a remedy, which works. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 void suite_walled(void);
 
-/* Of an energy E and a length l; all of them hold what has 0.9 E. */
+/* With energy E and length l; each confines a body with 0.9 E. */
 static const char *const potentials[] = {
     "-E*log(1 - (x/l)^2)",
     "E/(1 - (x/l)^2)",
@@ -67,7 +67,8 @@ static void test_failed_runs_name_a_cure(void) {
     TEST_ASSERT_TRUE(failed > cases / 16);
 }
 
-/* A slider's crank and rod of one length: where they lie flat the run ends, and no step that passes the place is a cure. */
+/* A slider crank with crank and rod of one length: the run ends where they lie flat, and no step is suggested to pass
+ * it. */
 static void test_flat_linkages_name_no_step(void) {
     dice d = dice_of("flat linkages", 4463);
     const unsigned cases = dice_cases(usual_or(24, 8));

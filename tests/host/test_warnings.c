@@ -1,7 +1,6 @@
-/* test_warnings.c: what `whirl run` warns of, on both sides: wherever more than a hundredth of the energy is gone over the
- * run, and nowhere where it is less than a ten-thousandth; where coordinates are singular and the step does not resolve
- * it. And what a warning says would do is done: then there is no warning, and the error is gone. Energies are those of
- * formulas in this file, against closed forms. */
+/* test_warnings.c: warnings of `whirl run`, both ways: a loss above a hundredth of the energy gives one, a loss below
+ * a ten-thousandth does not; singular coordinates give one if the step is too coarse. The suggested remedy, applied,
+ * removes the warning and the error. Energies come from formulas in this file and closed forms. */
 #include "command.h"
 
 #include <math.h>
@@ -25,13 +24,13 @@ enum { MASSES = 4, TEXT = 1600 };
 
 typedef enum made_kind { SPRING, CHAIN, PENDULUM, DAMPER, DAMPED, KINDS } made_kind;
 
-/* A mechanism of which the energy is known at any time. */
+/* A mechanism with a known energy at any time. */
 typedef struct made_up {
     made_kind kind;
     int masses;
     double mass[MASSES];
     double stiffness
-        [MASSES]; /* of the spring to the one before, the first to the wall; of a pendulum, m g l */
+        [MASSES]; /* of the spring to the previous mass, the first to the wall; of a pendulum, m g l */
     double damping; /* of the first, to the wall, N s/m */
     double start[MASSES];
     double rate;
@@ -91,7 +90,7 @@ static void write(made_up *m, double step_s, double until_s) {
              m->rate, m->kind == PENDULUM ? "rad/s" : "m/s", step_s, until_s);
 }
 
-/* The energy above that of rest. */
+/* The energy above rest. */
 static double energy_J(const made_up *m, const motion *at) {
     double sum_J = 0.0;
     double before = 0.0;
@@ -108,7 +107,6 @@ static double energy_J(const made_up *m, const motion *at) {
     return sum_J;
 }
 
-/* What it is by the closed form. */
 static double truth_J(const made_up *m, double start_J, double t) {
     const double decay = m->damping / m->mass[0];
     if (m->kind == DAMPER) {
@@ -125,7 +123,7 @@ static double truth_J(const made_up *m, double start_J, double t) {
     return m->mass[0] * v * v / 2.0 + m->stiffness[0] * q * q / 2.0;
 }
 
-/* Largest error of the energy over the run, of what it starts with; infinite when it diverges. */
+/* Largest energy error of the run relative to the initial energy; infinite if it diverges. */
 static double energy_off(const made_up *m, wh_method method, double step_s, uint64_t steps,
                          bool is_float, bool compensated) {
     motion at;
@@ -164,7 +162,7 @@ static wh_method method_named(const char *word) {
     return (wh_method)m;
 }
 
-/* All that a warning says would do, done: nothing is said, and the energy is right. Returns how many were. */
+/* Applies each remedy of a warning: no warning, and the right energy. Returns the number of remedies. */
 static int cure(const made_up *m, const said *warned, wh_method method, double step_s,
                 double until_s, bool is_float) {
     int done = 0;
@@ -243,7 +241,7 @@ static void test_energy_that_the_method_takes_is_told(void) {
 
 /* --- singular coordinates -----------------------------------------------------------------------------------*/
 
-/* A particle in spherical coordinates that passes the axis: how far off it is at the end, m. */
+/* A particle in spherical coordinates passes the axis: its final error, m. */
 static double flight_off(const char *text, const double end[3], double step_s, bool is_float,
                          bool compensated) {
     motion at;
@@ -339,7 +337,7 @@ static void test_swings_of_a_system_are_told(void) {
         const double w = pow(10.0, dice_between(&d, -1.0, 3.0));
         const double hw = pow(10.0, dice_between(&d, -2.0, 0.44));
         const double steps = 200.0;
-        const double lost = steps * pow(hw, 6.0) / 72.0; /* of the energy, where that is little */
+        const double lost = steps * pow(hw, 6.0) / 72.0; /* of the energy, if small */
         char text[500];
         said what;
         snprintf(text, sizeof text,
@@ -364,7 +362,7 @@ static void test_swings_of_a_system_are_told(void) {
 
 /* --- built-in scenes ----------------------------------------------------------------------------------------------*/
 
-/* It rests after eight bounces of some 25000, and says so; with what it says would do it is silent. */
+/* It rests after eight of about 25000 bounces, with a warning; the remedy removes it. */
 static void expect_ball_between(said *what, const char **words) {
     named_cure is;
     const char *again[12];
@@ -376,8 +374,7 @@ static void expect_ball_between(said *what, const char **words) {
     command_say(command_run, again, what);
 }
 
-/* To their ends, as they are; in both numbers, or in one of them by turns. But for one, which is meant to, none says
- * anything. */
+/* To their ends, in both numbers or alternately. Only one scene, made for it, has a warning. */
 static void test_built_in_scenes_say_nothing(void) {
     said list;
     said what;
@@ -398,7 +395,7 @@ static void test_built_in_scenes_say_nothing(void) {
             const char *words[] = {name, "--quiet", "--number", is_float ? "float" : "double",
                                    NULL};
             command_say(command_run, words, &what);
-            if (strcmp(name, "ball_between") == 0) { /* is made to be too much for its step */
+            if (strcmp(name, "ball_between") == 0) { /* made to be too much for its step */
                 expect_ball_between(&what, words);
             }
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);

@@ -1,5 +1,5 @@
-/* test_words.c: the language's words and units follow from their rows: what is reserved, what a hint offers, what is
- * refused where it does not belong, and what docs/language.md lists. Every row is tried; a new one is, too. */
+/* test_words.c: words and units of the language follow from their rows: reserved names, hints, refusals in the wrong
+ * place, and the lists in docs/language.md. Every row is tested, also new ones. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ void suite_words(void);
 
 enum { TEXT_SIZE = 1200, PAGE_SIZE = 200000 };
 
-/* A mechanism with names for every form, STATEMENT where it may stand, and a scene with WITHIN. */
+/* A mechanism with names for every form, STATEMENT in it, and a scene with WITHIN. */
 static const char *in_mechanism(const char *statement, const char *within) {
     static char text[TEXT_SIZE];
     snprintf(text, sizeof text,
@@ -55,7 +55,7 @@ static void test_reserved_words_name_nothing(void) {
     TEST_ASSERT_TRUE(reserved >= 20);
 }
 
-/* Two neighbours swapped: one mistake away from the word, and from no other that is as near. */
+/* Two swapped neighbours: one mistake away from the word, and no other is as near. */
 static void test_a_misspelt_statement_is_offered_its_word(void) {
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
@@ -82,7 +82,7 @@ static void test_a_misspelt_statement_is_offered_its_word(void) {
     }
 }
 
-/* What others call an energy, set or added to, alone and in an effect: T, V or F is named. */
+/* Other names of energies, set or added to, alone and in an effect: the hint has T, V or F. */
 static void test_energies_by_other_names(void) {
     static const char *const meant[][2] = {{"t", "T = ..."},       {"k", "T = ..."},
                                            {"K", "T = ..."},       {"Ekin", "T = ..."},
@@ -105,7 +105,7 @@ static void test_energies_by_other_names(void) {
     }
 }
 
-/* Each word in each of the three blocks: read there, or refused by its name. */
+/* Each word in each of the three blocks: accepted, or refused by its name. */
 static void test_a_word_stands_only_where_its_row_says(void) {
     static const unsigned places[] = {IN_MECHANISM | IN_FILE, IN_EFFECT, IN_SCENE};
     for (int i = 0; i < STATEMENT_WORDS; i++) {
@@ -124,13 +124,13 @@ static void test_a_word_stands_only_where_its_row_says(void) {
                                  strstr(report, "is not possible inside") != NULL ||
                                  strstr(report, "belongs into a mechanism or an effect") != NULL ||
                                  strstr(report, "is not closed with '}'") != NULL;
-            TEST_ASSERT_TRUE_MESSAGE(report[0] != '\0', text); /* nothing behind the word */
+            TEST_ASSERT_TRUE_MESSAGE(report[0] != '\0', text); /* an empty statement */
             TEST_ASSERT_TRUE_MESSAGE(stands != refused || (word->rules & ENDS_SCENE) != 0, text);
         }
     }
 }
 
-/* The usual look that hints show is a statement that the language takes. */
+/* The forms in hints are valid statements. */
 static void test_forms_are_good_statements(void) {
     static const word_id tried[] = {WORD_STOP, WORD_FRICTION, WORD_HOLD, WORD_WHEN, WORD_NOISE};
     for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
@@ -162,7 +162,7 @@ static void read_page(void) {
     fclose(in);
 }
 
-/* Is `word` in backticks, perhaps with more behind it, in the page from `from` up to `to`? */
+/* Is `word` in the page between `from` and `to`, at the start of a text in backticks? */
 static bool listed(const char *word, const char *from, const char *to) {
     char open[60];
     snprintf(open, sizeof open, "`%s", word);
@@ -183,14 +183,13 @@ static void test_the_page_lists_every_word(void) {
     for (int i = 0; i < WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
         const bool said =
-            listed(word->text, page, end) || i >= STATEMENT_WORDS; /* those stand in examples */
+            listed(word->text, page, end) || i >= STATEMENT_WORDS; /* those appear in examples */
         TEST_ASSERT_TRUE_MESSAGE(said && strstr(page, word->text) != NULL, word->text);
         TEST_ASSERT_TRUE_MESSAGE(
             listed(word->text, reserved, stop) == ((word->rules & RESERVED) != 0), word->text);
     }
 }
 
-/* Every unit of the table, and no other. */
 static void test_the_page_lists_every_unit(void) {
     read_page();
     const char *const table = strstr(page, "| quantity | units |");

@@ -1,6 +1,6 @@
-/* test_zonotope.c: what a point may be off, as a sum of generators (host/prove/zonotope.h), under drawn maps: against support
- * functions in long double, how far a set reaches in a direction. A convex set holds another if it reaches as far in all;
- * and how much further it may reach is known in closed form. */
+/* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/zonotope.h), under drawn maps. The
+ * reference is the support function in long double: the extent of a set in a direction. A convex set contains another
+ * if its extent is at least as large in all directions. Bounds of the excess have closed forms. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@ enum { SIZE = 4, MOST = 24, DIRECTIONS = 12 };
 
 static dice die;
 
-/* A copy in long double, so that what it was is still there when it has been mapped. */
+/* A copy in long double from before a map. */
 typedef struct exact_set {
     int n;
     int count;
@@ -43,7 +43,6 @@ static long double along(int n, const long double *a, const long double *b) {
     return sum;
 }
 
-/* How far it reaches in the direction. */
 static long double reach_of(const exact_set *s, const long double *direction) {
     long double sum = along(s->n, s->drift, direction);
     for (int k = 0; k < s->count; k++) {
@@ -54,7 +53,7 @@ static long double reach_of(const exact_set *s, const long double *direction) {
 
 static long double length_of(int n, const long double *a) { return sqrtl(along(n, a, a)); }
 
-/* An axis, one way or the other, or any direction; of length 1. */
+/* A positive or negative axis, or any direction; of length 1. */
 static void draw_direction(int n, long double *direction) {
     const int axis = (int)dice_one_of(&die, 2U * (unsigned)n);
     for (int i = 0; i < n; i++) {
@@ -67,7 +66,7 @@ static void draw_direction(int n, long double *direction) {
     }
 }
 
-/* A map: a turn and a stretch, each entry of a radius. */
+/* A rotation and scaling, each entry with a radius. */
 static void draw_map(int n, double radius, enclosure *map) {
     for (int i = 0; i < n * n; i++) {
         const double middle = dice_between(&die, -0.7, 0.7) + (i % (n + 1) == 0 ? 0.5 : 0.0);
@@ -90,7 +89,7 @@ static long double drawn_in(enclosure a) {
                         : (long double)dice_between(&die, a.low, a.high);
 }
 
-/* How far `before` reaches there once one of the maps has mapped it and the box is added. */
+/* Extent of `before` in the direction after one of the maps plus the box. */
 static long double mapped_reach(const exact_set *before, const enclosure *map,
                                 const enclosure *more, const long double *direction) {
     const int n = before->n;
@@ -134,9 +133,8 @@ static void test_new(void) {
     zonotope_free(NULL);
 }
 
-/* Nothing that any of the maps makes of it is lost, however often it is reduced; without a reduction next to nothing is
- * added, and with one no more than what a box along axes is larger than what is in it: so many generators that are as
- * short as the shortest, each of which may become sqrt(n) as long. */
+/* The image always contains the exact one, however often it is reduced. Without a reduction the excess is round-off.
+ * With one it is at most that of a box over its contents: the shortest generators, each up to sqrt(n) as long. */
 static void test_mapped(void) {
     unsigned reductions = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(150, 50)); c++) {
@@ -157,7 +155,7 @@ static void test_mapped(void) {
             TEST_ASSERT_TRUE(now.count <= (reduced ? z->most / 2 + 2 * n : before.count + n));
             TEST_ASSERT_TRUE(!reduced || now.count >= z->most / 2 + n);
             long double size = 1.0L;
-            long double shorter = 0.0L; /* all that became a box, lengths */
+            long double shorter = 0.0L; /* total length of those turned into a box */
             long double length[MOST] = {0.0L};
             for (int k = 0; k < before.count; k++) {
                 long double to[SIZE] = {0.0L};
@@ -176,7 +174,7 @@ static void test_mapped(void) {
                     for (int l = 1; l < before.count; l++) {
                         least = length[l] < length[least] ? l : least;
                     }
-                    shorter += length[least] * sqrtl((long double)n); /* of 1-norms as short */
+                    shorter += length[least] * sqrtl((long double)n); /* by equal 1-norms */
                     length[least] = (long double)INFINITY;
                 }
             }
@@ -186,7 +184,7 @@ static void test_mapped(void) {
                 const long double wanted = mapped_reach(&before, map, more, direction);
                 const long double got = reach_of(&now, direction);
                 TEST_ASSERT_TRUE_MESSAGE(got >= wanted - 1e-17L * size, "something is lost");
-                /* entries that are off by the radius, each of n of them in n rows */
+                /* entries uncertain by the radius, n of them in each of n rows */
                 const long double wide =
                     4.0L * (long double)(radius * n) * (size + 2.0L * length_of(n, before.drift));
                 const long double least = n == 1 ? 0.0L : sqrtl((long double)n) * shorter;
@@ -199,7 +197,7 @@ static void test_mapped(void) {
     TEST_ASSERT_TRUE(reductions > 50);
 }
 
-/* What is kept are the longest, as they were. */
+/* The longest generators stay unchanged. */
 static void test_longest_are_kept(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
         const int n = 2 + (int)dice_one_of(&die, SIZE - 1);
@@ -217,7 +215,7 @@ static void test_longest_are_kept(void) {
                 sum[k] += fabs(z->generator[k * n + i]);
             }
         }
-        for (int i = 0; i < n * n; i++) { /* doubled: no rounding but of no size */
+        for (int i = 0; i < n * n; i++) { /* doubled: only rounding of no size */
             map[i] = enclosure_of(i % (n + 1) == 0 ? 2.0 : 0.0);
         }
         const exact_set before = copy_of(z);
@@ -270,7 +268,7 @@ static void test_box(void) {
     }
 }
 
-/* The inverse of what is nearly orthogonal, from its transpose: Newton's iteration. */
+/* The inverse of a nearly orthogonal matrix by Newton's iteration from its transpose. */
 static void inverse_of(int n, const double *axes, long double *inverse) {
     long double rest[SIZE * SIZE] = {0.0L};
     long double next[SIZE * SIZE] = {0.0L};
@@ -294,7 +292,7 @@ static void inverse_of(int n, const double *axes, long double *inverse) {
     }
 }
 
-/* Axes that are orthogonal, the first along the longest generator; and the least that holds it along them. */
+/* Orthogonal axes, the first along the longest generator, and the smallest box along them. */
 static void expect_frame(const zonotope *z) {
     const int n = z->n;
     const exact_set s = copy_of(z);
@@ -353,7 +351,7 @@ static void test_frame(void) {
             z->generator[i] = 1.0;
             z->generator[n + i] = -2.0;
             z->generator[2 * n + i] = 0.0;
-            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* behind the last: none */
+            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* after the last: none */
         }
         expect_frame(z);
         zonotope_free(z);
