@@ -216,7 +216,6 @@ static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason)
     return quick_work(context, point, row, reason);
 }
 
-/* Workers end on request in the middle of their work, even if the parent ignores the signal. */
 static void test_workers_end_when_they_are_told(void) {
     log_of_rows log;
     struct timespec begin;
@@ -229,8 +228,6 @@ static void test_workers_end_when_they_are_told(void) {
     TEST_ASSERT_EQUAL_INT(0, caught);
     TEST_ASSERT_TRUE(log.next == FIRST + 1 && end.tv_sec - begin.tv_sec < 4);
 }
-
-/* --- the line of progress --------------------------------------------------------------------- */
 
 /* The progress line of a sweep (host/study/session.h): percentage, bar, pace, and time left at
  * that pace. */

@@ -35,8 +35,6 @@ static double width(unsigned c) {
                           : dice_between(&die, 0.5, 2.0));
 }
 
-/* --- poles ---------------------------------------------------------------------------------------------*/
-
 /* Michaelis-Menten decay in several forms: s' = -v s/(k + s) never falls below zero. Its pole is
  * at -k or further. */
 static const char *const knees[] = {

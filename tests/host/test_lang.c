@@ -265,8 +265,6 @@ static void test_byte_order_mark_and_line_ends(void) {
     TEST_ASSERT_EQUAL_STRING("\xc3\xa4", parsed->mechanisms[0]->title);
 }
 
-/* --- values without a unit, of what is declared in one -------------------------------------------------- */
-
 enum { IN_SCENE_PLACES = 5, PLACES = 7 };
 
 /* A mechanism with X, p and q in this unit, and a value for one of them in this place. NULL:
@@ -299,7 +297,6 @@ static instance *given_in(const char *unit, int at, const char *assigned, char *
     return made;
 }
 
-/* The parsed value in SI. */
 static double value_in(int at) {
     switch (at) {
     case 0:

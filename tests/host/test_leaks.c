@@ -34,8 +34,6 @@ static void test_scenes_give_everything_back(void) {
     TEST_ASSERT_GREATER_THAN_INT(50, each_builtin_scene(check_scene));
 }
 
-/* --- made otherwise, run and written ------------------------------------------------------------------- */
-
 static const char kept_books[] =
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ninput u = 2 [N]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
     "V = 9 [N/m]*(x - y)^2/2\nF = 0.5 [N*s/m]*x'^2/2\nQ(y) = u\nstop x >= 0 [m] restitution 0.5\n"
@@ -171,8 +169,6 @@ static void test_what_is_refused_gives_everything_back(void) {
         TEST_ASSERT_TRUE_MESSAGE(blocks_in_use() == before, refused[i]);
     }
 }
-
-/* --- memory that is taken --------------------------------------------------------------------- */
 
 /* Allocations have the full size and, where promised, zeros. Impossible sizes end the program with
  * its message, however they arise. */

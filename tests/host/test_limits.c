@@ -12,8 +12,6 @@
 
 void suite_limits(void);
 
-/* --- how long a step may be ----------------------------------------------------------------------------------*/
-
 #define STEPS 40000
 #define BEYOND 30.0
 

@@ -99,8 +99,6 @@ static void print_row(double rpm, const rig_noise *noise) {
     }
 }
 
-/* --- the plant ------------------------------------------------------------------------------------- */
-
 /* In float, with the tare, over the whole range of states. */
 static void test_the_plant_is_the_model(void) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
@@ -152,8 +150,6 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     }
     return measured.quality;
 }
-
-/* --- bias and scatter ------------------------------------------------------------------------------- */
 
 /* Scatter at most 1.3 times the noise of so many samples. Jitter moves the phase by at least that
  * of the mean of the marks, which is added: 20 marks, each known to 60 us, give the angle no
@@ -210,8 +206,6 @@ static void test_a_converter_of_twelve_bits(void) {
         }
     }
 }
-
-/* --- intervals -------------------------------------------------------------------------------------- */
 
 /* At 330 rpm: 93 to 97 % of 1,000 runs lie within their interval, and the intervals are not wider
  * than needed. */
@@ -281,8 +275,6 @@ static void test_drawn_rotors(void) {
         }
     }
 }
-
-/* --- gravity fed forward --------------------------------------------------------------------------- */
 
 /* The gravity compensation of a rotor with other parameters than the controller assumes, and the
  * friction that limits braking. */
@@ -371,8 +363,6 @@ static void test_intervals_while_fed(void) {
         check_below(4.0 * rms(what), median_half(what));
     }
 }
-
-/* --- no healthy lie ---------------------------------------------------------------------------------- */
 
 /* Faults of the cell at all speeds: a result marked good is right within its interval plus 1 %.
  * Gain errors below 5 % are exempt, because only calibration finds them. Some results must be

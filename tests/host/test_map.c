@@ -63,8 +63,6 @@ static const map_cell *cell_of(const drawn_map *m, uint64_t across, uint64_t at)
     return &m->map.cell[map_point(&m->map, across, at)];
 }
 
-/* --- limits ----------------------------------------------------------------------------------------------*/
-
 /* |R(z)| of Runge-Kutta methods with as many stages as their order: exp() truncated after z^order. */
 static double growth(int order, double complex z) {
     double complex sum = 1.0;
@@ -264,8 +262,6 @@ static void test_what_bounds_are(void) {
     }
 }
 
-/* --- the tolerance and the energy ------------------------------------------------------------------------*/
-
 /* Runge-Kutta 4 has a phase error of (h w)^5/120 a step and an energy error of (h w)^6/72. Over w
  * T these are w T z^4/120 of the amplitude (half of it relative to the range) and w T z^5/72 of
  * the energy. The largest entry of its balance is the work on changes of speed. It is half the RMS
@@ -309,8 +305,6 @@ static void test_where_a_tolerance_and_the_energy_end(void) {
     printf("  %u keep, %u are off, %u lose\n", seen[MAP_KEEPS], seen[MAP_OFF], seen[MAP_LOSES]);
     TEST_ASSERT_TRUE(seen[MAP_KEEPS] > cases && seen[MAP_OFF] > cases && seen[MAP_LOSES] > cases);
 }
-
-/* --- no run, no limit, no end ----------------------------------------------------------------------------*/
 
 /* Without mass there is no acceleration, beyond the stop no start, and a step longer than the run
  * is no step. */
@@ -360,8 +354,6 @@ static void test_stopped_maps_keep_what_is_done(void) {
     free(text);
     close_map(&m);
 }
-
-/* --- words -----------------------------------------------------------------------------------------------*/
 
 static void test_words_that_are_refused(void) {
     static const char *const wrong[][10] = {

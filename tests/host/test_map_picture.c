@@ -66,7 +66,6 @@ static bool next_stretch(const shown_map *s, uint64_t row, map_verdict verdict, 
     return *from < *end;
 }
 
-/* Exactly one box for each run of cells of each row, in the file's order. */
 static void expect_boxes(const shown_map *s, map_verdict verdict, const char *text) {
     const axis *along = &s->axes[s->map.along];
     const axis *rows = &s->axes[1 - s->map.along];
@@ -146,8 +145,6 @@ static void expect_picture(const shown_map *s) {
     TEST_ASSERT_NULL(strstr(told, "plot ,"));
 }
 
-/* --- drawn -------------------------------------------------------------------------------------------*/
-
 /* A script of this line as gnuplot, first in PATH. */
 static char *play_gnuplot(const char *part) {
     const char *path = getenv("PATH");
@@ -186,7 +183,6 @@ static void test_pictures_show_what_maps_hold(void) {
     stop_playing(path);
 }
 
-/* The error is reported, and no picture is announced. */
 static void test_pictures_that_cannot_be_drawn(void) {
     dice d = dice_of("map_picture", 2320);
     shown_map s;
@@ -207,8 +203,6 @@ void suite_map_picture(void) {
 
 enum { LINE = 400 };
 
-/* --- in words --------------------------------------------------------------------------------------------*/
-
 static void marks_of(const shown_map *s, uint64_t row, char *marks) {
     for (uint64_t i = 0; i < shown_map_across(s); i++) {
         *marks++ = ".ox#-?"[s->at[row][i]->verdict];
@@ -228,7 +222,6 @@ static void expect_row(const shown_map *s, uint64_t row, const char *line) {
     TEST_ASSERT_EQUAL_STRING("\n", behind);
 }
 
-/* Each verdict that occurs, from good to bad, and its count. */
 static void expect_legend(const shown_map *s, FILE *in) {
     char line[LINE];
     for (int verdict = 0; verdict < MAP_VERDICTS; verdict++) {
@@ -282,8 +275,6 @@ static void expect_words(const shown_map *s) {
     fclose(both);
 }
 
-/* --- in rows ---------------------------------------------------------------------------------------------*/
-
 /* The next field of a line of CSV; NAN if empty. */
 static double next_field(char **at) {
     char *end = *at + strcspn(*at, ",\r");
@@ -332,8 +323,6 @@ static void expect_csv(const shown_map *s) {
     fclose(both);
 }
 
-/* --- both ------------------------------------------------------------------------------------------------*/
-
 static void test_maps_say_what_they_hold(void) {
     dice d = dice_of("map_shown", 2311);
     shown_map s;
@@ -343,8 +332,6 @@ static void test_maps_say_what_they_hold(void) {
         expect_csv(&s);
     }
 }
-
-/* --- while it is made --------------------------------------------------------------------------------------*/
 
 static struct {
     double last;

@@ -207,7 +207,6 @@ static void test_a_ratio_of_a_million_millions(void) {
     }
 }
 
-/* Fewer bodies than coordinates: singular, despite round-off. */
 static void test_fewer_bodies_than_coordinates_are_refused(void) {
     uint64_t seed = 77;
     for (int i = 0; i < cases(150); i++) {
@@ -281,7 +280,6 @@ static void test_scales_do_not_change_the_rank(void) {
     printf("  %d matrices from seed 1969\n", all);
 }
 
-/* A pivot below the error of uncertain entries counts as zero. */
 static void test_a_pivot_within_the_errors_is_none(void) {
     for (int power = -10; power <= 10; power += 5) {
         const double scale = pow(10.0, power);

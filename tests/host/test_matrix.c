@@ -30,8 +30,6 @@ enum { TEXT_SIZE = 4096 };
 
 static const double input_at_start[LINEAR_INPUTS] = {0.5, 0.5};
 
-/* --- numbers of twice the digits ------------------------------------------------------------------ */
-
 static quad whole_of(twofold a) { return (quad)a.high + (quad)a.low; }
 
 static twofold drawn_twofold(uint64_t *seed) {
@@ -84,8 +82,6 @@ static void test_constants_are_rounded_once(void) {
         TEST_ASSERT_TRUE(fabs(constant - a.high) <= fabs(a.high) * 0x1p-52);
     }
 }
-
-/* --- the entries ------------------------------------------------------------------------------------ */
 
 /* Half a unit in the last place of a double. At 0: half the smallest subnormal, which is no double. */
 static quad half_unit(double x) { return (quad)(nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2; }
@@ -203,8 +199,6 @@ static void test_entries_of_full_mass_matrices(void) {
     }
     printf("  with full mass matrices by %.4f beyond their constants' rounding\n", worst);
 }
-
-/* --- motions ---------------------------------------------------------------------------------------- */
 
 static void widen(const linear *of, const quad *x, double *size) {
     for (int i = 0; i < of->states; i++) {

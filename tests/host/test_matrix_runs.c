@@ -21,8 +21,6 @@ static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool 
     return (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix};
 }
 
-/* --- S5 ---------------------------------------------------------------------------------------------- */
-
 /* Example 2, case 2 of the dissertation in its own pounds and inches, which cancel: X'' and Y'' of the stretches. */
 static linear two_masses(void) {
     const quad m1 = (quad)72 / 100;
@@ -88,8 +86,6 @@ static void test_two_masses_are_their_exponential(void) {
     }
 }
 
-/* --- a million steps ------------------------------------------------------------------------------- */
-
 enum { MILLION = 1000000 };
 
 /* Error after a million steps of an oscillator, and the largest on the way, relative to its amplitude. */
@@ -150,8 +146,6 @@ static void test_rounding_the_change_is_better(void) {
         TEST_ASSERT_TRUE(off[2] < off[1] / 100.0);
     }
 }
-
-/* --- turn angles, and systems of first order ------------------------------------------------------- */
 
 /* A rotor with friction and a motor, and a free one. Neither angle appears in a force. The first has the later
  * coordinate. */
@@ -258,8 +252,6 @@ static void test_weak_couplings(void) {
     }
 }
 
-/* --- bounds, and another step ------------------------------------------------------------------------ */
-
 /* An unstable balance ends at the same step as with RK4's stages, in the last good state. */
 static void test_runs_that_diverge_end_alike(void) {
     static const char text[] =
@@ -289,7 +281,6 @@ static void test_runs_that_diverge_end_alike(void) {
     }
 }
 
-/* As in a sweep: the same image with another step needs another matrix. */
 static void test_another_step_has_another_matrix(void) {
     motion m;
     motion other;
@@ -311,8 +302,6 @@ static void test_another_step_has_another_matrix(void) {
     motion_close(&other);
     motion_close(&m);
 }
-
-/* --- what is refused --------------------------------------------------------------------------------- */
 
 static void expect_refused(const char *text, const char *const *more, const char *said_of_it) {
     static said what;

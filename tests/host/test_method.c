@@ -45,7 +45,6 @@ static void write(dice *d, char *text, size_t size, int count) {
     snprintf(text + at, size - at, "\nscene s { until 1 [s] }\n");
 }
 
-/* The number of a component's name, or 0. */
 static int number_behind(const char *letter, const char *word) {
     const size_t length = strlen(letter);
     const char *digits = word + length;
@@ -119,7 +118,6 @@ static void test_slopes_of_components(void) {
     }
 }
 
-/* A scene's effects are listed in its own words, and no others. */
 static void test_effects_are_told(void) {
     enum { EFFECTS = 4 };
     static const char text[] =

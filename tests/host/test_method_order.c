@@ -131,7 +131,6 @@ static long double off(const forest *f, const long double *by, const tree *t, lo
     return fabsl(sum - 1.0L / density);
 }
 
-/* The highest order with all conditions met. */
 static int order_of(const forest *f, kind of) {
     int order = ORDER_MAX;
     for (int k = 0; k < f->count; k++) {

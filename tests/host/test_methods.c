@@ -95,8 +95,6 @@ static bool takes(const form *f, wh_method method, bool ledger) {
            (wh_methods[method].takes != WH_NO_RATES || (f->no_rates && !ledger));
 }
 
-/* --- orders ---------------------------------------------------------------------------------------- */
-
 /* The final state with steps of 2^-halvings s. */
 static int end_of(const form *f, stepping how, int halvings, double value[VALUES]) {
     motion m;
@@ -157,7 +155,6 @@ static void test_orders_are_those_of_the_names(void) {
     printf("  %d orders measured\n", measured);
 }
 
-/* The energy balance has the method's order or more. */
 static void test_books_have_the_order_of_the_name(void) {
     int measured = 0;
     for (int i = 0; i < FORMS; i++) {
@@ -194,8 +191,6 @@ static void test_books_have_the_order_of_the_name(void) {
     }
     printf("  %d books measured\n", measured);
 }
-
-/* --- Euler's two ----------------------------------------------------------------------------------- */
 
 /* Both Euler methods have order one. They differ in the rate that moves the position. */
 static void test_semi_implicit_euler_moves_by_the_new_rates(void) {

@@ -22,7 +22,6 @@ enum { PAYLOAD_MOST = 400, PULSES_MOST = 200 };
 
 static dice die;
 
-/* A rig and the expected recording. */
 typedef struct told {
     schema s;
     recording r;
@@ -363,7 +362,6 @@ static void begin_anew(void) {
     send_run();
 }
 
-/* Samples not requested do not count as lost. */
 static void ask_anew(void) {
     recording_asked(&t.r);
     t.time_us += dice_one_of(&die, 200000);
@@ -634,7 +632,6 @@ static void test_what_is_wrong_is_refused(void) {
     }
 }
 
-/* A rate changes nothing else of its channel. */
 static void test_rates(void) {
     static schema s;
     die = dice_of("schema", 63);

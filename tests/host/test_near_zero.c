@@ -19,9 +19,6 @@ void suite_tiny_sizes(void);
 
 /* === near zero ================================================================================ */
 
-/* --- powers of sums ------------------------------------------------------------------------------*/
-
-/* Is p exactly number * (u - v)^exponent? */
 static bool is_power_of_difference(const poly *p, double number, double exponent) {
     return p->count == 1 && p->terms[0].coefficient == number && p->terms[0].mono->count == 1 &&
            p->terms[0].mono->factors[0].atom->kind == ATOM_GROUP &&
@@ -123,8 +120,6 @@ static void test_stiffening_springs_near_their_rest(void) {
     }
     show_worst("springs");
 }
-
-/* --- powers of sines -----------------------------------------------------------------------------*/
 
 /* The same for a sine to the sixth, with rounding of the argument (twice) and of the sine. */
 #define WAVE_ROUNDINGS 48.0

@@ -160,8 +160,6 @@ static void test_powers_of_units(void) {
     }
 }
 
-/* --- whole numbers of 128 bits ---------------------------------------------------------------- */
-
 /* Integers of 128 bits, compared with the compiler's type if it has one, and with schoolbook arithmetic. */
 enum { NUMBERS = 40000 };
 
@@ -228,8 +226,6 @@ static void test_the_compilers_own(void) {
     }
 }
 #endif
-
-/* --- times as fractions ----------------------------------------------------------------------- */
 
 /* Times as fractions (host/number/ratio.h): the fraction for a decimal, and how often one time fits into another. The
  * reference counts in integers, including halves. */

@@ -228,8 +228,6 @@ static void test_hexadecimal(void) {
     TEST_ASSERT_EQUAL_STRING("nan", hex_write(of_bits(~UINT64_C(0)), text));
 }
 
-/* --- code points ------------------------------------------------------------------------------ */
-
 /* All pairs of first bytes, followed by the limits of their ranges, in texts of any length. Compared with arithmetic:
  * the code point, and whether its spelling is the shortest. */
 

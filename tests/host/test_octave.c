@@ -52,7 +52,6 @@ static void test_files_stay_real(void) {
 
 /* --- the form with names ------------------------------------------------------------------------------------------*/
 
-/* A variable of the file, or an element of A or b. */
 typedef struct named_value {
     char name[80];
     double value;
@@ -515,7 +514,6 @@ static void check_closed_forms(comparison *c, const char *line) {
     }
 }
 
-/* Each "NAME &= FORMULA" of a let in use. */
 static void check_lets(comparison *c, const char *text) {
     const char *line = strstr(text, "% with\n\\begin{align}\n");
     line = line == NULL ? "\\end" : strchr(line + 7, '\n') + 1;
@@ -582,7 +580,6 @@ static void check_widths(const char *name, const char *text) {
     }
 }
 
-/* Returns the number of derivatives compared. */
 static int compare_all(const char *name, derived *d) {
     const equations *e = d->equations;
     if (e == NULL || e->count > UNKNOWNS) {

@@ -22,8 +22,6 @@ static double x[SCENE_OPS]; /* results of the list so far */
 static component order[SCENE_STATES + SCENE_UNKNOWNS];
 static int ordered;
 
-/* --- what stands where ------------------------------------------------------------------------------------- */
-
 static void make_order(const image *im) {
     ordered = 0;
     for (int level = 0; level < 4; level++) {
@@ -55,8 +53,6 @@ static double value_of(void *context, const char *name, int length) {
     }
     return *name == 'x' && isdigit((unsigned char)name[1]) ? x[number] : (double)NAN;
 }
-
-/* --- operations ------------------------------------------------------------------------------------------------ */
 
 static double called(const char *name, double a, const double *b) {
     char text[120];
@@ -188,8 +184,6 @@ static bool has_complex(const op_list *t) {
     return found;
 }
 
-/* --- a file ----------------------------------------------------------------------------------------------------- */
-
 static const char *said_y(const char *at) {
     char name[40];
     at = said_exactly(at, "%\n% y = (");
@@ -298,8 +292,6 @@ static void test_function_files_compute_the_list(void) {
         TEST_ASSERT_TRUE(blocks_in_use() == blocks);
     }
 }
-
-/* --- a step as a matrix ------------------------------------------------------------------------------------------ */
 
 static const char *said_rows(const char *at, const image *im, const char *name, int first,
                              int end) {

@@ -24,8 +24,6 @@ void suite_pieces(void);
 
 enum { ANGLES = 5, LEAVES = 12, STATES = 3, SIZE_MOST = 900, RESULTS_MOST = 12 };
 
-/* --- random lists --------------------------------------------------------------------------------*/
-
 /* An earlier value; late ones are likelier. */
 static int some_value(dice *d, const int *value, int values) {
     const int near = values < 40 ? values : 40;
@@ -93,8 +91,6 @@ static op_list *some_list(dice d) {
     }
     return t;
 }
-
-/* --- the same in another order -------------------------------------------------------------------*/
 
 static int by_size(const void *x, const void *y) {
     const uint64_t left = *(const uint64_t *)x;
@@ -185,8 +181,6 @@ static void test_random_lists_compute_the_same(void) {
     TEST_MESSAGE(told);
     TEST_ASSERT_TRUE(moved > 0);
 }
-
-/* --- as seldom as can be -------------------------------------------------------------------------*/
 
 /* The sum of n squares, all squares first. The minimum is one load per leaf. In the entered order, squares beyond 20
  * registers are stored and loaded again; the last register makes the next square. */
@@ -412,8 +406,6 @@ static void test_each_of_several_comes_back(void) {
         algebra_free(a);
     }
 }
-
-/* --- sines inside sines ----------------------------------------------------------------------- */
 
 /* Sines of angles that contain sines, in any order of definition. */
 enum { MECHANISMS = 300, PIECES_STATES = 3 };

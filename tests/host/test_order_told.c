@@ -132,8 +132,6 @@ static const told_scene scenes[] = {
 
 enum { SCENES = (int)(sizeof scenes / sizeof scenes[0]) };
 
-/* --- what is run ----------------------------------------------------------------------------------------------------*/
-
 static size_t add(char *text, size_t at, const char *more) {
     const size_t size = strlen(more);
     TEST_ASSERT_TRUE(at + size < TEXT_SIZE);
@@ -168,7 +166,6 @@ static size_t add_in_order(char *text, size_t at, const char *const *lines, unsi
     return at;
 }
 
-/* The same numbers for the same `drawn`. */
 static void draw_numbers(const char *from, dice drawn, char text[TEXT_SIZE]) {
     size_t at = 0;
     text[0] = '\0';
@@ -199,8 +196,6 @@ static void run(const told_scene *s, dice drawn, unsigned k, said *what) {
     memcpy(words + 1, s->words, sizeof s->words);
     command_say(command_run, words, what);
 }
-
-/* --- what is said ----------------------------------------------------------------------------------------------------*/
 
 static int compare(const void *a, const void *b) {
     const char *const *left = a;

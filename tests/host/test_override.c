@@ -176,7 +176,6 @@ static void test_durations_beside_the_run(void) {
     expect_said("error: from is time [s], but this is length [m]");
 }
 
-/* An error is reported again even with the same text. */
 static void test_the_same_error_again_is_refused_again(void) {
     static const char *const wrong[] = {"m=1 [m]", "m=2 [m]", "m=2 [m]"};
     parse(sample);

@@ -212,7 +212,6 @@ static void hear(rig *r, const char *line) {
     r->heard++;
 }
 
-/* Remains of an earlier program. */
 static void leave(rig *r, dice *d) {
     static const char *const left[] = {"OK",
                                        "ERR 101 the line is too long",

@@ -71,7 +71,6 @@ static const char *const pieces[] = {"`touch build/tests/made`",
                                      "0",
                                      "12"};
 
-/* A run of these curves: a time column, then one per name. */
 static plot_run run_of(const char *title, const char *const names[], const char *const units[],
                        int curves, const double *data, int rows) {
     plot_run run;
@@ -199,7 +198,6 @@ static void test_no_picture(void) {
     unlink(PICTURE);
 }
 
-/* One panel per unit, in order of first use. */
 static void test_a_panel_a_unit(void) {
     enum { CURVES = 6, UNITS = 4 };
     static const char *const units[UNITS] = {"unita", "unitb", "unitc", "unitd"};
@@ -552,7 +550,6 @@ static void test_areas_darken_from_good_to_bad(void) {
     }
 }
 
-/* Points of nine methods differ in shape or colour. */
 static void test_lines_that_share_a_colour_differ_otherwise(void) {
     for (int i = 0; i < 3 * PALETTE_LINES; i++) {
         for (int j = 0; j < i; j++) {

@@ -108,8 +108,6 @@ static void test_what_may_touch(void) {
     }
 }
 
-/* --- what is no way to a pole, and a place that is known to few digits ------------------------------------*/
-
 /* Grows like a pole on average, but in jumps of 28 and 4.7 alternately; the even ratio is 11. */
 static void at_leaps(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
@@ -139,8 +137,6 @@ static void test_leaps_and_few_digits(void) {
     }
 }
 
-/* --- what rounding leaves -------------------------------------------------------------------------------*/
-
 typedef enum difference_kind {
     OF_EXP,
     OF_QUOTIENTS,
@@ -160,7 +156,6 @@ typedef struct difference {
 
 static double call(function_id function, double x) { return number_call(function, x, 0.0); }
 
-/* Each has a limit. */
 static double difference_at(difference_kind which, double x) {
     switch (which) {
     case OF_EXP: return (call(FN_EXP, x) - 1.0 - x) / (x * x);
@@ -237,8 +232,6 @@ static void test_what_stands_off(void) {
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_standing, 1.0));
     }
 }
-
-/* --- signs that change twice -----------------------------------------------------------------------------*/
 
 /* 1/(1 + k/x), x from below -k to above zero: 1 + k/x has the same sign at both ends. */
 static void at_twice(void *of, double share, double *sign, double *value) {

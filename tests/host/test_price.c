@@ -100,7 +100,6 @@ static void test_powers_take_few_products(void) {
     }
 }
 
-/* Equal coefficients are multiplied once. */
 static void test_equal_coefficients_are_taken_out(void) {
     uint64_t seed = 17;
     for (int count = 2; count <= 7; count++) {
@@ -143,7 +142,6 @@ static void test_what_is_the_same_is_computed_once(void) {
 
 /* --- sines --------------------------------------------------------------------------------------------------- */
 
-/* Multiples of one angle need one pair. */
 static void test_sines_of_multiples_follow_from_one(void) {
     uint64_t seed = 19;
     for (int round = 0; round < 24; round++) {
@@ -703,7 +701,6 @@ typedef struct motion_of {
     evaluator *rough; /* round-off of the list's slope, in units */
 } motion_of;
 
-/* Bound of the round-off of the slope. */
 static long double rounded_within(const motion_of *m, long double span) {
     const double y = (double)m->y;
     double result;
@@ -989,7 +986,6 @@ static void test_matrices_are_priced_by_a_step_that_they_take(void) {
     priced_close(&p);
 }
 
-/* With contacts the price can be that of a step without an event. */
 static void test_contacts_are_left_out_where_that_is_asked(void) {
     priced p;
     priced_open(&p, priced_ball, 1);

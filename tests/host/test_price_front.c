@@ -820,7 +820,6 @@ static void test_deviations_are_the_largest_of_all_records(void) {
     derived_free(&of);
 }
 
-/* With contacts steps differ; the report has the maximum. */
 static void test_the_step_with_most_evaluations_is_told(void) {
     derived of = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "V = 1 [kg]*9.81 [m/s^2]*x\nstop x >= 0 [m] restitution 0.5\n"

@@ -15,8 +15,6 @@ void suite_price_reference(void);
 
 #define MOST_OPERATIONS 6e8
 
-/* --- the functions -------------------------------------------------------------------------------- */
-
 static double units_off(long double got, long double want) {
     int exponent;
     if (isnan(got) || isnan(want)) {
@@ -95,8 +93,6 @@ static void test_functions_at_their_edges(void) {
     TEST_ASSERT_TRUE(long_call(FN_SIGN, -3.0L, 0.0L) == -1.0L);
     TEST_ASSERT_TRUE(units_off(long_root(0x1p-16000L), 0x1p-8000L) <= 1.0 || !LONG_IS_LONGER);
 }
-
-/* --- the motion ----------------------------------------------------------------------------------- */
 
 static reference *reference_of(const image *im, double spacing_s, int count) {
     const reference_wish wish = {.image = im,
@@ -181,7 +177,6 @@ static void test_a_flight_is_a_parabola(void) {
     derived_free(&d);
 }
 
-/* Swinging or turning over. */
 static void test_pendulums_keep_their_energy(void) {
     uint64_t seed = 74;
     double worst = 0.0;

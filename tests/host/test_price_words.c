@@ -127,8 +127,6 @@ static void test_fields_come_back(void) {
     }
 }
 
-/* --- a made-up table -------------------------------------------------------------------------------------*/
-
 static const char *const places[] = {
     "mechanism m\ncoordinate x [mm]\ncoordinate z [m]\nT = 1 [kg]*(x'^2 + z'^2)/2\n"
     "V = 9 [N/m]*(x^2 + z^2)/2\nscene s { start x = 100 [mm]; step 1 [ms]; until 1 [s] }\n",
@@ -264,8 +262,6 @@ static void test_programs_read_what_the_rows_are(void) {
         priced_close(&p);
     }
 }
-
-/* --- for people ------------------------------------------------------------------------------------------*/
 
 /* The text after `what`, which occurs once. */
 static const char *behind(const char *text, const char *what) {

@@ -14,8 +14,6 @@ void suite_prove(void);
 
 #define PARTS(above, below) ((quad)(above) / (quad)(below))
 
-/* --- what the scenes are, by hand ------------------------------------------------------------------------*/
-
 static quad_arms epicyclic(quad r) {
     const quad m = 2;
     quad_arms a = {.coordinates = 2, .carriage = 1, .bodies = 2};
@@ -44,8 +42,6 @@ static quad_arms double_pendulum(quad l1) {
     a.body[1] = (quad_body){PARTS(7, 10), 2, {{l1, 1, 0}, {PARTS(1, 2), 1, 1}}};
     return a;
 }
-
-/* --- beside the tube ---------------------------------------------------------------------------------------*/
 
 typedef struct scene_case {
     const char *name;

@@ -14,8 +14,6 @@
 
 void suite_prove_drawn(void);
 
-/* --- masses on arms -----------------------------------------------------------------------------------*/
-
 static quad hundredths(dice *d, int least, int most, char text[16]) {
     const int number = least + (int)dice_one_of(d, (unsigned)(most - least));
     const int size = abs(number);
@@ -123,7 +121,6 @@ static void name_carriage(drawn_arms *d) {
     }
 }
 
-/* The tube, against the same motion with one coefficient changed by a part. */
 static beside hold_arms(const drawn_arms *d, const char *text, unsigned which, double part,
                         containment_end *end) {
     quad_arms of = d->arms;
@@ -177,8 +174,6 @@ static void test_drawn_arms(void) {
     TEST_IGNORE_MESSAGE("no numbers of 113 bits here");
 #endif
 }
-
-/* --- linkages -----------------------------------------------------------------------------------------*/
 
 /* The energies by jets in long double. Their parameters are doubles, so the tube contains only round-off. */
 static void linkage_slopes(const void *of, const quad *state, quad *to) {

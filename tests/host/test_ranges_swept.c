@@ -474,7 +474,6 @@ static char folder[80];
 static char path[PATH];
 static char path_beside[PATH + 20];
 
-/* A sweep and its complete file. */
 typedef struct drawn_sheet {
     resumable_csv_settings settings;
     char whole[TEXT];
@@ -484,7 +483,6 @@ typedef struct drawn_sheet {
 
 static drawn_sheet d;
 
-/* The swept columns: two numbers of the row. */
 static void put_swept(const void *context, uint64_t row, FILE *out) {
     TEST_ASSERT_EQUAL_PTR(&d, context);
     fprintf(out, "%u,0.%u", (unsigned)row / 3U + 1U, (unsigned)row % 3U);
@@ -542,7 +540,6 @@ static void leave(size_t length) {
     put_file(path_beside, fingerprint, strlen(fingerprint));
 }
 
-/* Opens it, writes the missing rows, and closes it complete. */
 static void expect_gone_on(unsigned rows) {
     resumable_csv sh;
     unsigned failed = 0;
@@ -735,7 +732,6 @@ static void test_settings_of_others(void) {
     close_folder();
 }
 
-/* A second process cannot write it at the same time. */
 static void test_locked(void) {
     resumable_csv sh;
     open_folder();

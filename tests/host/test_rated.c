@@ -29,8 +29,6 @@ typedef struct told {
     told_row row[ROWS];
 } told;
 
-/* --- a run and what it says ------------------------------------------------------------------------*/
-
 static void run(const rated *r, const char *const *more, said *what) {
     const char *words[WORDS] = {"",        model_keep(r->text), "--method",
                                 r->method, "--number",          r->number};
@@ -113,8 +111,6 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
     }
     return worst;
 }
-
-/* --- rows --------------------------------------------------------------------------------------------*/
 
 /* The time of the line `trusted`, or the end; negative: no line. */
 static double trusted_s(const char *text, const rated *r) {
@@ -239,8 +235,6 @@ static void test_rows_are_right(void) {
     TEST_ASSERT_TRUE(m.compared > cases && m.unsaid * 5 <= cases);
 }
 
-/* --- beside `whirl price` ------------------------------------------------------------------------------*/
-
 static const char *field(const char *line, int at, char text[80]) {
     for (; at > 0 && line != NULL; at--) {
         line = strchr(line, ',');
@@ -326,8 +320,6 @@ static void test_rows_are_those_of_price(void) {
     TEST_ASSERT_TRUE(found >= cases);
 }
 
-/* --- the step of --error --------------------------------------------------------------------------------*/
-
 /* Of the first coordinate, at the end of every step. */
 static double coordinate_error(const rated *r, double step_s, double until_s) {
     const int records = (int)(until_s / step_s * (1.0 + 1e-9));
@@ -405,8 +397,6 @@ static void test_error_chooses_the_largest_step(void) {
     printf("  %u scenes: a step chosen in %u\n", cases, chosen);
     TEST_ASSERT_TRUE(chosen * 2 > cases);
 }
-
-/* --- scenes without rows, and what is refused -----------------------------------------------------------*/
 
 static void says(int status, const char *text, const char *const *words) {
     static said what;

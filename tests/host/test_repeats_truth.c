@@ -25,7 +25,6 @@ static double drawn(double least, double most) {
     return least + (most - least) * ((double)(scattered() >> 11) * 0x1p-53);
 }
 
-/* A bench with its noise, and the number of whole turns of its record. */
 static void draw_bench(bool fed) {
     plant = rig_plant_nominal;
     plant.inertia_kgm2 *= drawn(0.75, 1.45);
@@ -45,8 +44,6 @@ static void measure(const rig_noise *with, wh_measured *measured) {
     rig_measure(&orbit, with, &rotor, BEFORE, (unsigned)(record_s / orbit.turn_s - 0.5),
                 scattered() >> 16, measured);
 }
-
-/* --- errors ------------------------------------------------------------------------------------------ */
 
 typedef enum error { CLIPS, PLAYS, BENDS, TWICE, ERRORS } error;
 static const char *const error_names[ERRORS] = {"clips", "plays", "bends", "torque twice a turn"};
@@ -142,8 +139,6 @@ static void test_a_bent_gain_is_not_good(void) {
 static void test_a_torque_twice_a_turn_is_not_good(void) {
     check_error(TWICE, UINT64_C(0x5eed0a34), few_or_all(usual_or(60, 20), 1000), 2, 80);
 }
-
-/* --- healthy benches --------------------------------------------------------------------------------- */
 
 /* Noise and hum up to 0.3 N, jitter up to 100 us, drawn inertia and set-point: at most 1 % are doubtful. */
 static void check_healthy(uint64_t seed, unsigned slower) {

@@ -59,8 +59,6 @@ static void test_float_on_thomson_device(void) {
     expect_within("S8 gain", 10.0, 10000.0, plain / compensated);
 }
 
-/* --- the whole state, rates included, compensated, at every step ------------------------------------------ */
-
 /* Distance of the worst component from double with a step of 1/16 ms. */
 static double whole_error(const char *name, const char *start, double until_s, double step_s) {
     double value[2][3 * IMAGE_COMPONENTS_MAX];
@@ -124,8 +122,6 @@ static void test_no_step_is_too_small_for_compensated_sums(void) {
     }
 }
 
-/* --- until when a chaotic trajectory is worth something ---------------------------------------------- */
-
 /* First time at which a position of thomson_a has an error of 1e-3 (rad or m). The reference is double with steps of
  * 0.125 ms, whose error is 1e-9 at 8 s (test_convergence.c). */
 static double good_until_s(stepping how) {
@@ -160,8 +156,6 @@ static void test_how_long_a_chaotic_trajectory_is_good(void) {
     expect_within("S8 good to 1e-3 until, s: double, 1 ms", 9.2, 9.8,
                   good_until_s(IN_DOUBLE_STEP(1e-3)));
 }
-
-/* --- many steps -------------------------------------------------------------------------------------- */
 
 /* RMS over eight torques of float's extra error in theta and theta' at 5 s, compared with double at the same step. */
 static double rms_of_float(double step_s, bool compensated) {
@@ -212,8 +206,6 @@ static void test_a_million_steps(void) {
                   2.0 * gear_walk(1e6), plain);
     expect_within("S6 float compensated, the same", 0.1 * 89.63 * U, 89.63 * U, compensated);
 }
-
-/* --- turns ------------------------------------------------------------------------------------------ */
 
 static const char rotor[] = "mechanism rotor\n"
                             "coordinate theta [rad]\n"

@@ -13,7 +13,6 @@ void suite_running_error(void);
 
 enum { LEAVES = 6, ANGLES = 2, DRAWN = 14, MOST_OPS = 80 };
 
-/* A list and its values at a state. */
 typedef struct drawn_list {
     op_list *list;
     double leaf[LEAVES];
@@ -23,8 +22,6 @@ typedef struct drawn_list {
     double sine[MOST_OPS];
     double cosine[MOST_OPS];
 } drawn_list;
-
-/* --- values ------------------------------------------------------------------------------------------------*/
 
 static double phase_of(const drawn_list *l, const op *o) {
     double sum = o->value + (o->b >= 0 ? l->value[o->b] : 0.0);
@@ -97,8 +94,6 @@ static bool compute(drawn_list *l) {
     return true;
 }
 
-/* --- errors ------------------------------------------------------------------------------------------------*/
-
 /* Size of the slope by the first or second operand: a difference over this part of it. */
 static double slope(const drawn_list *l, const op *o, double x, double y, bool second,
                     double part) {
@@ -142,8 +137,6 @@ static void define(const drawn_list *l, double least, double part, double *error
         }
     }
 }
-
-/* --- lists -------------------------------------------------------------------------------------------------*/
 
 static int draw_leaf(dice *d, op_list *t) {
     static const op_code leaves[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL};

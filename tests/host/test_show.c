@@ -43,8 +43,6 @@ static int cases(int usual) {
                           : usual / (getenv("WHIRL_FEW") != NULL ? 3 : 1);
 }
 
-/* --- one expression --------------------------------------------------------------------------------*/
-
 static char *shown(algebra *a, const poly *p, show_style style) {
     char *text = NULL;
     size_t size = 0;
@@ -142,8 +140,6 @@ static void test_expressions_are_read_back_as_printed(void) {
     TEST_ASSERT_TRUE(10 * compared > 6 * made_up);
 }
 
-/* --- whole mechanisms ------------------------------------------------------------------------------*/
-
 /* Copies of the formulas from `from` to the line's end, separated by " = ". */
 static int formulas_of(char *line, char **formula) {
     int count = 0;
@@ -171,7 +167,6 @@ static int compare_sides(const equations *e, int row, const read_back *b, const 
     return compare(&q, text, b, 2 * row, 2 * row + 1, seed) > 0;
 }
 
-/* A highest derivative, from two equations. */
 static double solution_here(const quantity *of, const state *at, double *size) {
     const equations *e = of->equations;
     double m[4];
@@ -279,8 +274,6 @@ static void test_mechanisms_are_read_back_as_printed(void) {
     printf("  seed 21: %d formulas of %d mechanisms compared\n", compared, wanted);
     TEST_ASSERT_TRUE(compared > wanted);
 }
-
-/* --- more than the algebra takes on ----------------------------------------------------------------*/
 
 /* q, n, and the lets below: a0 = q to a13, g. */
 static double q_or_n(void *context, const char *name, int length) {
@@ -423,7 +416,6 @@ static void check_rows(const char *name, const char *all) {
     free(rows);
 }
 
-/* Every form lists each contact of the file and each active `when` of the scene. */
 static int check_scene(const scene *of) {
     static const char *const begins[][2] = {{"  stop ", "  \\text{stop, "},
                                             {"  friction on ", "  \\text{friction on } "},

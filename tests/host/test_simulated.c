@@ -37,7 +37,6 @@ static void begin(void) {
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
 }
 
-/* No leaks, and no other files in the folder. */
 static void end(void) {
     static const char *const names[] = {"r.csv", "r.csv.toml", "r.txt", "r.vcd", "r.svg"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -86,8 +85,6 @@ static int lines_in(const char *text) {
     }
     return lines;
 }
-
-/* --- rows ------------------------------------------------------------------------------------------------------*/
 
 static const char steady[] =
     "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\nT = 1 [kg]*x'^2/2 + 1 [kg*m^2]*a'^2/2\n"
@@ -197,8 +194,6 @@ static void test_rows_of_what_follows_from_its_momentum(void) {
     end();
 }
 
-/* --- the summary --------------------------------------------------------------------------------------------------*/
-
 /* The summary goes to standard error, the records to a discarded file. */
 static const char *summary_of(const image *im) {
     const simulation_settings s = {.kind = &engine_double, .every = 1, .csv = "-"};
@@ -227,8 +222,6 @@ static void test_summary_repeats(void) {
     }
     end();
 }
-
-/* --- interrupted -------------------------------------------------------------------------------------------------*/
 
 /* The interrupt is checked before each step; the rows end there. */
 static void test_interrupted(void) {
@@ -270,8 +263,6 @@ static void test_interrupted(void) {
     end();
 }
 
-/* --- held at an end of a range -----------------------------------------------------------------------------------*/
-
 static uint64_t held;
 static uint64_t held_values(const void *run) {
     (void)run;
@@ -303,8 +294,6 @@ static void test_held_values(void) {
     derived_free(&d);
     end();
 }
-
-/* --- what is no number -------------------------------------------------------------------------------------------*/
 
 /* sqrt(c - x) of x = t is undefined from the first step after c on. The report has the count and first time of such
  * records; without records it checks the end. */
@@ -419,8 +408,6 @@ static void test_strict(void) {
     derived_free(&d);
     end();
 }
-
-/* --- files -------------------------------------------------------------------------------------------------------*/
 
 static void test_files_that_cannot_be_written(void) {
     begin();

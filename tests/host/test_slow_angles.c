@@ -24,7 +24,6 @@ static double random_share(void) { /* xorshift64 (Marsaglia, 2003) */
     return (double)(seed_now >> 11) * 0x1p-53;
 }
 
-/* Final angle, and whether there was a warning. */
 typedef struct outcome {
     double way_rad;
     bool told;
@@ -46,8 +45,6 @@ static stepping in_float(wh_method method, bool compensated, double step_s) {
     return (stepping){
         .kind = &engine_float, .method = method, .compensated = compensated, .step_s = step_s};
 }
-
-/* --- constant rates ---------------------------------------------------------------------------------- */
 
 static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                             "scene s { start a = %.17g, a' = %.17g [rad/s] }\n";
@@ -93,8 +90,6 @@ static void test_slow_rates_are_told_and_others_are_not(void) {
     printf(": %d told, %d not\n", told, silent);
     TEST_ASSERT_TRUE(told > count / 5 && silent > count / 5);
 }
-
-/* --- other motions ----------------------------------------------------------------------------------- */
 
 static const struct {
     const char *name;

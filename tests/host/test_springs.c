@@ -14,7 +14,6 @@ typedef struct plane {
     long double x, y, vx, vy;
 } plane;
 
-/* The forces on the block, as in core/models/springs.whirl. */
 static plane slope_of(plane at) {
     const long double m = 2.0L;
     const long double strap = -300.0L * logl(at.x) / at.x;

@@ -264,7 +264,6 @@ static void test_rest_stays_rest(void) {
     }
 }
 
-/* `whirl run` with these options; NULL ends them. */
 static void run_with(const char *text, const char *const *options, said *what) {
     const char *words[8] = {model_keep(text)};
     for (int k = 0; options[k] != NULL; k++) {

@@ -98,7 +98,6 @@ static void test_stops_that_are_passed(void) {
     TEST_ASSERT_TRUE(refused > 20);
 }
 
-/* A loss on one of the rates or on none. */
 static void test_kicks_know_no_rates(void) {
     for (int count = 1; count <= MOST; count++) {
         for (int lossy = -1; lossy < count; lossy++) {
@@ -189,7 +188,6 @@ static void test_angles_that_start_too_far(void) {
     }
 }
 
-/* The report has the first coordinate that follows from its momentum. */
 static void test_momenta_are_no_kicks(void) {
     for (int first = 0; first < 3; first++) {
         char text[TEXT];

@@ -99,7 +99,6 @@ static double sample_of(const engine_kind *kind, void *run, channel from) {
     return output[from.index];
 }
 
-/* The measure of the samples from `from` on. */
 static double worth(measure_kind kind, const double *sample, int from, int count) {
     double least = sample[from];
     double most = sample[from];

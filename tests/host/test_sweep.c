@@ -48,8 +48,6 @@ static void close_sample(void) {
 
 static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, heard); }
 
-/* --- grids -------------------------------------------------------------------------------------*/
-
 static void test_last_axis_runs_fastest(void) {
     open_sample();
     TEST_ASSERT_TRUE(over("m=1..3:3"));
@@ -163,8 +161,6 @@ static void test_numbers_come_back(void) {
         TEST_ASSERT_TRUE(strtod(number_shortest(value, text), NULL) == value);
     }
 }
-
-/* --- measures ----------------------------------------------------------------------------------*/
 
 /* The measure of offset + size sin(2 pi t / period + 1) over `samples` steps of `step_s`. */
 static double of_sine(measure_kind kind, double offset, double size, double period_s,
@@ -288,7 +284,6 @@ static void test_measures_inside_are_told(void) {
     }
 }
 
-/* Two measures in one text are refused at their comma; commas of a function are accepted. */
 static void test_a_list_of_measures_is_told(void) {
     static const char *const one[] = {"theta",       "max(theta)",        "mean(2*theta)",
                                       "theta*theta", "atan2(theta, 2)",   "max(theta, 1)",

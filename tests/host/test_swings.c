@@ -181,7 +181,6 @@ static void write(const forced_case *c, char *text, size_t size) {
              angle, start_m, rate, c->step_s, c->steps * c->step_s);
 }
 
-/* Position and rate. */
 static void closed_form(const forced_case *c, double time_s, double is[2]) {
     const double w = c->swing_radps;
     const double z = c->damping;

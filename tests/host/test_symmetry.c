@@ -194,7 +194,6 @@ static double moved(int n, int k, int i, const double *of) {
     return k / n == i ? of[k % n] : 0.0;
 }
 
-/* Entry of the mass matrix for rates i and j. */
 static double mass_of(const particles *p, int i, int j) {
     const bool slides = (p->with & SLIDER) != 0 && (i == 0 || i == 2) && (j == 0 || j == 2);
     return (i == j ? p->mass[i / 2] : 0.0) + (slides ? SLIDER_KG : 0.0);

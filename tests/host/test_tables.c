@@ -44,8 +44,6 @@ static image *tabled_surely(const derived *d, image_tables form, int cells) {
     return im;
 }
 
-/* --- the tables, in float, phase by phase ----------------------------------------------------------------- */
-
 /* One of 2^14 phases, of 2^16 in `make test`; `make tables-exhaustive` takes them all. */
 static int check_scene(const scene *s) {
     derived d = derived_builtin(s->name);
@@ -100,8 +98,6 @@ static void test_errors_of_tables_fall_by_their_order(void) {
     derived_free(&d);
 }
 
-/* --- pieces meet -------------------------------------------------------------------------------------------- */
-
 static double piece(const op_list_tables *t, int k, int cell, double y, int derivative) {
     const double *c = &t->number[((cell & ((1 << t->bits) - 1)) * t->count + k) * t->terms];
     double value = 0.0;
@@ -131,8 +127,6 @@ static void test_pieces_meet_in_values_and_cubic_ones_in_slopes(void) {
     }
     derived_free(&d);
 }
-
-/* --- generated mechanisms of which one angle is in sines -------------------------------------------------- */
 
 /* " + 0.123*sin(2*th) ...", at most `most` in size. */
 static void write_fourier(FILE *out, uint64_t *seed, double most) {
@@ -290,7 +284,6 @@ static void test_generated_accelerations_are_as_near_as_the_tables(void) {
     TEST_ASSERT_TRUE(worst > 0.5); /* the bound is not too wide */
 }
 
-/* The state after `steps` of h. */
 static int after(image *im, double step_s, uint64_t steps, double value[VALUES]) {
     im->step_s = step_s;
     void *run = engine_double.start(im);
@@ -354,8 +347,6 @@ static void test_generated_motions_near_the_exact_ones_by_order(void) {
     }
 }
 
-/* --- the order of the step --------------------------------------------------------------------------------- */
-
 /* Order in the step, against the same form at a 32nd of it: the median over some seconds. */
 static double order_of(image *im) {
     enum { TIMES = 24 };
@@ -393,8 +384,6 @@ static void test_straight_pieces_end_the_order_of_the_step(void) {
     image_free(cubic);
     derived_free(&d);
 }
-
-/* --- what has not that form --------------------------------------------------------------------------------- */
 
 static const struct {
     const char *text;

@@ -231,7 +231,6 @@ static void test_hellos(void) {
     }
 }
 
-/* Interrupted during silence, or at the end. */
 static void test_interrupted(void) {
     for (int closed = 0; closed < 2; closed++) {
         static talk t;
@@ -274,7 +273,6 @@ static void test_programs(void) {
     }
 }
 
-/* A line cannot be reset: an error, and nothing is sent. */
 static void test_no_reset(void) {
     static talk t;
     static stream heard;
@@ -455,7 +453,6 @@ static void test_rows(void) {
     first = 0;
 }
 
-/* Its timer restarts, and the settings are written again. */
 static void test_a_reset(void) {
     const char *at = rows;
     unsigned outputs = 0;

@@ -206,7 +206,6 @@ static void expect_each_once(void) {
     }
 }
 
-/* Every sum, difference, product and quotient of two operations is found at its place only. */
 static void expect_found(void) {
     static const op_code codes[] = {OP_ADD, OP_SUB, OP_MUL, OP_DIV};
     for (int tries = 0; tries < 400; tries++) {
@@ -364,7 +363,6 @@ static void test_what_turns_a_phase(void) {
     }
 }
 
-/* A function of a constant is a constant. */
 static void test_functions_of_constants(void) {
     die = dice_of("functions of constants", 4133);
     list = op_list_new(ANGLES, 1);
@@ -808,7 +806,6 @@ static int sum_of(op_list *t, int which, double unit) {
                        op_list_mul(t, op_list_constant(t, b * unit), other));
 }
 
-/* A quotient of such sums. */
 static op_list *quotient(double unit) {
     op_list *t = op_list_new(0, 1);
     const int above = sum_of(t, 0, unit);

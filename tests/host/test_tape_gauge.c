@@ -18,8 +18,6 @@ void suite_tape_gauge(void);
 
 enum { TEXT = 2000, STATES = 30 };
 
-/* --- mechanisms of decimal masses and lengths ----------------------------------------------------------------------*/
-
 static double decimal(uint64_t *seed) {
     const double digits = floor(random_between(seed, 10.0, 999.0));
     return digits / (random_bits(seed) % 2 == 0 ? 100.0 : 1000.0);
@@ -52,9 +50,6 @@ static void write_decimal(unsigned kind, uint64_t *seed, char text[TEXT]) {
              m1, m2, m3, r, l, bodies[kind % (sizeof bodies / sizeof bodies[0])]);
 }
 
-/* --- a pair of lists ---------------------------------------------------------------------------------------------*/
-
-/* The program before the gauge, with compensated sums and the scene's conserved coordinates. */
 static program *before_gauge(const derived *d, const char *scene_name) {
     const bool *conserve = NULL;
     for (int i = 0; i < d->model->scene_count && scene_name != NULL; i++) {
@@ -157,7 +152,6 @@ typedef struct tally {
     double after;
 } tally;
 
-/* False: the mechanism cannot be derived. */
 static bool hold(const char *text, uint64_t seed, tally *all) {
     derived d = derived_text(text);
     const bool derives = d.image != NULL && d.image->list[IMAGE_STEP]->count <= OPERATIONS;
@@ -226,8 +220,6 @@ static void test_any_mechanism_keeps_its_results(void) {
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
 
-/* --- by hand ---------------------------------------------------------------------------------------------------*/
-
 /* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: if M may be multiplied, all constants become exact. */
 static void test_a_quotient_gets_whole_numbers(void) {
     op_list *t = op_list_new(1, 1);
@@ -256,7 +248,6 @@ static void test_a_quotient_gets_whole_numbers(void) {
     op_list_free(t);
 }
 
-/* Two scenes have no freedom without a cost. */
 static void test_scenes_have_no_freedom_for_nothing(void) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
     static const double left[] = {0.1, 0.5}; /* of the bias; op_list_gauge() promises the second */

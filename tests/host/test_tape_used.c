@@ -14,8 +14,6 @@ void suite_tape_used(void);
 static dice die;
 static drawn_scene drawn;
 
-/* --- counts ------------------------------------------------------------------------------------------------- */
-
 static op_list_cost counted(const op_list *t) {
     op_list_cost c = {0};
     for (int i = 0; i < t->count; i++) {
@@ -75,8 +73,6 @@ static void each_list(unsigned cases, void (*check)(scene_list *l)) {
 
 static void check_list_counts(scene_list *l) { check_counts(&l->list); }
 static void test_operations_are_counted(void) { each_list(200, check_list_counts); }
-
-/* --- numbers that are none, or none of float ------------------------------------------------------------------- */
 
 /* Does every path from operation i to a result pass operation `by`? */
 static bool leads_from(const op_list *t, int i, int by) {
@@ -160,8 +156,6 @@ static void test_images_know_what_float_has_no_room_for(void) {
     }
 }
 
-/* --- images ------------------------------------------------------------------------------------------------------ */
-
 static void test_images_are_read(void) {
     for (unsigned c = 0; c < dice_cases(100); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -204,8 +198,6 @@ static void test_images_are_read(void) {
     op_list_free(books);
 }
 
-/* --- hashes ------------------------------------------------------------------------------------------------------- */
-
 static uint64_t hash_changed(const op_list *t, double *number) {
     const double kept = *number;
     *number = kept + 1.0;
@@ -214,7 +206,6 @@ static uint64_t hash_changed(const op_list *t, double *number) {
     return hash;
 }
 
-/* A change of a number, factor, operand or result changes the hash. */
 static void check_hash(scene_list *l) {
     op_list *t = &l->list;
     const uint64_t hash = op_list_hash(t);
@@ -247,8 +238,6 @@ static void check_hash(scene_list *l) {
 }
 
 static void test_a_hash_is_of_everything(void) { each_list(60, check_hash); }
-
-/* --- sums that share ---------------------------------------------------------------------------------------------- */
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 

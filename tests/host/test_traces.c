@@ -470,7 +470,6 @@ void suite_traces(void) {
 enum { VCD_SIGNALS = 100, VCD_CHANGES = 400, VCD_VALUE = 40, JITTER = 20 };
 typedef enum kind_of { WIRE, REAL, EVENT } kind_of;
 
-/* As printed. */
 typedef struct happening {
     int64_t time;
     int signal;

@@ -93,7 +93,6 @@ static void test_triple_pendulum(void) {
             (const double[]){20.0, 20.0, 20.0, 20.0});
 }
 
-/* A system of first order. */
 static void test_lorenz(void) {
     chaotic("lorenz", false, "tests/mechanisms/lorenz.whirl", "x = 1, y = 0.5, z = 2",
             (const double[]){40.0, 40.0, 45.0, 60.0});
@@ -125,8 +124,6 @@ static void say_trust_scenes(const char *what, const horizons *h) {
            h->true_until_s, h->twins->end_s, horizons_ratio(h));
 }
 
-/* --- nothing diverges --------------------------------------------------------------------------------*/
-
 static const horizons_setting in_double = {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
 static const horizons_setting in_float = {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
 static const horizons_setting compensated = {&engine_float, true, WH_RK4, TABLES_NONE, MATRIX_NONE};
@@ -152,8 +149,6 @@ static void test_where_nothing_diverges(void) {
     expect_the_end("spherical_particle.whirl", "spherical_flight", in_float);
     expect_the_end("cuff.whirl", "cuff_equal", in_float); /* X and Y are only round-off */
 }
-
-/* --- the step, not chaos, ends it ------------------------------------------------------------------------*/
 
 static const char swing[] = "mechanism swing \"two pendulums that exchange their swing\"\n"
                             "coordinate a [rad]\ncoordinate b [rad]\n"
@@ -220,8 +215,6 @@ static void test_rounding_and_tables(void) {
     }
     TEST_ASSERT_TRUE(ended >= 4);
 }
-
-/* --- contacts --------------------------------------------------------------------------------------------*/
 
 /* Near the true horizon; a tolerance near float's resolution may end it earlier. 1: it ended before the run. */
 static unsigned expect_contacts(const char *name, horizons_setting how, double tolerance) {

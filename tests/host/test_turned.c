@@ -18,7 +18,6 @@
 
 void suite_turned(void);
 
-/* A pendulum with an additional potential. */
 static bool turns(const char *more, const char *start, image_settings settings) {
     char text[600];
     snprintf(text, sizeof text,
@@ -48,8 +47,6 @@ static void test_settings_and_lists_choose(void) {
     TEST_ASSERT_FALSE(turns(" + 0.01 [J]*cos(a + x/(1 [m]))", "a = 1", plainly));
 }
 
-/* --- both forms move alike --------------------------------------------------------------------------- */
-
 enum { VALUES = 3 * IMAGE_COMPONENTS_MAX };
 
 /* The state after `steps`; 0 when a step is refused. */
@@ -66,7 +63,6 @@ static int after(image *im, const engine_kind *kind, image_angles angles, uint64
     return status == WH_OK ? im->angles + im->reals : 0;
 }
 
-/* The same with a step `parts` times shorter. */
 static int after_parts(image *im, const engine_kind *kind, image_angles angles, uint64_t steps,
                        int parts, double value[VALUES]) {
     const double step_s = im->step_s;

@@ -83,8 +83,6 @@ static void test_turning_errs_as_looking_up_does(void) {
     }
 }
 
-/* --- by method -----------------------------------------------------------------------------------------------------*/
-
 #define SWING_S 30.0 /* about five periods */
 enum { SWING_POINTS = 20 };
 

@@ -230,7 +230,6 @@ static void test_expressions_that_end_where_a_stop_is(void) {
     model_drop();
 }
 
-/* `whirl accel` at states with an undefined term. */
 static void test_accelerations_that_are_no_numbers(void) {
     static const char *const terms[] = {"V = 1 [J]*log(x/u)", "V = 1 [J]*u/x",
                                         "Q(x) = 1 [N]*sqrt(x/u - 1)", "F = 1 [N*s/m]*x'^2/(x/u)",

@@ -37,8 +37,6 @@ static derived scene_of(const char *text) {
     return d;
 }
 
-/* --- the innermost part --------------------------------------------------------------------------------------*/
-
 /* '@' stands for the undefined part. Each form is undefined if that is, and never by itself. */
 static const char *const around[] = {
     "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
@@ -98,8 +96,6 @@ static void test_the_innermost_part_is_named(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
-/* --- on the way ------------------------------------------------------------------------------------------------*/
-
 /* A term undefined in a window of the step is found if a sampled place lies in it, within the range. */
 static void test_the_places_on_the_way(void) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
@@ -137,7 +133,6 @@ static void test_the_places_on_the_way(void) {
     }
 }
 
-/* Inputs have their values, rates and places theirs. */
 static void test_what_it_is_made_of(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 10)); c++) {
         char text[500];
@@ -218,8 +213,6 @@ static void test_angles_that_it_is_made_of(void) {
         derived_free(&d);
     }
 }
-
-/* --- angles ----------------------------------------------------------------------------------------------------*/
 
 /* a, b and c turn, with sines of a and of b - 2 c; d is an angle that swings, e is not an angle. */
 static const char angles[] =

@@ -70,7 +70,6 @@ static const struct {
 } prefixes[] = {{'T', 1e12}, {'G', 1e9},  {'M', 1e6},  {'k', 1e3},  {'h', 1e2},  {'d', 1e-1},
                 {'c', 1e-2}, {'m', 1e-3}, {'u', 1e-6}, {'n', 1e-9}, {'p', 1e-12}};
 
-/* The standards' definition of the name in *found; false: none. */
 static bool define(const char *name, definition *found) {
     for (int i = 0; i < DEFINITIONS; i++) {
         if (strcmp(definitions[i].name, name) == 0) {
@@ -200,7 +199,6 @@ static void test_no_unit_is_missing(void) {
     }
 }
 
-/* The hint for a habitual notation has the same meaning in the language. */
 static void test_hints_for_habits_mean_the_same(void) {
     static const definition habits[] = {
         {"Nm", 1, 2, 1, -2, 0, 0, false},

@@ -124,7 +124,6 @@ static const char *value_at(const said *what, const char *path) {
     return value;
 }
 
-/* --json: one object with the same findings, standard error and status. */
 static void expect_json(int (*command)(int, char **), const char **words, const said *before,
                         const char *list) {
     said what;
@@ -378,7 +377,6 @@ static bool expect_statuses(dice *d, const char **run, const char **sweep, const
     return !failed && ran->status == 1;
 }
 
-/* The energy ratio decides; other findings still count. */
 static void test_a_limit_is_one_of_the_energy(void) {
     dice d = dice_of("limit", 15005);
     unsigned of[2] = {0};
@@ -506,7 +504,6 @@ static void write_chain(dice d, double speed, char text[TEXT]) {
              step_s * (20.0 + dice_one_of(&d, 200)));
 }
 
-/* Findings do not depend on the inertial frame. */
 static void test_a_common_speed_changes_nothing(void) {
     dice d = dice_of("frames", 4701);
     const unsigned cases = dice_cases(few_or_all(20, 300));

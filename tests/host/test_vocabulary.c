@@ -62,8 +62,6 @@ static void test_contacts_are_in_the_core_s_order(void) {
                      CONTACT_FRICTION < CONTACT_WHEN);
 }
 
-/* --- blocks whose brace was forgotten -------------------------------------------------------------------- */
-
 static bool is_among(const char *word, const char *words) {
     const size_t length = strlen(word);
     for (const char *at = words; (at = strstr(at, word)) != NULL; at++) {
@@ -102,8 +100,6 @@ static void test_which_words_end_a_block(void) {
         }
     }
 }
-
-/* --- what kinds are called ------------------------------------------------------------------------------- */
 
 static void expect_report(const char *statements, const char *wanted) {
     char text[TEXT_SIZE];
@@ -263,7 +259,6 @@ static void test_other_notations_are_mended(void) {
     }
 }
 
-/* A decimal comma at every place of a number. */
 static void test_a_decimal_comma_gets_a_hint(void) {
     static const char *const forms[] = {
         "parameter a = %u,%u [m]", "V = %u,%u [N/m]*x^2", "scene s { step %u,%u [ms] }",

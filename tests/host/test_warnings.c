@@ -24,7 +24,6 @@ enum { MASSES = 4, TEXT = 1600 };
 
 typedef enum made_kind { SPRING, CHAIN, PENDULUM, DAMPER, DAMPED, KINDS } made_kind;
 
-/* A mechanism with a known energy at any time. */
 typedef struct made_up {
     made_kind kind;
     int masses;
@@ -239,8 +238,6 @@ static void test_energy_that_the_method_takes_is_told(void) {
     TEST_ASSERT_TRUE(without <= gone / 20);
 }
 
-/* --- singular coordinates -----------------------------------------------------------------------------------*/
-
 /* A particle in spherical coordinates passes the axis: its final error, m. */
 static double flight_off(const char *text, const double end[3], double step_s, bool is_float,
                          bool compensated) {
@@ -328,8 +325,6 @@ static void test_passing_a_pole_is_told(void) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* --- systems --------------------------------------------------------------------------------------------------*/
-
 static void test_swings_of_a_system_are_told(void) {
     dice d = dice_of("systems", 14003);
     const unsigned cases = dice_cases(few_or_all(usual_or(20, 15), 60));
@@ -359,8 +354,6 @@ static void test_swings_of_a_system_are_told(void) {
     }
     model_drop();
 }
-
-/* --- built-in scenes ----------------------------------------------------------------------------------------------*/
 
 /* It rests after eight of about 25000 bounces, with a warning; the remedy removes it. */
 static void expect_ball_between(said *what, const char **words) {

@@ -105,7 +105,6 @@ static void test_energies_by_other_names(void) {
     }
 }
 
-/* Each word in each of the three blocks: accepted, or refused by its name. */
 static void test_a_word_stands_only_where_its_row_says(void) {
     static const unsigned places[] = {IN_MECHANISM | IN_FILE, IN_EFFECT, IN_SCENE};
     for (int i = 0; i < STATEMENT_WORDS; i++) {
@@ -130,7 +129,6 @@ static void test_a_word_stands_only_where_its_row_says(void) {
     }
 }
 
-/* The forms in hints are valid statements. */
 static void test_forms_are_good_statements(void) {
     static const word_id tried[] = {WORD_STOP, WORD_FRICTION, WORD_HOLD, WORD_WHEN, WORD_NOISE};
     for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
@@ -150,8 +148,6 @@ static void test_kinds_have_words(void) {
         TEST_ASSERT_TRUE(strlen(contact_called(kind)) > 0 && strlen(contact_undefined(kind)) > 0);
     }
 }
-
-/* --- docs/language.md ---------------------------------------------------------------------------*/
 
 static char page[PAGE_SIZE];
 

@@ -66,7 +66,6 @@ static void draw_direction(int n, long double *direction) {
     }
 }
 
-/* A rotation and scaling, each entry with a radius. */
 static void draw_map(int n, double radius, enclosure *map) {
     for (int i = 0; i < n * n; i++) {
         const double middle = dice_between(&die, -0.7, 0.7) + (i % (n + 1) == 0 ? 0.5 : 0.0);
@@ -197,7 +196,6 @@ static void test_mapped(void) {
     TEST_ASSERT_TRUE(reductions > 50);
 }
 
-/* The longest generators stay unchanged. */
 static void test_longest_are_kept(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
         const int n = 2 + (int)dice_one_of(&die, SIZE - 1);
