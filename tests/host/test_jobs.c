@@ -28,8 +28,7 @@ typedef struct log_of_rows {
     uint64_t limit; /* refuse the rows after this */
 } log_of_rows;
 
-/* The sleep falls with p % 8, so that points end out of order. A row has up to 200 kB, more than a
- * pipe can hold. */
+/* The sleep falls with p % 8, so that points end out of order. A row has up to 200 kB, more than a pipe can hold. */
 static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     (void)context;
     const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
@@ -43,8 +42,7 @@ static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     return point % 10 != 3;
 }
 
-/* One point of forty takes so long that the other workers reach their limit before its row is
- * delivered. */
+/* One point of forty takes so long that the other workers reach their limit before its row is delivered. */
 static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 30000000L};
     if (point % 40 == 7) {
@@ -229,8 +227,7 @@ static void test_workers_end_when_they_are_told(void) {
     TEST_ASSERT_TRUE(log.next == FIRST + 1 && end.tv_sec - begin.tv_sec < 4);
 }
 
-/* The progress line of a sweep (host/study/session.h): percentage, bar, pace, and time left at
- * that pace. */
+/* The progress line of a sweep (host/study/session.h): percentage, bar, pace, and time left at that pace. */
 static char *shown;
 static size_t length;
 
@@ -299,8 +296,7 @@ static void test_what_is_shown(void) {
     }
 }
 
-/* The line is not drawn twice in a row. Zero of zero points are 100 %. Without a terminal no line
- * is drawn. */
+/* The line is not drawn twice in a row. Zero of zero points are 100 %. Without a terminal no line is drawn. */
 static void test_when_it_is_shown(void) {
     progress p = begun(1.0, 0, 0);
     progress_show(&p, 0);

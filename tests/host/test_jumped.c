@@ -1,7 +1,6 @@
-/* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h). The divisors of drawn
- * equations and forces come near zero and never reach it. A warning must appear if the run crossed
- * the pole, and only then. The last state alone shows whether it crossed. False alarms:
- * test_unjumped.c. */
+/* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h). The divisors of drawn equations and forces
+ * come near zero and never reach it. A warning must appear if the run crossed the pole, and only then. The last state
+ * alone shows whether it crossed. False alarms: test_unjumped.c. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -28,15 +27,13 @@ static double last_of(const char *name) {
     return strtod(at + strlen(wanted), NULL);
 }
 
-/* Width of a bend relative to a step: steps jump over most of the narrow ones and few of the wide
- * ones. */
+/* Width of a bend relative to a step: steps jump over most of the narrow ones and few of the wide ones. */
 static double width(unsigned c) {
     return exp(c % 2 == 0 ? dice_between(&die, -(double)few_or_all(3, 6), -0.7)
                           : dice_between(&die, 0.5, 2.0));
 }
 
-/* Michaelis-Menten decay in several forms: s' = -v s/(k + s) never falls below zero. Its pole is
- * at -k or further. */
+/* Michaelis-Menten decay in several forms: s' = -v s/(k + s) never falls below zero. Its pole is at -k or further. */
 static const char *const knees[] = {
     "let d = k + s\nequation s' = -rate*v*s/d\n",
     "equation s' = -rate*v*s*(k + s)^(-1)\n",
@@ -116,8 +113,7 @@ static void test_knees(void) {
     TEST_ASSERT_TRUE(6U * told > cases && 6U * kept > cases && 2U * cured > told);
 }
 
-/* Compared with a run of the test's own: start of the step and number of the expression. No memory
- * leaks. */
+/* Compared with a run of the test's own: start of the step and number of the expression. No memory leaks. */
 static void test_when(void) {
     for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
         char text[JUMPS_TEXT];
@@ -150,8 +146,7 @@ static void test_when(void) {
     }
 }
 
-/* In bends this narrow, half steps jump too, and the two runs may agree. No result after the jump
- * is trusted. */
+/* In bends this narrow, half steps jump too, and the two runs may agree. No result after the jump is trusted. */
 static void test_trust(void) {
     for (unsigned c = 0; c < jumps_cases(KNEES, 8 * KNEES, 3); c++) {
         char text[JUMPS_TEXT];

@@ -251,8 +251,7 @@ static void end_badly(const char *name, const char *mode) {
     }
 }
 
-/* Impossible requests: negative counts, products and sums that overflow size_t, and sizes that the
- * heap refuses. */
+/* Impossible requests: negative counts, products and sums that overflow size_t, and sizes that the heap refuses. */
 static int ask(int count, char **words) {
     (void)count;
     void *made = NULL;

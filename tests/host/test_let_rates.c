@@ -50,8 +50,7 @@ static formula leaf(dice *d) {
     }
 }
 
-/* The tree has `deep` levels. A quotient inside a power has many normal forms, so it is not drawn
- * there. */
+/* The tree has `deep` levels. A quotient inside a power has many normal forms, so it is not drawn there. */
 static formula draw(dice *d, int deep) {
     if (deep == 0) {
         return leaf(d);
@@ -132,8 +131,7 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
     }
 }
 
-/* Both give the same numbers, and nine of ten the same C, because powers of quotients have no
- * unique normal form. */
+/* Both give the same numbers, and nine of ten the same C, because powers of quotients have no unique normal form. */
 static void test_derivatives_of_lets_are_those_by_hand(void) {
     dice d = dice_of("let_rates", 4601);
     const unsigned cases = dice_cases(usual_or(120, 20));

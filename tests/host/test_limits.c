@@ -23,8 +23,7 @@ static const char system_swing[] =
     "mechanism m\nstate x [m]\nstate v [m/s]\nequation x' = v\nequation v' = -1 [1/s^2]*x\n"
     "scene s { start x = 1 [m]\nstep 1 [ms]\nuntil 1e6 [s] }\n";
 
-/* In a system of first order the matrix of a step is as normal as the system's, so the least
- * growth shows. */
+/* In a system of first order the matrix of a step is as normal as the system's, so the least growth shows. */
 static bool stays(const char *text, wh_method method, double step_s) {
     motion m;
     bool bounded = true;
@@ -58,9 +57,8 @@ static double measured(const char *text, wh_method method) {
     return low;
 }
 
-/* Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2. Nyström methods: by
- * bisection on the polynomials of their rows (docs/stability.md). 0: never stable; below 0: the
- * method takes no such system. */
+/* Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2. Nyström methods: by bisection on the
+ * polynomials of their rows (docs/stability.md). 0: never stable; below 0: the method takes no such system. */
 static const struct {
     wh_method method;
     double swings;
@@ -116,8 +114,7 @@ static void test_what_a_step_takes(void) {
     }
 }
 
-/* 1, 2 and 5 times powers of ten, from 5000 down over 16 decades. Each must be the nearest from
- * below. */
+/* 1, 2 and 5 times powers of ten, from 5000 down over 16 decades. Each must be the nearest from below. */
 static void test_nice_steps(void) {
     dice die = dice_of("nice steps", 68);
     for (unsigned c = 0; c < dice_cases(2000); c++) {

@@ -1,10 +1,8 @@
-/* test_lockin_truth.c: the rig's measurement compared with the truth, and the coverage of its
- * intervals.
+/* test_lockin_truth.c: the rig's measurement compared with the truth, and the coverage of its intervals.
  *
- * The truth is the first Fourier coefficient, over the angle, of the force of a rotor. It is
- * integrated finely in double (rig_orbit.c) without noise. The measurement has noise of the cell
- * and jitter of the marks. Seeds are fixed. WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000
- * runs of each kind, `make test` fewer, and prints the results. */
+ * The truth is the first Fourier coefficient, over the angle, of the force of a rotor. It is integrated finely in
+ * double (rig_orbit.c) without noise. The measurement has noise of the cell and jitter of the marks. Seeds are fixed.
+ * WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000 runs of each kind, `make test` fewer, and prints the results. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -181,9 +179,8 @@ static void test_bias_and_scatter(void) {
     }
 }
 
-/* The same with a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN,
- * noise of half a count. Without noise a crest repeats one value longer than a working cell would.
- * The result must still be honest. */
+/* The same with a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN, noise of half a count.
+ * Without noise a crest repeats one value longer than a working cell would. The result must still be honest. */
 static void test_a_converter_of_twelve_bits(void) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {
@@ -207,8 +204,7 @@ static void test_a_converter_of_twelve_bits(void) {
     }
 }
 
-/* At 330 rpm: 93 to 97 % of 1,000 runs lie within their interval, and the intervals are not wider
- * than needed. */
+/* At 330 rpm: 93 to 97 % of 1,000 runs lie within their interval, and the intervals are not wider than needed. */
 static void test_intervals_hold_what_they_promise(void) {
     static const double cells_N[] = {0.5, 1.0, 3.0};
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
@@ -302,10 +298,9 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
     print_row(rpm, noise);
 }
 
-/* From the speed at which the motor can just brake as much as required: compensation wrong by up
- * to 30 %, inertia 50 % higher or 30 % lower, within 1 % and 1 degree. Slower, the rotor cannot
- * pass the top by itself and the motor cannot brake enough. There only the right compensation
- * passes. */
+/* From the speed at which the motor can just brake as much as required: compensation wrong by up to 30 %, inertia 50 %
+ * higher or 30 % lower, within 1 % and 1 degree. Slower, the rotor cannot pass the top by itself and the motor cannot
+ * brake enough. There only the right compensation passes. */
 static void test_what_is_fed_does_not_show(void) {
     static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {
@@ -364,9 +359,8 @@ static void test_intervals_while_fed(void) {
     }
 }
 
-/* Faults of the cell at all speeds: a result marked good is right within its interval plus 1 %.
- * Gain errors below 5 % are exempt, because only calibration finds them. Some results must be
- * good. */
+/* Faults of the cell at all speeds: a result marked good is right within its interval plus 1 %. Gain errors below 5 %
+ * are exempt, because only calibration finds them. Some results must be good. */
 static void test_no_fault_is_called_good(void) {
     static const rig_noise faults[] = {
         {.cell_N = 0.07, .frozen_s = 0.1},

@@ -1,6 +1,5 @@
-/* test_map.c: stability maps of drawn springs, dampers and decays, per method, compared with
- * closed forms from both sides. Limits: unbounded runs, tolerance, energy. Also pairs without a
- * run, interrupted maps and refused words. */
+/* test_map.c: stability maps of drawn springs, dampers and decays, per method, compared with closed forms from both
+ * sides. Limits: unbounded runs, tolerance, energy. Also pairs without a run, interrupted maps and refused words. */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -89,10 +88,9 @@ static double longest(int order, double complex direction) {
     return low;
 }
 
-/* `order` selects the polynomial. Else the limit of an undamped oscillation: 2 for leapfrog and
- * semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1).
- * Nyström methods: from runs of 40,000 steps (docs/stability.md). Over `steps`, 2 % beyond the
- * limit, a run grows a hundredfold. */
+/* `order` selects the polynomial. Else the limit of an undamped oscillation: 2 for leapfrog and semi-implicit Euler
+ * (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1). Nyström methods: from runs of 40,000 steps
+ * (docs/stability.md). Over `steps`, 2 % beyond the limit, a run grows a hundredfold. */
 static const struct {
     wh_method method;
     int order;
@@ -110,8 +108,7 @@ typedef struct tally {
     unsigned within, beyond;
 } tally;
 
-/* Scene of frequency w in `unit` 1/s at scale 1. Its limit is `z` over w times the root of the
- * scale. */
+/* Scene of frequency w in `unit` 1/s at scale 1. Its limit is `z` over w times the root of the scale. */
 static void hold_to(const map_asked *a, const double *limit_s, double known_to, tally *sum) {
     drawn_map m;
     open_map(&m, a);
@@ -306,8 +303,7 @@ static void test_where_a_tolerance_and_the_energy_end(void) {
     TEST_ASSERT_TRUE(seen[MAP_KEEPS] > cases && seen[MAP_OFF] > cases && seen[MAP_LOSES] > cases);
 }
 
-/* Without mass there is no acceleration, beyond the stop no start, and a step longer than the run
- * is no step. */
+/* Without mass there is no acceleration, beyond the stop no start, and a step longer than the run is no step. */
 static void test_pairs_without_a_run(void) {
     static const char ball[] =
         "mechanism ball\ncoordinate z [m]\nparameter e = 0.5\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"

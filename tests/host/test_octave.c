@@ -302,9 +302,8 @@ void suite_octave(void) {
 /* === latex runs =============================================================================== */
 /* The printed LaTeX is the model that runs. At random states the printed equations (latex_value.h) are solved for the
  * highest derivatives. These, and the printed closed forms, are compared with the operation list in double. The
- * tolerance follows from the state: printed digits and round-off, carried through the formulas and the inverse
- * matrix. Covers every built-in scene, tests/mechanisms and generated mechanisms; PRINTED_MECHANISMS=N takes N of
- * these. */
+ * tolerance follows from the state: printed digits and round-off, carried through the formulas and the inverse matrix.
+ * Covers every built-in scene, tests/mechanisms and generated mechanisms; PRINTED_MECHANISMS=N takes N of these. */
 
 enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
 

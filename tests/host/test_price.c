@@ -242,8 +242,7 @@ static void test_a_number_is_the_pivot(void) {
 #undef PUT
         derived d = derived_text(text);
         derived_expect(&d, text);
-        /* forward: a quotient, twice a product and a difference, a quotient; back: a product, a difference, a
-         * quotient */
+        /* forward: a quotient, twice a product and a difference, a quotient; back: a product, a difference, a quotient */
         printf("  pivot %d: %d\n", at, op_list_operations(d.image->list[IMAGE_STEP]));
         TEST_ASSERT_TRUE_MESSAGE(op_list_operations(d.image->list[IMAGE_STEP]) <= 9, text);
         derived_free(&d);

@@ -845,8 +845,7 @@ static void test_the_step_with_most_evaluations_is_told(void) {
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                           (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
-    /* each of 19 records evaluates the accelerations once more, and the first the contacts: a cost, but not the
-     * steps' */
+    /* each of 19 records evaluates the accelerations once more, and the first the contacts: a cost, but not the steps' */
     const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
     TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);

@@ -1,5 +1,4 @@
-/* test_sweep.c: grids and measures of `whirl sweep`. Workers: test_jobs.c; files and whole sweeps:
- * tests/cli/sweep.sh. */
+/* test_sweep.c: grids and measures of `whirl sweep`. Workers: test_jobs.c; files and whole sweeps: tests/cli/sweep.sh. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>
@@ -182,8 +181,7 @@ static void test_series_of_a_sine(void) {
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_AMPLITUDE, 1.5, 2.5, 0.2, 2001, 1e-3) - 2.5) <= miss);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MEAN, 1.5, 2.5, 0.2, 2001, 1e-3) - 1.5) <= 1e-13);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_PERIOD, 1.5, 2.5, 0.2, 2001, 1e-3) - 0.2) <= 1e-13);
-    /* a fractional number of steps per period: linear interpolation errs by less than 1e-3 steps, shared by 18
-     * periods */
+    /* a fractional number of steps per period: linear interpolation errs by less than 1e-3 steps, shared by 18 periods */
     const double odd_s = 0.1 * sqrt(1.23);
     const double measured_s = of_sine(MEASURE_PERIOD, 0.0, 1.0, odd_s, 2001, 1e-3);
     TEST_ASSERT_TRUE(fabs(measured_s - odd_s) <= 2e-3 * 1e-3);

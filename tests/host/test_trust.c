@@ -107,8 +107,7 @@ void suite_trust(void) {
 
 /* === trust scenes ============================================================================= */
 /* Horizons of built-in scenes. Without divergence they reach the end. With coarse steps, simple methods or small
- * tables they agree with the reference. With contacts the reference has steps a 32nd as long and finds its own
- * events. */
+ * tables they agree with the reference. With contacts the reference has steps a 32nd as long and finds its own events. */
 
 /* A built-in scene with its own step, or with another step and end. */
 static horizons built_in(const char *file, const char *name, horizons_setting how,
