@@ -149,9 +149,8 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     return measured.quality;
 }
 
-/* Scatter at most 1.3 times the noise of so many samples. Jitter moves the phase by at least that
- * of the mean of the marks, which is added: 20 marks, each known to 60 us, give the angle no
- * better. Jitter also moves the swing E, and the amplitude by 3/2 E dE. */
+/* Scatter at most 1.3 times the noise of so many samples. Jitter adds at least the error of the mean of the marks to
+ * the phase: 20 marks, each known to 60 us. Jitter also moves the swing E, and the amplitude by 3/2 E dE. */
 static void check_scatter(const rig_noise *noise) {
     const double samples = TURNS * orbit.turn_s / 0.002;
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
@@ -298,9 +297,9 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
     print_row(rpm, noise);
 }
 
-/* From the speed at which the motor can just brake as much as required: compensation wrong by up to 30 %, inertia 50 %
- * higher or 30 % lower, within 1 % and 1 degree. Slower, the rotor cannot pass the top by itself and the motor cannot
- * brake enough. There only the right compensation passes. */
+/* From the speed at which the motor can just brake as much as required, the result is within 1 % and 1 degree. The
+ * compensation is wrong by up to 30 %, the inertia 50 % higher or 30 % lower. Slower, the rotor cannot pass the top
+ * by itself and the motor cannot brake enough. There only the right compensation passes. */
 static void test_what_is_fed_does_not_show(void) {
     static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {

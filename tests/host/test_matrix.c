@@ -311,8 +311,8 @@ void suite_matrix(void) {
 }
 
 /* === matrix printed =========================================================================== */
-/* A step's matrix as tables and LaTeX (host/emit/matrix.c), parsed again: each entry matches to the printed digits,
- * with the names of its row and column. */
+/* A step's matrix as tables and LaTeX (host/emit/matrix.c), parsed again. Each entry matches to the printed digits
+ * and has the names of its row and column. */
 
 static dice die;
 static drawn_image drawn;

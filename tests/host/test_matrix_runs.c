@@ -1,5 +1,5 @@
-/* test_matrix_runs.c: steps as one matrix in use: built-in linear scenes over whole runs, a million steps, turn
- * angles, systems of first order, sweeps over the step, divergence, and refusals. */
+/* test_matrix_runs.c: steps as one matrix in use: built-in linear scenes, a million steps, turn angles, systems of
+ * first order, sweeps over the step, divergence, and refusals. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <float.h>

@@ -152,8 +152,8 @@ void suite_first_order(void) {
 }
 
 /* === method rows ============================================================================== */
-/* The rows of core/method.h: explicit, with unique words, and with a line in docs/dev/numerics.md, whose measured
- * stability is that of the weights. Orders: test_method_order.c. */
+/* The rows of core/method.h are explicit and have unique words. docs/dev/numerics.md lists each with its measured
+ * stability, which is that of the weights. Orders: test_method_order.c. */
 
 #define ROUNDING 1e-6 /* for sums of a few shares, here in float */
 

@@ -25,7 +25,7 @@ typedef struct form {
     const char *name;
     wh_form form;
     bool ledger;      /* has energies */
-    bool no_rates;    /* accelerations take none */
+    bool no_rates;    /* accelerations do not depend on rates */
     const char *kind; /* reason why a first-order form is refused, or NULL */
     const char *text;
 } form;

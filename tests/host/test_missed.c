@@ -26,7 +26,7 @@ typedef struct flight {
     double place_m[2];
     char x[40]; /* x from there, in the language */
     char y[40];
-    double bounce_s; /* time of another body's bounce; 0: none */
+    double bounce_s; /* time of another body's bounce; 0: no other body */
 } flight;
 
 /* At the origin, or up to 2 m away; alone or next to a bouncing body. */

@@ -1,4 +1,4 @@
-/* test_mistyped.c: for a mistyped name the message suggests the declared one, whatever its kind and place. */
+/* test_mistyped.c: for a mistyped name of any kind and place the message suggests the declared one. */
 #include <stdio.h>
 #include <string.h>
 

@@ -55,7 +55,7 @@ typedef struct told {
     int64_t trip_us;
     unsigned trip;
     int64_t sample_us; /* of the last sample */
-    double sample;     /* its first field; NAN: none */
+    double sample;     /* its first field; NAN: no sample */
 } told;
 
 static told t;
@@ -170,7 +170,7 @@ static void send(unsigned channel, int64_t time_us, const uint8_t *payload, unsi
     }
 }
 
-/* Some frames are lost, of which the rig had dropped some. */
+/* Some frames are lost; the rig itself dropped some of them. */
 static void lose(unsigned channel) {
     if (t.any[channel] && dice_one_of(&die, 4) == 0) {
         const unsigned lost =
@@ -497,7 +497,7 @@ void suite_recording(void) {
 
 enum { LINE = 600, PIECES = 5 };
 
-/* A channel, and its line in pieces, each of which can be omitted or replaced. */
+/* A channel, and its line in pieces. Each piece can be omitted or replaced. */
 typedef struct written {
     schema_channel channel;
     unsigned index;

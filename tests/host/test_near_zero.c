@@ -158,7 +158,7 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
 static void test_powers_of_sines_near_their_poles(void) {
     for (int n = 2; n <= 3; n++) {
         for (int bits = 16; bits <= 28; bits += 4) {
-            /* so many units of 2^-32 turns: exact, also in float */
+            /* a multiple of 2^-32 turns: exact, also in float */
             const double off = ldexp(2.0 * acos(-1.0), bits - 32);
             check_pole("sin", n, off, sin(off), cos(off), IN_FLOAT);
             check_pole("sin", n, off, sin(off), cos(off), IN_DOUBLE);

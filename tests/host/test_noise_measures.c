@@ -95,7 +95,7 @@ typedef struct wanted {
     char text[60];
     double factor;
     int a;
-    int b; /* -1: none */
+    int b; /* -1: no second output */
 } wanted;
 
 static wanted random_measure(uint64_t *seed) {

@@ -1,4 +1,4 @@
-/* test_octave.c: files for Octave: where values may become complex, and the named form, parsed line by line, whose
+/* test_octave.c: files for Octave: where values may become complex, and the named form, parsed line by line. Its
  * slopes are the accelerations of the operation lists. Function files: test_octave_drawn.c. Also LaTeX. */
 #define _POSIX_C_SOURCE 200809L
 

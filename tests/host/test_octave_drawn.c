@@ -170,7 +170,7 @@ static const char *said_slopes(const char *at, const image *im) {
     return at;
 }
 
-/* May an operation give a complex number in Octave, which C has not? */
+/* May an operation give a complex number in Octave? In C it is NaN. */
 static bool has_complex(const op_list *t) {
     static const char *const partial[] = {"asin", "acos", "log", "sqrt"};
     bool found = false;

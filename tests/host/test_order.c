@@ -1,5 +1,5 @@
-/* test_order.c: reordering of operation lists for few live values: the same operations after their operands, the same
- * bits, and fewer stores and loads (the minimum where it is known). WHIRL_CASES: number of random lists. */
+/* test_order.c: reordering of operation lists for few live values. Operations and bits stay the same, operands come
+ * first, and stores and loads decrease, to the minimum where it is known. WHIRL_CASES: number of random lists. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -381,7 +381,7 @@ static void test_pieces_have_the_sums_value(void) {
 /* Fourth powers and squares of one wave, each times another factor. */
 static void test_each_of_several_comes_back(void) {
     for (unsigned which = 0; which < 64;
-         which++) { /* three factors, each none, a square or a fourth power */
+         which++) { /* three factors, each absent, a square or a fourth power */
         algebra *a = algebra_new();
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *v = poly_symbol(a, &variables[1], 0);

@@ -301,7 +301,7 @@ void suite_dialogue(void) {
 
 /* === fault ==================================================================================== */
 /* Faults in the loop, compared with their words: missing and extra pulses and samples, inputs of the plant during and
- * after, when orders count; and wrong words. */
+ * after, times of orders. Also wrong words. */
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 2000U

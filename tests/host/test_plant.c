@@ -375,7 +375,7 @@ static void test_names(void) {
     close_bench();
 }
 
-/* Equal orders have equal hashes whatever the counts; each other field changes it. */
+/* Equal orders with different counts have equal hashes; each other field changes the hash. */
 static void test_hash(void) {
     const wh_orders base = {
         .until_ticks = 1, .watchdog_ticks = 2, .flags = 1, .outputs = 2, .output = {1.0F, 2.0F}};

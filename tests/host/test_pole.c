@@ -1,5 +1,5 @@
-/* test_pole.c: poles on a path (host/check/pole.h), for drawn products of powers: integer and fractional exponents,
- * zeros nearby, one-sided poles, differences that are only round-off, divisors with two changes of sign. */
+/* test_pole.c: poles on a path (host/check/pole.h), for drawn products of powers. Exponents are integers or fractions.
+ * Also zeros nearby, one-sided poles, differences that are only round-off, and divisors with two changes of sign. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

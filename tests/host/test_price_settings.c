@@ -71,8 +71,8 @@ static long place_of(const setting *s) {
     return at * TABLES + tables_of(s);
 }
 
-/* Three numbers by every method, with sines rotated or looked up or by one of six tables, or by one of two matrices;
- * and fixed point. */
+/* Three numbers by every method, with sines rotated, looked up, in one of six tables, or in one of two matrices. Also
+ * fixed point. */
 static void test_there_are_all_and_each_once(void) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
@@ -347,7 +347,7 @@ static const char *const flight =
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
     "scene s { start x = 0.3 [m], x' = 0.1 [m/s]; step 1 [ms]; until 1 [s] }\n";
 
-/* Flight without a force: the only error is round-off, which compensated sums carry, whatever the scene's settings. */
+/* Flight without a force: the only error is round-off, which compensated sums carry with any settings of the scene. */
 static void test_fine_steps_keep_what_is_rounded_off(void) {
     derived d = derived_scene(flight, "s");
     derived_expect(&d, flight);
@@ -883,7 +883,7 @@ static void test_errors_are_the_worst_of_all_places(void) {
             int looked_at;
             const trial_result r = trial_run(&p.trial, &s, pace);
             const trial_result want = each_by_itself(&p, &s, pace, p.trial.tolerated, &looked_at);
-            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* none after a useless one */
+            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* no trial follows a useless one */
             TEST_ASSERT_TRUE(r.ran && r.usable == want.usable && r.bound == want.bound);
             TEST_ASSERT_TRUE(r.error == want.error && r.point == want.point);
             TEST_ASSERT_TRUE(r.column == want.column && r.evaluations == want.evaluations);

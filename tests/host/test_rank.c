@@ -180,7 +180,8 @@ static void test_what_is_positive_definite(void) {
     }
 }
 
-/* The report shows the first equation whose highest derivatives follow from earlier ones, or says that it has none. */
+/* The report shows the first equation with highest derivatives that follow from earlier ones, or with no highest
+ * derivatives. */
 static void test_the_equation_that_depends_is_shown(void) {
     uint64_t seed = 29;
     int shown = 0;

@@ -1,5 +1,6 @@
-/* test_simulated.c: a run from start to end (host/check/simulate.h) in this process: rows with closed forms; the
- * report of a run that is interrupted, diverges, has an output that ends, or is not trusted; write errors; and leaks. */
+/* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. Rows have closed forms. The
+ * report covers runs that are interrupted, diverge, have an output that ends, or are not trusted. Also write errors
+ * and leaks. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>

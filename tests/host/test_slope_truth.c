@@ -1,6 +1,6 @@
-/* test_slope_truth.c: the rig's measurement with motors whose torque slope differs from the configured one, with
- * noise and jitter. The reference is a rotor integrated finely in double (rig_orbit.c). Seeds are fixed; WHIRL_FULL=1
- * (`make rig-truth`) takes 200 runs of each kind and prints the loads. */
+/* test_slope_truth.c: the rig's measurement with noise, jitter and motors of another torque slope than configured.
+ * The reference is a rotor integrated finely in double (rig_orbit.c). Seeds are fixed; WHIRL_FULL=1 (`make
+ * rig-truth`) takes 200 runs of each kind and prints the loads. */
 #include <math.h>
 #include <stdio.h>
 

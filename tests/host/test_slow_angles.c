@@ -1,5 +1,5 @@
-/* test_slow_angles.c: warning about float angles whose steps are too small for their units, and only those. The
- * reference is the same run in double. WH_SLOW=N: number of random rotors. */
+/* test_slow_angles.c: warning about float angles with steps too small for their units, and no others. The reference
+ * is the same run in double. WH_SLOW=N: number of random rotors. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* test_springs.c: the scene springs_ring, whose forces use every function of the core, compared with its equations by
- * hand, integrated by classic Runge-Kutta in long double with libm. */
+/* test_springs.c: the scene springs_ring, with forces of every function of the core. The reference integrates its
+ * equations, written by hand, by classic Runge-Kutta in long double with libm. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
-/* test_starts.c: checks of a start: drawn scenes with stops on coordinates, any of which may be passed, and with
- * losses on rates, which kick-drift methods do not take. The report has each passed stop with its place and depth,
- * and no other. For losses it has the first coordinate. */
+/* test_starts.c: checks of a start. Drawn scenes have stops, any of which may be passed, and losses, which kick-drift
+ * methods do not take. The report has each passed stop with its place and depth, and no other. For losses it has the
+ * first coordinate. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

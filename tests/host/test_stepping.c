@@ -1,5 +1,5 @@
-/* test_stepping.c: measures of one run of a sweep (host/study/point.h), compared with the test's own samples and with
- * closed forms: which samples count, early stops, and the reasons why a run has no measures. Also settings of a sweep. */
+/* test_stepping.c: measures of one run of a sweep (host/study/point.h), compared with the test's own samples and
+ * closed forms. Covers the choice of samples, early stops, and runs without measures. Also settings of a sweep. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

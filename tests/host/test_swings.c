@@ -18,8 +18,8 @@ void suite_forced_swing(void);
 
 /* === swings =================================================================================== */
 
-/* Above this part of the swing's energy (H - 2, at a = b = 1) there is a warning. Below it there is none if u and v
- * are as accurate relative to their ranges. */
+/* Above this part of the swing's energy (H - 2, at a = b = 1) there is a warning. Below it there is no warning if u
+ * and v are as accurate relative to their ranges. */
 #define TOLD 0.03
 #define SILENT 1e-3
 #define RIGHT 4e-3
@@ -131,7 +131,7 @@ void suite_swings(void) { RUN_TEST(test_predator_and_prey); }
 /* === forced swing ============================================================================= */
 /* A damped or undamped body on a spring, driven by a force that turns 0.3 to 1.8 rad a step. That is fast for the
  * quadrature of its power, but not for the method. The reference is the closed form. A right run gives no warning,
- * whatever the energy residual; a wrong one gives a warning or is not trusted. */
+ * even with an energy residual. A wrong one gives a warning or is not trusted. */
 
 enum { RECORDS = 20 }; /* divides the steps */
 

@@ -187,8 +187,8 @@ static derived drawn_mechanism(unsigned number, char **text) {
     return d;
 }
 
-/* Both lists at a random state, and the bound of their difference: each table's error times the sensitivity of the
- * accelerations, found by shifting the whole table. */
+/* Both lists at a random state, and the bound of their difference. It is each table's error times the sensitivity of
+ * the accelerations, found by shifting the table. */
 typedef struct comparison {
     evaluator *exact;
     evaluator *tables;

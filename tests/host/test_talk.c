@@ -1,5 +1,5 @@
-/* test_talk.c: a drawn firmware on a line (host/pil/talk.h): messages received, stored and hashed are compared with
- * those sent; each error of a firmware has its message. Also tapes. */
+/* test_talk.c: a drawn firmware on a line (host/pil/talk.h). Messages received, stored and hashed are compared with
+ * those sent, and each error of a firmware has its message. Also tapes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

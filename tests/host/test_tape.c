@@ -397,8 +397,8 @@ void suite_tape_entered(void) {
 }
 
 /* === tape freed =============================================================================== */
-/* Parts of op_list_gauge() (host/image/op_list_gauge.h): the effect of rounded constants on results, against a closed
- * form; lists with known freedoms; and lists scaled by their freedoms, which compute the same. */
+/* Parts of op_list_gauge() (host/image/op_list_gauge.h). The effect of rounded constants on results has a closed
+ * form. Lists have known freedoms, and scaled by them they compute the same. */
 
 /* A short decimal from 0.1 to 10 that float does not hold. */
 static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
@@ -791,7 +791,7 @@ void suite_tape_freed(void) {
 }
 
 /* === tape gauged ============================================================================== */
-/* Gauges that op_list_gauge() must find (host/image/op_list_gauge.h), in lists built with a factor that makes all
+/* Gauges that op_list_gauge() must find (host/image/op_list_gauge.h). The lists have a factor that makes all
  * constants exact: products of small primes, and constants that vanish. */
 
 /* A sum of two products of leaves with integers below 120 times `unit`. */

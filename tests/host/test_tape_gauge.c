@@ -1,6 +1,6 @@
-/* test_tape_gauge.c: lists with compensated sums are gauged so that float holds their constants: the same results in
- * double, no more operations than allowed, and less bias by rounded constants. Over generated mechanisms, with other
- * states than the search's and another evaluator. */
+/* test_tape_gauge.c: lists with compensated sums are gauged so that float holds their constants. Results in double
+ * stay the same, operations stay within the limit, and the bias by rounded constants falls. Over generated
+ * mechanisms, with other states than the search's and another evaluator. */
 #include "host/derive/program.h"
 #include "host/image/op_list_scaling.h"
 
@@ -73,7 +73,7 @@ static image *compensated_image(const derived *d) {
     return im;
 }
 
-/* Rounds the list's constants to float in place; kept[t->count] has the originals for restoring. */
+/* Rounds the list's constants to float in place; kept[t->count] receives the originals. */
 static void round_constants(op_list *t, double *kept) {
     for (int i = 0; i < t->count; i++) {
         kept[i] = t->ops[i].value;
@@ -266,7 +266,7 @@ static void test_scenes_have_no_freedom_for_nothing(void) {
     }
 }
 
-/* Lists without constants, with exact constants only, or whose only constant costs a product more. */
+/* Lists without constants, with exact constants only, or with one constant that costs a product more. */
 static void test_what_needs_nothing_stays(void) {
     static const double number[] = {1.0, 0.375, 0.3};
     for (int k = 0; k < 3; k++) {

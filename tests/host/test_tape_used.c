@@ -1,5 +1,5 @@
-/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, tape_sums.c, image.c), for
- * drawn lists, compared with counts, path searches and comparisons of the test's own. */
+/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, tape_sums.c, image.c). Drawn
+ * lists are compared with counts, path searches and comparisons of the test's own. */
 #include <math.h>
 #include <string.h>
 
@@ -347,7 +347,7 @@ static void test_lists_are_given_back(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-/* An image frees its own lists, and none shared from another image. */
+/* An image frees its own lists, and not those shared from another image. */
 static void test_images_are_given_back(void) {
     const long blocks = blocks_in_use();
     image_free(NULL);

@@ -1,5 +1,5 @@
-/* test_traces.c: waveform files of a run (host/io/traces.h): unit of time, compared with integers; names in the head,
- * of drawn scenes; and times of contacts with closed forms, to one unit. Also VCD. */
+/* test_traces.c: waveform files of a run (host/io/traces.h). The unit of time is compared with integers, names with
+ * drawn scenes, and times of contacts with closed forms, to one unit. Also VCD. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <inttypes.h>
@@ -492,7 +492,7 @@ static void print_value(happening *h, double value) {
     }
 }
 
-/* "$var wire 1 ! s0 $end": the marks. Notes: of one character, of several, and none. */
+/* "$var wire 1 ! s0 $end": the marks. Notes have one character, several, or zero. */
 static const char *read_head(const char *text) {
     char line[80];
     for (int i = 0; i < VCD_SIGNALS; i++) {

@@ -195,8 +195,8 @@ static void test_generated_mechanisms_that_become_fast_go_on(void) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 
-/* First-order systems whose rates depend strongly on the angles, near the stability limit: stages are far from the
- * initial slope, and half a turn soon leads to another equilibrium. */
+/* First-order systems with rates that depend strongly on the angles, near the stability limit. Stages are far from
+ * the initial slope, and half a turn soon leads to another equilibrium. */
 static void test_stiff_angles_of_first_order_move_alike(void) {
     const unsigned cases = dice_cases(few_or_all(100, 300));
     uint64_t seed = 20261122;

@@ -17,7 +17,7 @@ enum { FORMULA = 600 };
 
 static dice die;
 
-/* The message, "" if none; to be freed. */
+/* The message, "" if there is no finding; to be freed. */
 static char *told_of(const nonfinite_at *at, bool (*ask)(const nonfinite_at *, diags *)) {
     char *told = NULL;
     size_t length = 0;

@@ -1,6 +1,6 @@
-/* test_units.c: every unit compared with the standards: the SI Brochure (9th edition, 2019: tables 2, 4, 7 and 8),
- * the agreement of 1959 for inch, foot and pound, and the standard gravity of 1901. From host/lang/units.c it reads
- * only names. A unit outside this table that is not an SI prefix with one of its SI symbols fails. */
+/* test_units.c: every unit compared with the standards. These are the SI Brochure (9th edition, 2019: tables 2, 4, 7
+ * and 8), the agreement of 1959 for inch, foot and pound, and the standard gravity of 1901. From host/lang/units.c it
+ * reads only names. A unit outside this table that is not an SI prefix with one of its SI symbols fails. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -108,8 +108,8 @@ static void test_impacts(void) {
     }
 }
 
-/* A pole of a force, a friction's pressure or its coefficient, passed at constant rate, in steps with and without
- * impacts of another body; also poles after the end. */
+/* A pole of a force, a friction's pressure or its coefficient, passed at constant rate. Steps are with and without
+ * impacts of another body. Also poles after the end. */
 static void test_places_at_events(void) {
     static const char *const laws[] = {
         "Q(x) = 1e-6 [N*m]/(x - %.17g [m])\n",

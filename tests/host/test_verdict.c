@@ -1,8 +1,8 @@
-/* test_verdict.c: `whirl sweep` and `whirl run` share one judge, so their findings agree, and so do their exit
- * statuses: 1 exactly after a warning, 0 with --strict=off, by the energy ratio with a limit. Drawn: springs,
- * dampers, swings of systems, flights past a pole, fast forces, springs far from the origin, and balls between stops.
- * Steps range from fine to useless, with all methods. Rods that do not fit at the start get the same words from
- * `whirl trust`. Every kind of finding occurs, and many runs have none. */
+/* test_verdict.c: `whirl sweep` and `whirl run` share one judge, so their findings and exit statuses agree. The
+ * status is 1 exactly after a warning, 0 with --strict=off, and follows the energy ratio with a limit. Drawn:
+ * springs, dampers, swings of systems, flights past a pole, fast forces, springs far from the origin, and balls
+ * between stops. Steps range from fine to useless, with all methods. Rods that do not fit at the start get the same
+ * words from `whirl trust`. Every kind of finding occurs, and many runs have no finding. */
 #include <glob.h>
 #include <math.h>
 #include <stdbool.h>
@@ -611,8 +611,8 @@ static int of_files(const char *pattern) {
     return scenes;
 }
 
-/* Checks take at most twice the run's steps and a fixed number of operations: all scenes, built in or of the
- * catalogue, at 10 % of their time and, with all cases, at 1 and 100 %. */
+/* Checks take at most twice the run's steps and a fixed number of operations. All scenes, built in or of the
+ * catalogue, run at 10 % of their time and, with all cases, at 1 and 100 %. */
 static void test_looks_take_what_they_may(void) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);

@@ -1,5 +1,5 @@
-/* test_warnings.c: warnings of `whirl run`, both ways: a loss above a hundredth of the energy gives one, a loss below
- * a ten-thousandth does not; singular coordinates give one if the step is too coarse. The suggested remedy, applied,
+/* test_warnings.c: warnings of `whirl run`, both ways. A loss above a hundredth of the energy gives one, a loss below
+ * a ten-thousandth does not. Singular coordinates give one if the step is too coarse. The suggested remedy, applied,
  * removes the warning and the error. Energies come from formulas in this file and closed forms. */
 #include "command.h"
 

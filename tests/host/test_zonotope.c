@@ -349,7 +349,7 @@ static void test_frame(void) {
             z->generator[i] = 1.0;
             z->generator[n + i] = -2.0;
             z->generator[2 * n + i] = 0.0;
-            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* after the last: none */
+            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* after the last one */
         }
         expect_frame(z);
         zonotope_free(z);
