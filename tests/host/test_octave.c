@@ -525,7 +525,7 @@ static void check_lets(comparison *c, const char *text) {
     }
 }
 
-/* --- what runs ---------------------------------------------------------------------------------------*/
+/* --- the operation list ----------------------------------------------------------------------------- */
 
 /* The highest derivatives of a step at the state. False: one is not finite. */
 static bool run_there(comparison *c) {

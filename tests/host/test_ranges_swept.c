@@ -362,7 +362,7 @@ static void test_bare_numbers(void) {
     }
 }
 
-/* --- beside what is given otherwise -----------------------------------------------------------------------------*/
+/* --- swept and set twice --------------------------------------------------------------------------------------- */
 
 /* A swept name cannot be set too, with or without blanks; names with the same beginning can. */
 static void test_given_twice(void) {

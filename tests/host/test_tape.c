@@ -253,7 +253,7 @@ static void test_entered_operations_come_to_what_was_asked(void) {
     }
 }
 
-/* --- what is dropped ------------------------------------------------------------------------------------------- */
+/* --- dropped operations ---------------------------------------------------------------------------------------- */
 
 static void mark(bool *needed, int i) {
     int operand[2];
@@ -403,7 +403,7 @@ void suite_tape_entered(void) {
 /* A short decimal from 0.1 to 10 that float does not hold. */
 static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
 
-/* --- what rounding makes of results --------------------------------------------------------------------------- */
+/* --- effect of rounded constants ------------------------------------------------------------------------------ */
 
 enum { RESULTS_MOST = 5, READ = 1, UNREAD_SHARE = 64 };
 

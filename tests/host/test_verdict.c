@@ -534,7 +534,7 @@ static void test_a_common_speed_changes_nothing(void) {
     TEST_ASSERT_TRUE(told > cases / 4);
 }
 
-/* --- what all looks cost -----------------------------------------------------------------------------------*/
+/* --- cost of the checks ----------------------------------------------------------------------------------- */
 
 /* Operations of `whirl run`, printed on standard error after its messages. */
 static int run_counted(int count, char **words) {
