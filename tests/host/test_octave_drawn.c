@@ -36,7 +36,7 @@ static void make_order(const image *im) {
 static double y_value(component c) { return 0.3 + 0.41 * c.unknown - 0.17 * c.primes; }
 static double input_value(int i) { return 1.1 - 0.7 * i; }
 
-/* A non-finite value counts as one: formulas have only real numbers. */
+/* Formulas have only real numbers, so a non-finite value is replaced by 0.5. */
 static double tame(double value) { return isfinite(value) ? value : 0.5; }
 
 static double value_of(void *context, const char *name, int length) {

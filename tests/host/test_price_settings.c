@@ -437,7 +437,7 @@ static const kind_row kind_rows[] = {
     /* a pole at 0.52 s */
     {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8,
      REFERENCE_EXTRAPOLATED, 10, 10, NULL, "behind 0.5 s no step is small enough"},
-    /* nothing moves, or only outputs do */
+    /* all is zero; at rest at another place */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8,
      REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8,

@@ -74,7 +74,7 @@ static void each_list(unsigned cases, void (*check)(scene_list *l)) {
 static void check_list_counts(scene_list *l) { check_counts(&l->list); }
 static void test_operations_are_counted(void) { each_list(200, check_list_counts); }
 
-/* Does every path from operation i to a result pass operation `by`? */
+/* Does operation i depend on operation `by`? */
 static bool leads_from(const op_list *t, int i, int by) {
     int operand[2];
     bool leads = i == by;
@@ -188,7 +188,7 @@ static void test_images_are_read(void) {
                                       image_shown(u, si) * u->scale / u->divisor);
         }
     }
-    /* lists of the host alone, as the energy balance, have no limits */
+    /* the energy balance stays on the host, so it needs no function on a board */
     op_list *books = op_list_new(0, 1);
     books->result[0] = op_list_call(books, FN_EXP, op_list_leaf(books, OP_LINEAR, 0), -1);
     image im = {.list = {[IMAGE_BOOKS] = books}};

@@ -92,7 +92,7 @@ static void test_units(void) {
     }
 }
 
-/* An end at exactly 2^52 units has no unit. */
+/* The end must lie below 2^52 units: at 2^52 the next coarser unit applies, if there is one. */
 static void test_ends(void) {
     for (int k = 0; k < POWERS; k++) {
         double per_s = 1.0;

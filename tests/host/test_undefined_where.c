@@ -286,7 +286,7 @@ static void test_the_angle_that_is_too_far(void) {
     derived_free(&d);
 }
 
-/* A sine anywhere in a formula with an argument near the limit. Float accepts it where turns are counted. */
+/* A sine anywhere in a formula with an argument near the limit. An angle that counts its turns has no limit. */
 static void test_the_sine_that_is_too_far(void) {
     unsigned told_of_sines = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(400, 100)); c++) {
