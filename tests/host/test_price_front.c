@@ -11,10 +11,10 @@
 #include "host/base/interrupts.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/study/choice.h"
-#include "host/study/reference_run.h"
 #include "host/study/extrapolation.h"
 #include "host/study/long_list.h"
 #include "host/study/price_table.h"
+#include "host/study/reference_run.h"
 
 #include "command.h"
 #include "derived.h"

@@ -10,8 +10,8 @@
 #include "host/check/run_checks.h"
 #include "host/check/slow.h"
 #include "host/cli/commands.h"
-#include "host/study/session.h"
 #include "host/study/point.h"
+#include "host/study/session.h"
 
 #include "blocks.h"
 #include "command.h"
