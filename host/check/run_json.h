@@ -10,9 +10,9 @@ enum { RUN_JSON_FILES = 4 };
 
 typedef struct run_json_wish {
     const struct run_checks *verdict;
-    const records *records;           /* with the last state */
-    const char *said;                 /* the findings, or why the run failed, with hints; or NULL */
-    double until_s;                   /* trusted; below 0: unknown */
+    const records *records; /* with the last state */
+    const char *said;       /* the findings, or why the run failed, with hints; or NULL */
+    double until_s;         /* trusted; below 0: unknown */
     bool failed;
     int status;                       /* exit status */
     const char *file[RUN_JSON_FILES]; /* that were asked for; or NULL */
