@@ -1,8 +1,8 @@
-/* f405_plant.c: rotor, slot sensors, load cell, supply and stop, played by hal/virtual inside an image that is otherwise what
- * is flashed: an emulated STM32F405 has none of them. Drivers of clock, console, motor, watchdog and memory are the board's; the
- * linker lets the plant hear what the motor is told (--wrap). The rotor turns on in a reset.
+/* f405_plant.c: a plant (hal/virtual) inside the flashed firmware: rotor, slot sensors, load cell, supply and stop. An emulated
+ * STM32F405 has none of them. The drivers of clock, console, motor, watchdog and memory are the board's. The linker routes the
+ * motor's commands to the plant (--wrap). The rotor keeps turning through a reset.
  *
- * From outside, by these names: */
+ * Symbols to set from outside: */
 #include <stdint.h>
 
 #include "board_data.h"
@@ -14,8 +14,8 @@
 #include "hal/virtual/virtual_rig.h"
 
 extern volatile uint32_t bench_stop;   /* not 0: stop is pressed */
-extern volatile uint32_t bench_silent; /* not 0: the load cell gives no more samples */
-extern volatile uint32_t bench_rest;   /* not 0: the rotor is held, and let go at rest */
+extern volatile uint32_t bench_silent; /* not 0: the load cell gives no samples */
+extern volatile uint32_t bench_rest;   /* not 0: the rotor is blocked, and released at rest */
 volatile uint32_t bench_stop;
 volatile uint32_t bench_silent;
 volatile uint32_t bench_rest;
@@ -55,7 +55,7 @@ void stm32f4_cell_start(void) {
 
 void stm32f4_slots_start(void) {}
 
-static bool started; /* as far as the plant has heard */
+static bool started; /* as seen by the plant */
 
 unsigned hear_start(void) {
     const unsigned wrong = tell_start();

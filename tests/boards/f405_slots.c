@@ -1,5 +1,5 @@
-/* f405_slots.c: every slot pulse as a line "sensor ticks", in a loop of control periods that a storm must not hold up; to 'l'
- * "late ticks overruns periods", the lateness since it was asked last. */
+/* f405_slots.c: prints every slot pulse as "sensor ticks" in a loop of control periods, which a storm of edges must not delay.
+ * Answers 'l' with "late ticks overruns periods": the lateness since the last 'l'. */
 #include "boards/board.h"
 #include "core/text.h"
 #include "hal/clock.h"

@@ -1,4 +1,4 @@
-/* guard.h: what the programs share that touch the strip below a board's stack, and must not come back (guard.sh). */
+/* guard.h: shared parts of the programs that touch the strip below a board's stack. They must not return (guard.sh). */
 #ifndef TESTS_BOARDS_GUARD_H
 #define TESTS_BOARDS_GUARD_H
 
@@ -15,7 +15,7 @@ static inline void say(const char *words) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* The word above the strip is the stack's, and takes a store: a board where every store faults guards nothing. */
+/* The word above the strip belongs to the stack and takes a store. This excludes a board on which every store faults. */
 static inline void store_above_strip(void) {
     board_start();
     volatile uint32_t *const last = board_stack_limit;

@@ -1,5 +1,5 @@
-/* watchdog.c: the watchdog of a board that has one: kicked in time it is silent; left alone it interrupts, not before its time,
- * and then resets. watchdog.sh looks at what it says. */
+/* watchdog.c: a board's watchdog. Kicked in time it is silent. Otherwise it interrupts, not before its time, and then resets.
+ * watchdog.sh checks the output. */
 #include "hal/watchdog.h"
 #include "boards/board.h"
 #include "core/text.h"
@@ -10,14 +10,14 @@
 #define WAITING 0xB17E0001U
 #define INTERRUPTED 0xB17E0002U
 
-/* What the reset leaves: what chance gave it when the power came. */
+/* Memory that survives the reset; arbitrary after power-on. */
 #define KEPT __attribute__((section(".noinit")))
 KEPT static volatile uint32_t stage;
 KEPT static volatile uint32_t kicked_at;
 KEPT static volatile uint32_t interrupted_at;
 KEPT static volatile uint32_t last_seen;
 
-/* As a fault's handler: what follows is the reset. */
+/* Stands for a fault's handler: the reset follows. */
 void on_nmi(void);
 void on_nmi(void) {
     interrupted_at = board_ticks();
@@ -51,7 +51,7 @@ int main(void) {
     stage = 0;
     const uint32_t began = board_ticks();
     hal_watchdog_start(TIMEOUT_TICKS);
-    for (unsigned i = 0; i < KICKS; i++) { /* a tenth of its time is left, each time */
+    for (unsigned i = 0; i < KICKS; i++) { /* a tenth of the time remains at each kick */
         board_wait_until(in_us(TIMEOUT_TICKS / 10U * 9U));
         kicked_at = board_ticks();
         hal_watchdog_kick();
