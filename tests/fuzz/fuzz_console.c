@@ -1,8 +1,8 @@
-/* fuzz_console.c: no bytes at the rig's console, however broken, do anything but what a line says: answers are whole lines,
- * settings stay in their ranges, telemetry in its room, and the motor's command between nothing and the supply.
+/* fuzz_console.c: broken bytes at the rig's console do only what a line allows. Answers are whole lines, settings stay in
+ * range, telemetry stays in its buffer, and the motor's command stays between zero and the supply.
  *
- * The input is a row of steps: a byte that says how many bytes come in this control step (its low five bits), whether a
- * pulse and a sample are seen and whether somebody reads; then those bytes. */
+ * The input is a sequence of control steps. The first byte of a step gives the number of bytes that arrive (low five bits),
+ * whether a pulse and a sample are seen, and whether the host reads. The bytes follow. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -73,7 +73,7 @@ static void look(const bench *b, const wh_rig_command *command) {
     must(b->config.guard.target_max_radps < b->config.guard.limit_radps);
 }
 
-/* Whole lines, of characters; but for what is echoed. */
+/* Whole lines of printable characters, except for the echo. */
 static void hear(bench *b) {
     char bytes[WH_STATION_OUT_BYTES];
     const unsigned count = wh_station_peek(&b->station, bytes, sizeof bytes);
@@ -114,7 +114,7 @@ static size_t step(bench *b, const uint8_t *data, size_t size) {
     return 1U + come;
 }
 
-/* At rest: orders are obeyed. */
+/* At rest orders are obeyed. */
 static void rest(bench *b) {
     b->ticks = 0xFFFF0000U;
     wh_station_start(&b->station, "rig", "here", STEPS_PER_S);
@@ -131,7 +131,7 @@ static void rest(bench *b) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static bench b; /* in one place: it points into itself */
+    static bench b; /* static: it contains pointers into itself */
     static bench rested;
     static bool any;
     memset(kept, 0xFF, sizeof kept);
@@ -145,7 +145,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t at = 0; at < size;) {
         at += step(&b, data + at, size - at);
     }
-    /* what is kept is what another start finds, or its own */
+    /* the stored settings load at the next start, or the defaults do */
     static wh_conf again;
     static wh_rig_config config;
     wh_conf_start(&again, own, &memory, &config);

@@ -1,6 +1,6 @@
-/* fuzz_derive.c: no mechanism that the language accepts crashes or hangs the deriver, the writers or the
- * interpreter. The bytes of the input choose the rules by which a mechanism and a scene are written;
- * with FUZZ_SHOW set in the environment, the text goes to standard error. */
+/* fuzz_derive.c: no mechanism that the language accepts crashes or hangs the deriver, the writers or the interpreter. The
+ * input's bytes choose the rules by which a mechanism and a scene are written. With FUZZ_SHOW set in the environment the text
+ * goes to standard error. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdbool.h>
@@ -280,12 +280,12 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
     }
 }
 
-/* What becomes of the equations; `conserve` as for image_make(). */
+/* Derives and writes the equations; `conserve` as for image_make(). */
 static void use(const equations *e, const bool *conserve, diags *all, FILE *nowhere) {
     static const image_settings settings = IMAGE_SETTINGS_DEFAULT;
     image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);
     if ((p == NULL) != (diags_count(all) > 0)) {
-        abort(); /* refused without a word, or accepted with one */
+        abort(); /* refused without a message, or accepted with one */
     }
     if (p == NULL) {
         return;

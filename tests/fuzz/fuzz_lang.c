@@ -1,6 +1,6 @@
-/* fuzz_lang.c: no text, however broken, crashes or hangs the language.
+/* fuzz_lang.c: broken text neither crashes nor hangs the language.
  *
- * The first part of the input is a .whirl file; lines after a line `--` are command-line changes. */
+ * The first part of the input is a .whirl file. Lines after a line `--` are command-line changes. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdint.h>
@@ -14,7 +14,7 @@ enum { CHANGES_MAX = 16, CHANGE_LENGTH = 200 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The lines after the separator, as strings; returns how many. */
+/* The lines after the separator, as strings; returns their number. */
 static int split_changes(const char *text, size_t length, char (*changes)[CHANGE_LENGTH]) {
     int count = 0;
     size_t used = 0;
@@ -71,7 +71,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     diags *all = diags_new();
     whirl_model *parsed = model_parse("fuzz.whirl", copy, length, all);
     if ((parsed == NULL) != (diags_count(all) > 0)) {
-        abort(); /* refused without a word, or accepted with one */
+        abort(); /* refused without a message, or accepted with one */
     }
     if (parsed != NULL) {
         const overrides wanted = {.values = texts,

@@ -1,7 +1,7 @@
-/* fuzz_wire.c: no bytes from a rig's line, however broken, crash who reads them: the reader of text and frames, what a rig
- * says of its telemetry, the records, the waves; nor the readers of frames and coded bytes of the core.
+/* fuzz_wire.c: broken bytes from a rig's line crash no reader: text and frames, telemetry descriptions, records, waves, and the
+ * core's frame and byte-stuffing decoders.
  *
- * The input is what the line brings; where its first byte is odd, behind a rig's own description of its channels. */
+ * The input is the line's bytes. If the first byte is odd, a valid channel description precedes them. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -30,7 +30,7 @@ static void must(bool holds) {
     }
 }
 
-/* A description that was taken is one that frames can be read with. */
+/* Frames can be read with any accepted description. */
 static void look(const schema *s) {
     for (int i = 0; i < SCHEMA_CHANNELS; i++) {
         const schema_channel *c = &s->channel[i];

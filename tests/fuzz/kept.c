@@ -1,5 +1,5 @@
-/* kept.c: the fuzzers' kept inputs once more, without a fuzzer: `NAME FILE...` gives each file to the
- * LLVMFuzzerTestOneInput() that it is linked with. What a file is told last of is the one that it ended at. */
+/* kept.c: replays stored fuzzer inputs without a fuzzer. `NAME FILE...` gives each file to the linked LLVMFuzzerTestOneInput().
+ * It prints each file's name first, so after a crash the last name is the failing input. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,11 +7,11 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { SIZE_MAX_BYTES = 8192 }; /* as tests/fuzz.sh makes them */
+enum { SIZE_MAX_BYTES = 8192 }; /* limit of tests/fuzz.sh */
 
 static uint8_t data[SIZE_MAX_BYTES];
 
-/* The file's bytes. -1: it cannot be read, or is longer than any fuzzer makes it. */
+/* The file's bytes. -1: unreadable, or longer than a fuzzer's inputs. */
 static long bytes_of(const char *path) {
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
@@ -36,7 +36,7 @@ int main(int count, char **path) {
                     (int)SIZE_MAX_BYTES);
             return 2;
         }
-        /* of its size, so that what is read behind it is seen */
+        /* exact size, so that a sanitizer sees a read past the end */
         uint8_t *given = malloc(size > 0 ? (size_t)size : 1);
         if (given == NULL) {
             return 2;
