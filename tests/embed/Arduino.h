@@ -1,5 +1,5 @@
-/* Arduino.h: as much of a framework as a sketch in the documents needs to run on this machine; and its macros, among
- * which the core's headers must still compile. */
+/* Arduino.h: enough of the framework to run the documents' sketches on this machine. It defines Arduino's macros too: the
+ * core's headers must compile among them. */
 #ifndef TESTS_EMBED_ARDUINO_H
 #define TESTS_EMBED_ARDUINO_H
 
