@@ -70,7 +70,7 @@ static double number_of(const char *name) {
     return at == NULL ? -1.0 : strtod(at + strlen(name), NULL);
 }
 
-/* Until the run is through, asking for nothing, or for the state all the time. The rotor has no dry friction, and coasts for a
+/* Until the run is through, with no queries or with continuous state queries. The rotor has no dry friction and coasts for a
  * minute. */
 static bool goes_on(bool busy) {
     const uint64_t end = mega_cycle() + 150ULL * MEGA_HZ;
@@ -118,7 +118,7 @@ static bool is_busy(unsigned rpm) { return measures(rpm, true); }
 
 /* --- the order of what is stored ---------------------------------------------------------------- */
 
-#define SCRATCH 0x3E000U /* flash that no image has */
+#define SCRATCH 0x3E000U /* flash that no image uses */
 
 /* LDI r16, byte; STS address, r16 */
 static uint32_t put_store(uint32_t at, unsigned address, unsigned byte) {
@@ -128,8 +128,7 @@ static uint32_t put_store(uint32_t at, unsigned address, unsigned byte) {
     return at + 6U;
 }
 
-/* The set-up of a timer in a drawn order, modes drawn: ICRn takes a value where its mode has it as TOP, by the list of the data
- * sheet (DS 17.9, table 17-2). */
+/* Sets up a timer in random order and modes. ICRn takes a value in the modes that use it as TOP (DS 17.9, table 17-2). */
 static bool takes_top(unsigned base) {
     static const bool is_top[16] = {[8] = true, [10] = true, [12] = true, [14] = true};
     uint8_t control[2] = {0, 0};
@@ -162,8 +161,8 @@ static void call_with(const char *name, const void *argument, size_t bytes) {
     mega_call(mega_symbol(name), arguments);
 }
 
-/* Off and on again at any instant of the PWM's period, from any voltage and by either way: the timer has the duty that was asked
- * for, and the pin is never high behind a start (mega_parts.c looks at it). */
+/* Off and on again at any instant of the PWM's period, from any voltage, either way. The timer has the ordered duty, and
+ * mega_parts.c checks that the pin is never high after a start. */
 static bool starts_low(unsigned times) {
     const uint32_t wait = mega_symbol("hal_clock_wait_until");
     for (unsigned i = 0; i < times; i++) {

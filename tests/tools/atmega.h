@@ -1,26 +1,25 @@
-/* atmega.h: what the tests of an ATmega2560's firmware share (atmega.c). */
+/* atmega.h: shared parts of the tests of an ATmega2560's firmware (atmega.c). */
 #ifndef TESTS_TOOLS_ATMEGA_H
 #define TESTS_TOOLS_ATMEGA_H
 
 #include "tests/tools/board_tests.h"
 #include "tests/tools/mega.h"
 
-/* A line, and its answer, which begins so. */
+/* Sends a line; its answer begins with these words. */
 bool asks(const char *order, const char *begin);
 extern char answer[400]; /* the last */
 
-/* From the power on to a run at this speed, which has gone on for so many ms behind `start`. */
+/* From power-on to a run at this speed, `ms` after `start`. */
 bool runs(unsigned rpm, unsigned ms);
 
-/* atmega_states.c: faults, resets and settings, so many. */
+/* atmega_states.c: faults, resets and settings. */
 bool all_faults(unsigned times);
 bool all_resets(unsigned times);
 bool keeps_settings(unsigned times);
 
-/* Over-voltages, so many. */
 bool sees_supply(unsigned times);
 
-/* atmega_slots.c: edges, so many. */
+/* atmega_slots.c: edges. */
 bool sees_edges(unsigned times);
 bool survives_storm(unsigned times);
 

@@ -1,10 +1,10 @@
-/* atmega_slots.c: edges at the capture pins, and what the firmware takes of them (hal_slots_take()). */
+/* atmega_slots.c: edges at the capture pins, and the pulses that the firmware takes (hal_slots_take()). */
 #include <stdio.h>
 #include <string.h>
 
 #include "tests/tools/atmega.h"
 
-/* Edges as they are taken: where it is called, *edge is in r25:r24; where it returns, r24 says whether there was one. */
+/* Watches hal_slots_take(): at the call *edge is in r25:r24, at the return r24 is its result. */
 static struct {
     uint32_t take;
     uint32_t back;
@@ -17,7 +17,7 @@ static void watch_take(void) {
     watch.take = mega_symbol("hal_slots_take");
 }
 
-/* A step; true when an edge was taken by it. */
+/* One step; true if it took an edge. */
 static bool taken(hal_slot_edge *edge) {
     mega_step();
     const uint8_t *data = mega_data();
@@ -43,8 +43,8 @@ static bool taken(hal_slot_edge *edge) {
 
 static uint32_t now_us(void) { return (uint32_t)(mega_cycle() / MEGA_CYCLES_PER_US); }
 
-/* An edge of this end comes now, the next that is taken is it, within a hundredth of a second; *differ: how the clocks do, from
- * the first on. */
+/* An edge of this end comes now and must be the next one taken, within 10 ms. *differ: the clocks' difference, set by the first
+ * edge. */
 static bool sees_edge(unsigned i, unsigned sensor, hal_slot_end end, int64_t *differ) {
     hal_slot_edge seen = {0};
     const uint32_t at = now_us();
@@ -61,7 +61,7 @@ static bool sees_edge(unsigned i, unsigned sensor, hal_slot_end end, int64_t *di
     return off - (uint32_t)*differ + 1U <= 2U || no("edge %u is %d us off", i, (int)off);
 }
 
-/* None is taken for so many steps. */
+/* True if no edge is taken for this many steps. */
 static bool sees_none(unsigned i, unsigned steps) {
     hal_slot_edge seen;
     for (; steps > 0; steps--) {
@@ -72,7 +72,7 @@ static bool sees_none(unsigned i, unsigned steps) {
     return true;
 }
 
-/* So many cycles; true: an edge was taken. */
+/* Runs this many cycles; true if an edge was taken. */
 static bool waits(unsigned cycles, hal_slot_edge *seen) {
     const uint64_t end = mega_cycle() + cycles;
     bool any = false;
@@ -82,8 +82,8 @@ static bool waits(unsigned cycles, hal_slot_edge *seen) {
     return any;
 }
 
-/* A burst of up to four pulses, most of them over before any interrupt can look: a beginning is told, none twice, and what follows
- * (sees_edges()) is seen all the same. */
+/* A burst of up to four pulses, most of them over before an interrupt can look. A beginning is reported, none twice, and the
+ * edges that follow (sees_edges()) are still seen. */
 static bool sees_burst(unsigned i, unsigned sensor) {
     hal_slot_edge before = {0};
     hal_slot_edge seen = {0};
@@ -109,7 +109,7 @@ static bool sees_burst(unsigned i, unsigned sensor) {
     return any || no("burst %u is not told", i);
 }
 
-/* Pulses at scattered times, over several wraps of the timers; every third is a burst, and the next is seen all the same. */
+/* Pulses at random times over several wraps of the timers. Every third is a burst, and the next pulse is still seen. */
 bool sees_edges(unsigned times) {
     int64_t differ = -1;
     mega_start(image);
@@ -130,7 +130,8 @@ bool sees_edges(unsigned times) {
     return true;
 }
 
-/* As many as a capture can take, on both pins, while it spins up: pulses are rejected, the rig trips, and no step is late. */
+/* The highest rate that a capture can take, on both pins, during spin-up: pulses are rejected, the rig trips, and no step is
+ * late. */
 bool survives_storm(unsigned times) {
     unsigned taken_of = 0;
     hal_slot_edge edge;
@@ -144,7 +145,7 @@ bool survives_storm(unsigned times) {
     for (unsigned i = 0; i < times; i++) {
         mega_level(i & 1U, true);
         mega_level(i & 1U, false);
-        const uint64_t end = mega_cycle() + 200U + below(400); /* 40,000 a second */
+        const uint64_t end = mega_cycle() + 200U + below(400); /* 40,000 per second */
         while (mega_cycle() < end) {
             taken_of += taken(&edge) ? 1U : 0U;
         }

@@ -1,4 +1,4 @@
-/* atmega_states.c: faults, resets and a supply that fails, in whatever state the rig is. */
+/* atmega_states.c: faults, resets and supply failures in random states of the rig. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 enum { POWER_ON = 1, EXTERNAL = 2, BROWN_OUT = 4 }; /* flags of MCUSR */
 #define HANG 0xCFFFU                                /* rjmp to itself */
 
-/* A state as it is drawn: idle, armed, in a run at some time of it, or tripped. True: a trip is latched. */
+/* A random state: idle, armed, at some time of a run, or tripped. True: a trip is latched. */
 static bool draw_state(bool *tripped) {
     *tripped = false;
     const unsigned state = below(4);
@@ -34,7 +34,7 @@ static bool draw_state(bool *tripped) {
     return mega_run(100) && asks("fault", "OK trip=11");
 }
 
-/* An over-voltage is seen, up to 60 V, also where a setting lets it be: `arm` is refused, and a run trips within two samples. */
+/* Over-voltage up to 60 V is seen even if a setting allows it: `arm` is refused, and a run trips within two samples. */
 bool sees_supply(unsigned times) {
     for (unsigned i = 0; i < times; i++) {
         const bool set = below(2) == 1U;
@@ -62,7 +62,7 @@ bool sees_supply(unsigned times) {
     return true;
 }
 
-/* So long the enable may be on behind a fault: instructions that were under way. */
+/* Longest time the enable may stay on after a fault: the instructions under way. */
 #define OFF_CYCLES 40U
 
 static bool is_off_within(uint64_t cycles) {
@@ -75,7 +75,7 @@ static bool is_off_within(uint64_t cycles) {
     return true;
 }
 
-/* It starts anew: says why, NULL: says nothing; never drives by itself, and is as it was. */
+/* Restarts and reports its reason (`says`; NULL: no report), never drives by itself, and has its state back. */
 static bool begins_anew(const char *cause, bool tripped) {
     const uint64_t end = mega_cycle() + MEGA_HZ / 5U;
     char line[300] = "";
@@ -111,19 +111,19 @@ static bool hangs(void) {
 }
 
 static bool one_fault(unsigned kind, bool tripped) {
-    if (kind == 0) { /* an interrupt that nobody takes */
+    if (kind == 0) { /* an interrupt without a handler */
         mega_push_pc();
         mega_set_pc(4U * 9U);
         return is_off_within(OFF_CYCLES) &&
                begins_anew("# reset: fault: an interrupt that nobody takes", tripped);
     }
     if (kind ==
-        1) { /* the stack's lowest byte: looked at with each kick, the motor is off a control period later */
+        1) { /* the stack's lowest byte: checked with each kick, so the motor is off a control period later */
         mega_data()[mega_symbol("_end")] ^= 0xFFU;
         return is_off_within(MEGA_HZ / 400U) &&
                begins_anew("# reset: fault: the stack came down", tripped);
     }
-    mega_set_pc(0); /* it ran astray: flash that is erased leads there */
+    mega_set_pc(0); /* a stray jump: erased flash leads there */
     return is_off_within(OFF_CYCLES) && begins_anew("# reset: fault: it began anew", tripped);
 }
 
@@ -146,7 +146,7 @@ bool all_resets(unsigned times) {
             uint8_t flag;
             const char *cause;
         } rows[] = {{EXTERNAL, "# reset: other"}, {BROWN_OUT, "# reset: supply"}, {POWER_ON, NULL}};
-        const unsigned row = below(3); /* memory outlives a short time without power, too */
+        const unsigned row = below(3); /* memory survives a short power loss */
         if (!draw_state(&tripped)) {
             return false;
         }
@@ -158,7 +158,7 @@ bool all_resets(unsigned times) {
         if (mega_motor_now().enabled || !begins_anew(rows[row].cause, stays)) {
             return false;
         }
-        mega_reset(EXTERNAL); /* what was forgotten does not come back */
+        mega_reset(EXTERNAL); /* a cleared trip does not return */
         if (!begins_anew("# reset: other", stays)) {
             return false;
         }
@@ -170,7 +170,7 @@ bool all_resets(unsigned times) {
 
 #define TORN_MOST 1024U
 static uint8_t (
-    *torn)[MEGA_EEPROM_BYTES]; /* as it is when a byte is about to change, that byte spoilt */
+    *torn)[MEGA_EEPROM_BYTES]; /* the state just before a byte changes, with that byte corrupted */
 static unsigned torn_count;
 
 static void tear(unsigned address) {
@@ -181,7 +181,7 @@ static void tear(unsigned address) {
     }
 }
 
-/* Whatever byte was under way, it has the old value or the new one. */
+/* Whatever byte was being written, the setting is the old or the new value. */
 static bool is_either(const char *old, const char *new, unsigned *news) {
     for (unsigned k = 0; k < torn_count; k++) {
         memcpy(mega_eeprom(), torn[k], MEGA_EEPROM_BYTES);
@@ -199,7 +199,7 @@ static bool is_either(const char *old, const char *new, unsigned *news) {
     return torn_count > 10U || no("only %u bytes were written", torn_count);
 }
 
-/* Saved four times, so that both slots are erased and written. */
+/* Four saves, so that both slots are erased and written. */
 bool keeps_settings(unsigned times) {
     static const char *const values[] = {"90", "91.5", "88.25", "90.75", "89.5"};
     static const char *const others[] = {"conf set amplitude_floor 0.002",
@@ -226,7 +226,7 @@ bool keeps_settings(unsigned times) {
         torn_count = 0;
         mega_on_eeprom = tear;
         good = asks("conf get sensor2", old) && asks(set, "OK sensor2");
-        for (unsigned k = 0; good && k < i; k++) { /* from time to time more to write */
+        for (unsigned k = 0; good && k < i; k++) { /* now and then another value to write */
             good = asks(others[k], "OK ");
         }
         good = good && asks("conf save", "OK sequence");

@@ -1,4 +1,4 @@
-/* board_tests.c: the frame of tests that are asked for by name (board_tests.h). */
+/* board_tests.c: the frame for tests called by name (board_tests.h). */
 #include "tests/tools/board_tests.h"
 
 #include <stdarg.h>
@@ -21,7 +21,7 @@ bool no(const char *form, ...) {
     return false;
 }
 
-/* A whole number from 1 to 1,000,000,000; 0: it is none. */
+/* A whole number from 1 to 1,000,000,000; 0: not a number. */
 static unsigned long number_of(const char *word) {
     char *end = NULL;
     const unsigned long number = strtoul(word, &end, 10);

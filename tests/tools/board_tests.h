@@ -1,5 +1,5 @@
-/* board_tests.h: what the tests of what is flashed share (f405.c, atmega.c): a test by its name, so many times, from a seed; and
- * why one does not hold. */
+/* board_tests.h: shared frame of the firmware tests (f405.c, atmega.c): a test by its name, a count, a seed, and the reason of
+ * a failure. */
 #ifndef TESTS_TOOLS_BOARD_TESTS_H
 #define TESTS_TOOLS_BOARD_TESTS_H
 
@@ -8,21 +8,21 @@
 
 extern const char *image; /* its file */
 
-/* Why not; returns false. */
+/* Sets the reason; returns false. */
 __attribute__((format(printf, 1, 2))) bool no(const char *form, ...);
 extern char why[300];
 
-/* Scattered: 0 ... limit - 1. */
+/* Random: 0 ... limit - 1. */
 unsigned below(unsigned limit);
 
 typedef struct board_test {
     const char *name;
     bool (*holds)(unsigned times);
-    unsigned times; /* unless told */
+    unsigned times; /* the default */
     const char *what;
 } board_test;
 
-/* Of the command line TEST IMAGE [TIMES [SEED]] the test, with its times, image and seed set; NULL, reported: none. */
+/* Parses TEST IMAGE [TIMES [SEED]] and returns the test, with times, image and seed set. NULL after a message: no such test. */
 const board_test *board_test_asked(int count, char **words, const board_test *tests, size_t of,
                                    board_test *asked);
 

@@ -1,5 +1,4 @@
-/* careful_thomson.c: naive_thomson.c with libm's sine and cosine of the two angles only; the rest
- * follows by the addition theorems. */
+/* careful_thomson.c: naive_thomson.c with libm's sine and cosine of two angles only. The addition theorems give the others. */
 #include <math.h>
 
 #include "naive_sines.h"

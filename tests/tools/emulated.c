@@ -14,7 +14,6 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Descriptors as the emulator inherits them. */
 enum { CONSOLE = 10, TEST = 11, LOG = 12 };
 
 static pid_t running;
@@ -40,8 +39,7 @@ static long clock_ms(clockid_t clock) {
 
 static long now_ms(void) { return clock_ms(CLOCK_MONOTONIC); }
 
-/* The clock of limits: the emulator's processor time, and a twentieth of the time that passes, because a guest that sleeps
- * uses no processor. */
+/* Time limits count the emulator's processor time plus a twentieth of the elapsed time: a sleeping guest uses no processor. */
 static long worked_ms(void) {
     clockid_t clock;
     if (running <= 0 || clock_getcpuclockid(running, &clock) != 0) {
@@ -164,7 +162,7 @@ static void take_log(emulated *e) {
     }
 }
 
-/* What comes in up to `ms`; returns after the first of it. */
+/* Reads for up to `ms`; returns after the first bytes. */
 static void pump(emulated *e, unsigned ms) {
     struct pollfd ready[3] = {{.fd = e->console, .events = POLLIN},
                               {.fd = e->test, .events = POLLIN},
@@ -229,7 +227,6 @@ bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms) {
     }
 }
 
-/* One order to qtest, and its answer: "OK" or "OK 0x...". */
 static uint32_t ask(emulated *e, const char *order) {
     e->said_bytes = 0;
     send_all(e->test, order);

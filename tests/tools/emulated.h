@@ -1,7 +1,7 @@
-/* emulated.h: a board in QEMU with its image, seen and moved from outside: its console, its memory and interrupt lines
- * (qtest), and every store to a device that the emulator does not have, in their order (-d unimp).
+/* emulated.h: a board in QEMU with its image, driven from outside by its console and by qtest (memory and interrupt lines). The
+ * log of stores to devices that QEMU does not model (-d unimp) is read too.
  *
- * For the tools of tests/boards. Whatever is wrong with the emulator itself ends the program with a message. */
+ * A fault of the emulator itself ends the program with a message. */
 #ifndef TESTS_TOOLS_EMULATED_H
 #define TESTS_TOOLS_EMULATED_H
 
@@ -9,10 +9,11 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-#define EMULATED_STORES 4096U /* the newest are kept */
+#define EMULATED_STORES 4096U /* the newest stay */
 
 typedef struct emulated_store_seen {
-    char device[12]; /* QEMU's name: timer[1], GPIOB, I2S2ext (the watchdog is in that block) */
+    char device
+        [12]; /* QEMU's name: timer[1], GPIOB, I2S2ext (the block that contains the watchdog) */
     uint32_t offset;
     uint32_t value;
 } emulated_store_seen;
@@ -22,35 +23,34 @@ typedef struct emulated {
     int console;
     int test;
     int log;
-    char heard[262144]; /* of the console, not yet taken */
+    char heard[262144]; /* from the console, not yet taken */
     unsigned heard_bytes;
     char said[256]; /* qtest's answer */
     unsigned said_bytes;
-    char logged[512]; /* a line under way */
+    char logged[512]; /* an unfinished line */
     unsigned logged_bytes;
     emulated_store_seen store[EMULATED_STORES];
     uint64_t stores; /* seen since the start */
 } emulated;
 
-/* `serial`: so many interfaces come before the console. Each instruction takes 2^shift ns of the board's time. */
+/* `serial`: the number of interfaces before the console. Each instruction takes 2^shift ns of the board's time. */
 void emulated_start(emulated *e, const char *machine, const char *elf, unsigned serial,
                     unsigned shift);
 void emulated_end(emulated *e);
 
-/* To the console. */
 void emulated_say(emulated *e, const char *words);
 
-/* The console's next line without its end. False after so many milliseconds of the emulator's processor time, or twenty times as
- * many of the clock. */
+/* The console's next line without its end. False after `ms` of the emulator's processor time, or twenty times as many of the
+ * clock. */
 bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
 
-/* Let so many milliseconds pass, and take what comes. */
+/* Waits `ms` and reads what arrives. */
 void emulated_wait(emulated *e, unsigned ms);
 
 uint32_t emulated_load(emulated *e, uint32_t address);
 void emulated_store(emulated *e, uint32_t address, uint32_t value);
 
-/* A line into a device, by its path and number, is high or low. */
+/* Sets a device's input line, by path and number. */
 void emulated_set_line(emulated *e, const char *path, unsigned number, bool high);
 
 #endif

@@ -1,11 +1,11 @@
-/* f405.c: an STM32F405's firmware in QEMU's netduinoplus2, seen and moved from outside.
+/* f405.c: an STM32F405's firmware in QEMU's netduinoplus2, driven and observed from outside.
  *
- *     f405 boot|console|time IMAGE [TIMES [SEED]]      of what is flashed (station.elf)
- *     f405 slots|storm IMAGE ...                       of tests/boards/f405_slots.c
- *     f405 faults|resets IMAGE ...                     of the firmware with a plant inside (tests/boards/f405_plant.c)
+ *     f405 boot|console|time IMAGE [TIMES [SEED]]      the flashed image (station.elf)
+ *     f405 slots|storm IMAGE ...                       tests/boards/f405_slots.c
+ *     f405 faults|resets IMAGE ...                     the firmware with a plant inside (tests/boards/f405_plant.c)
  *
- * Prints "ok - ..." or "not ok - ..." lines; exit status 1 if one is not. QEMU has no registers of the motor's timer, but
- * logs each store to one: their order is what is looked at. */
+ * Prints "ok - ..." or "not ok - ..." lines; exit status 1 if one fails. QEMU has no registers of the motor's timer but logs
+ * each store to one: the tests check their order. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,18 +14,19 @@
 
 #define MACHINE "netduinoplus2"
 #define SERIALS_BEFORE 5U
-#define SHIFT 7U       /* 128 ns an instruction: a slower chip than the true one */
-#define SHIFT_STORM 4U /* 16 ns: still slower, but so that the storm outside is a storm inside */
+#define SHIFT 7U       /* 128 ns per instruction: slower than the real chip */
+#define SHIFT_STORM 4U /* 16 ns: still slower, but an outside storm is a storm inside */
 #define EXTI "/machine/unattached/device[0]/exti"
 
-/* --- what is flashed --------------------------------------------------------------------------- */
+/* --- the flashed image -------------------------------------------------------------------------- */
 
 static bool boots(unsigned times) {
     char line[300];
     (void)times;
     return answers("id", "OK program=rig board=netduinoplus2 ", line, sizeof line) &&
            (board.stores > 0 || no("no store is logged")) &&
-           answers("arm", "ERR 8 ", line, sizeof line) && /* its stop line is broken there */
+           answers("arm", "ERR 8 ", line,
+                   sizeof line) && /* the emulator's stop line reads as broken */
            answers("start 330", "ERR 1 ", line, sizeof line);
 }
 
@@ -35,7 +36,7 @@ static bool converses(unsigned times) {
         const char *answer;
     } said[] = {{"id", "OK program="},
                 {"host 0", "OK"},
-                /* to the end: what is flashed has its words packed */
+                /* to the end: the flashed image has its words packed */
                 {"fault", "OK trip=0 ended=none: no fault"},
                 {"clear", "ERR 6 there is no trip to clear"},
                 {"measure", "ERR 104 the last run has given no result"},
@@ -51,7 +52,7 @@ static bool converses(unsigned times) {
             return false;
         }
     }
-    memset(many, 'x', 400); /* at once, as no cable has them: more than the ring takes */
+    memset(many, 'x', 400); /* all at once, faster than any cable: more than the ring holds */
     many[400] = '\0';
     emulated_say(&board, many);
     emulated_wait(&board, 300);
@@ -60,7 +61,7 @@ static bool converses(unsigned times) {
     }
     many[0] = '\0';
     for (unsigned i = 0; i < 10;
-         i++) { /* in one go: the interrupt takes them, a line a control step is answered */
+         i++) { /* in one write: the interrupt takes them, and each control step answers one line */
         strcat(many, i % 2 == 0 ? "id\r" : "fault\r");
     }
     emulated_say(&board, many);
@@ -90,7 +91,7 @@ static bool keeps_time(unsigned times) {
         for (uint64_t n = from; n < board.stores; n++) {
             kicked += kicks(seen_at(n)) ? 1U : 0U;
         }
-        /* the log ends between the second and the third reading, however fast the emulator is against the clock here */
+        /* the log ends between the second and the third reading, however the emulator's clock differs from ours */
         const double periods = (double)passed / 2000.0;
         const double at_most = (double)(emulated_load(&board, TIM2_CNT) - began) / 2000.0;
         if (passed < 2000 || kicked + 2.0 < periods || kicked > at_most + 30.0) {
@@ -102,7 +103,7 @@ static bool keeps_time(unsigned times) {
 
 /* --- slot pulses through the interrupt ----------------------------------------------------------- */
 
-static unsigned told; /* edges, since it was asked last */
+static unsigned told; /* edges since the last query */
 
 static bool ask_late(unsigned *late, unsigned *overruns, unsigned *periods) {
     char line[100];
@@ -151,7 +152,7 @@ static bool sees_edges(unsigned times) {
     return !emulated_hear(&board, line, sizeof line, 300) || no("one more: '%s'", line);
 }
 
-/* Edges between two rests of the emulator's clock against ours: on a quick machine one would be a breeze. */
+/* Edges between two syncs of the emulator's clock with ours: on a quick machine one edge would be no storm. */
 #define BURST 8U
 
 static bool survives_storm(unsigned times) {
@@ -167,7 +168,7 @@ static bool survives_storm(unsigned times) {
         emulated_set_line(&board, EXTI, i % 2, true);
         emulated_set_line(&board, EXTI, i % 2, false);
         if (i % BURST == BURST - 1) {
-            emulated_wait(&board, 1); /* asked all the time, it would not get on */
+            emulated_wait(&board, 1); /* continuous polling would stall it */
         }
     }
     const uint32_t took = emulated_load(&board, TIM2_CNT) - began;

@@ -1,4 +1,4 @@
-/* f405_seen.c: what the tests of f405.c share (f405.h). */
+/* f405_seen.c: shared parts of the tests of f405.c (f405.h). */
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/tools/f405.h"
@@ -57,7 +57,7 @@ bool hear(const char *begin, char *line, unsigned room, unsigned ms) {
     return no("only other lines than '%s...'", begin);
 }
 
-/* What was said before is no answer. */
+/* Discards earlier output. */
 static bool answered(const char *order, char *line, unsigned room, unsigned ms) {
     char typed[500];
     while (emulated_hear(&board, line, room, 0)) {

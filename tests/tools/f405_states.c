@@ -1,4 +1,4 @@
-/* f405_states.c: faults and resets of the rig's firmware in every state, with a plant inside (tests/boards/f405_plant.c). */
+/* f405_states.c: faults and resets of the firmware in every state, with a plant inside (tests/boards/f405_plant.c). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static bool says_state(char *state, unsigned room, unsigned *trip) {
     return true;
 }
 
-/* Somewhere: idle, armed, in any phase of a run, tripped. */
+/* A random state: idle, armed, in any phase of a run, tripped. */
 static bool bring_somewhere(char *state, unsigned room, unsigned *trip) {
     char line[300];
     const unsigned where = below(8);
@@ -45,7 +45,7 @@ static bool bring_somewhere(char *state, unsigned room, unsigned *trip) {
     }
     if (where > 0 && *trip == 0) {
         emulated_store(&board, symbol("bench_rest"), 1);
-        for (unsigned i = 0; i < 100; i++) { /* until it is known to rest */
+        for (unsigned i = 0; i < 100; i++) { /* until the rig knows that it rests */
             if (!answers("arm", "", line, sizeof line)) {
                 return false;
             }
@@ -66,10 +66,10 @@ static bool bring_somewhere(char *state, unsigned room, unsigned *trip) {
     return says_state(state, room, trip);
 }
 
-/* From the mark on: nothing drives but before `reset`, where the boot's first store is; then off comes first. */
+/* After the mark nothing drives except before `reset`, the boot's first store; from there the motor's off comes first. */
 static bool is_off_after(uint64_t mark, bool faulted) {
     uint64_t boot = 0;
-    for (unsigned ms = 0; boot == 0; ms++) { /* the log is behind where the machine is busy */
+    for (unsigned ms = 0; boot == 0; ms++) { /* the log lags on a busy machine */
         for (uint64_t n = mark + 1; n < board.stores && boot == 0; n++) {
             boot = is(seen_at(n), "RCC", 0) && seen_at(n)->value == 1 ? n : 0;
         }
@@ -90,7 +90,7 @@ static bool is_off_after(uint64_t mark, bool faulted) {
         !is(seen_at(boot - 1), "GPIOB", 0x18) || seen_at(boot - 1)->value != 0x40000000U) {
         return no("the last stores before the start are not those that switch off");
     }
-    for (uint64_t n = mark + 1; n < boot - 2; n++) { /* what the loop still did */
+    for (uint64_t n = mark + 1; n < boot - 2; n++) { /* the loop's last actions */
         if (!kicks(seen_at(n)) && !is(seen_at(n), "timer[1]", 0x44) &&
             !is(seen_at(n), "GPIOB", 0x18)) {
             return no("%s 0x%x was written before the motor was off", seen_at(n)->device,
@@ -102,7 +102,7 @@ static bool is_off_after(uint64_t mark, bool faulted) {
 
 typedef enum fault_kind { CRYSTAL, STRAY, NO_FPU, MEMORY, FAULT_KINDS } fault_kind;
 
-/* Returns the report's beginning. */
+/* Returns the report's start. */
 static const char *inject(fault_kind kind) {
     switch (kind) {
     case CRYSTAL: emulated_store(&board, ICSR, ICSR_NMI); return "NMI, PC ";
@@ -111,7 +111,7 @@ static const char *inject(fault_kind kind) {
         emulated_store(&board, NVIC_ISPR_1, 1U << 8);
         return "unexpected interrupt 40, PC ";
     case NO_FPU: emulated_store(&board, CPACR, 0); return "UsageFault, PC ";
-    case MEMORY: /* the upper half of the variables' 32 KB can no more be written or read: not the stack, nor what is kept */
+    case MEMORY: /* the upper half of the variables' 32 KB becomes inaccessible: neither the stack nor the stored memory */
         emulated_store(&board, MPU_RNR, 1);
         emulated_store(&board, MPU_RBAR, symbol("rig") & ~0xFFU);
         emulated_store(&board, MPU_RASR, 7U << 1 | 1U);
@@ -163,7 +163,7 @@ static bool faults_once(unsigned number, unsigned *changed) {
     }
     if (!is_off_after(mark, true)) {
         char because[sizeof why];
-        memcpy(because, why, sizeof because); /* which no() writes over */
+        memcpy(because, why, sizeof because); /* no() overwrites it */
         return no("%.200s (in %s, %s)", because, state, begin);
     }
     return true;
@@ -186,7 +186,7 @@ static bool resets_once(unsigned number) {
     unsigned trip = 0;
     unsigned trip_after = 0;
     uint64_t mark;
-    const bool at_once = below(2) == 0; /* also while it starts */
+    const bool at_once = below(2) == 0; /* also during the start */
     if (at_once) {
         static unsigned last_trip;
         if (!says_state(state, sizeof state, &last_trip)) {
@@ -207,8 +207,7 @@ static bool resets_once(unsigned number) {
         return no("in %s: the cause is not told", state);
     }
     emulated_wait(&board, 20);
-    if (!says_state(after, sizeof after,
-                    &trip_after)) { /* also answers what came of a line that was half typed */
+    if (!says_state(after, sizeof after, &trip_after)) { /* also the answer to a half-typed line */
         return false;
     }
     if (strcmp(after, trip != 0 ? "tripped" : "idle") != 0 || trip_after != trip) {

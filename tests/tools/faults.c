@@ -1,11 +1,11 @@
-/* faults.c: the campaign of faults against the rig's controller: runs its firmware in the loop with one fault each, judges
- * from the plant, and prints a matrix.
+/* faults.c: a fault-injection campaign on the rig's controller. Runs the firmware in the loop with one fault each, judges the
+ * run from the plant, and prints a matrix.
  *
  *     build/tools/faults --firmware IMAGE [--board B] [--runs N] [--seed S] [--jobs J] [--step 200us] [--only KIND]
- *         [--first N] [--also FAULTS]
+ *     [--first N] [--also FAULTS]
  *
- * Run i with a seed is the same whatever the other runs are, on however many processes. Exit status 0: nothing is wrong;
- * 1: there are violations; 2: bad input; 130: interrupted, what was done is told. */
+ * Run i depends on the seed only, not on the other runs or the number of processes. Exit status: 0 no violation, 1 violations,
+ * 2 bad input, 130 interrupted after reporting the finished runs. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +21,7 @@
 #define UNTIL_S 60.0
 #define PATIENCE_S 600.0
 #define JITTER_S 60e-6
-#define INSTRUCTION_S (1.5 / 16e6) /* as whirl pil has it */
+#define INSTRUCTION_S (1.5 / 16e6) /* as in whirl pil */
 enum { PLANTS_MAX = 16, JOBS_MAX = 64 };
 
 static void on_interrupt(int signal_number) {
@@ -29,7 +29,7 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-/* --- plants, one for each of their parameters --------------------------------------------------------------------*/
+/* --- plants, one per set of parameters -------------------------------------------------------------------------------- */
 
 typedef struct plants {
     source_model from;
@@ -110,7 +110,7 @@ static void catch_interrupts(void) {
     sigaction(SIGTERM, &action, NULL);
 }
 
-/* Every jobs-th run; a verdict is written in one piece. */
+/* Every jobs-th run; a verdict is written with one call. */
 static int work(const campaign *c, plants *from, int job, int onto) {
     for (unsigned i = (unsigned)job; i < c->runs && !interrupted; i += (unsigned)c->jobs) {
         verdict v;
@@ -124,7 +124,7 @@ static int work(const campaign *c, plants *from, int job, int onto) {
     return 0;
 }
 
-/* Whoever interrupts this process alone means all of it. */
+/* An interrupt of this process alone ends the whole campaign. */
 static void pass_on(const campaign *c, const pid_t *worker) {
     for (int job = 0; job < c->jobs && interrupted; job++) {
         if (worker[job] > 0) {
@@ -142,7 +142,7 @@ static void collect(const campaign *c, const pid_t *worker, int from, verdict *a
         if (got == (ssize_t)sizeof v && v.run - c->first < c->runs) {
             verdict *of = &all[v.run - c->first];
             *of = v;
-            of->time_s = v.time_s > 0.0 ? v.time_s : 1e-9; /* it was done */
+            of->time_s = v.time_s > 0.0 ? v.time_s : 1e-9;
             count++;
         } else if (got >= 0 || !interrupted) {
             break;
@@ -218,7 +218,7 @@ static bool read_words(int count, char **words, campaign *c) {
         } else if (strcmp(option, "--runs") == 0 && is && number > 0 && number <= 10000000) {
             c->runs = (unsigned)number;
         } else if (strcmp(option, "--first") == 0 && is && number <= 10000000) {
-            c->first = (unsigned)number; /* goes on where a campaign was broken off */
+            c->first = (unsigned)number; /* continues an interrupted campaign */
         } else if (strcmp(option, "--seed") == 0 && is && number <= UINT32_MAX) {
             c->seed = (uint32_t)number;
         } else if (strcmp(option, "--jobs") == 0 && is && number > 0 && number <= JOBS_MAX) {

@@ -1,13 +1,11 @@
-/* functions_exhaustive.c: the float functions of core/function.h against the library's in double, in units in
- * the last place of float: those of one argument at all 2^32 floats, those of two at some 2^32 scattered pairs.
+/* functions_exhaustive.c: the float functions of core/function.h against the library's in double, in float ulps. Functions of
+ * one argument run over all 2^32 floats, those of two over 2^32 scattered pairs.
  *
  *     functions_exhaustive [STRIDE [FUNCTION]]
  *
- * STRIDE > 1 takes one argument out of every STRIDE, at a scattered place in each. Prints the worst error of each
- * function, where it is, and how many results are not the nearest float; the exit status is 1 if a function errs
- * by more than core/function.h allows, or differs in what is infinite, not a number, or a zero's sign. An error of
- * the library's own, some 2^-29 of these units, does not show.
- */
+ * STRIDE > 1 takes one argument out of every STRIDE, at a scattered place in each. Prints each function's worst error, its
+ * argument, and the number of results that are not the nearest float. The exit status is 1 if an error exceeds the bound of
+ * core/function.h, or if infinities, NaNs or signs of zero differ. The library's own error, some 2^-29 ulp, does not show. */
 #include "core/function.h"
 
 #include <math.h>
@@ -46,7 +44,7 @@ typedef struct tally {
     double worst;
     float worst_at[2];
     uint64_t not_nearest;
-    uint64_t wrong; /* infinite, no number, or of the other sign, where the reference is not */
+    uint64_t wrong; /* infinity, NaN or the wrong sign, unlike the reference */
     float wrong_at[2];
 } tally;
 
@@ -63,7 +61,7 @@ static float float_of(uint32_t bits) {
     return value;
 }
 
-/* 1 over the distance of floats at a size from 0 to the largest float: a power of two, made from bits. */
+/* 1 over the spacing of floats at this size, for sizes from 0 to the largest float: a power of two, made from bits. */
 static double per_unit(double size) {
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
@@ -89,7 +87,7 @@ static void judge(tally *t, float got, double wanted, float x, float y) {
     } else {
         t->not_nearest++;
     }
-    /* Beyond the largest float comes 2^128, which is infinite. */
+    /* 2^128 follows the largest float and is infinite. */
     const double reached = isinf(got) ? 0x1p128 : fabs((double)got);
     const double truth = fmin(fabs(wanted), 0x1p128);
     const double error = fabs(reached - truth) * per_unit(fmin(truth, 0x1.fffffep127));
@@ -100,8 +98,7 @@ static void judge(tally *t, float got, double wanted, float x, float y) {
     }
 }
 
-/* Pairs of five kinds in turn: any floats; of like size; a power that is no overflow; of a base near one; small
- * numbers that stand for themselves. */
+/* Five kinds of pairs in turn: any floats; similar sizes; a power without overflow; a base near one; small integers. */
 static void pair_of(uint64_t k, float *x, float *y) {
     const uint64_t s = scatter(k);
     const uint32_t high = (uint32_t)(s >> 32);
@@ -125,7 +122,7 @@ static void pair_of(uint64_t k, float *x, float *y) {
     }
 }
 
-/* Strata first to last - 1, each of `stride` arguments, of which one is taken. */
+/* Strata first to last - 1 of `stride` arguments each, of which one is taken. */
 static void measure(const subject *s, uint64_t first, uint64_t last, uint64_t stride, tally *t) {
     for (uint64_t k = first; k < last; k++) {
         const uint64_t at = k * stride + (stride > 1 ? scatter(k) % stride : 0U);
@@ -154,7 +151,7 @@ static void merge(tally *into, const tally *from) {
     into->wrong += from->wrong;
 }
 
-/* A process for each core. False if one failed. */
+/* One process per core. False if one failed. */
 static int measure_on_all_cores(const subject *s, uint64_t stride, tally *all) {
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
     const uint64_t cores = online < 1 ? 1U : (online > CORES_MAX ? CORES_MAX : (uint64_t)online);

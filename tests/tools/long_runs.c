@@ -1,7 +1,7 @@
-/* long_runs.c: `long_runs [STEPS [WAY [SUBJECT]]]` lets a pendulum swing from 1 rad and the epicyclic gear turn without a torque for
- * so many steps of 1 ms (10^7 when left out), and prints, for every decade of steps, the largest error of the energy, as a
- * part of it, and how far the gear's centre of mass has gone from where it was, m; and how they grow. Energies are those of
- * formulas in this file, in double, of the states as they are. */
+/* long_runs.c: energy and momentum drift over long runs. `long_runs [STEPS [WAY [SUBJECT]]]` swings a pendulum from 1 rad and
+ * turns the epicyclic gear without torque, for STEPS steps of 1 ms (default 10^7). For every decade of steps it prints the
+ * largest relative energy error and the drift of the gear's centre of mass in m, and their growth. The energies come from
+ * formulas in this file, in double. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,6 @@
 
 #include "unity.h"
 
-/* What Unity wants of a program. */
 void setUp(void) {}
 void tearDown(void) {}
 
@@ -23,7 +22,7 @@ typedef struct subject {
     const char *what;
     double (*energy_J)(const motion *m);
     const char *text;
-    bool rates;    /* its accelerations take them; it has a centre of mass that stays */
+    bool rates;    /* its accelerations use them; its centre of mass is fixed */
     bool no_books; /* a coordinate is integrated from its momentum */
 } subject;
 
@@ -62,8 +61,8 @@ static const subject subjects[] = {
     {"gear, X conserved", gear_J,
      GEAR "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true,
      false},
-    /* A force that asks where X is, of no strength: then X does not follow from the angle and the time, and is
-     * integrated from the rate that its momentum gives. */
+    /* A force of zero strength that names X. Otherwise X would follow from the angle and the time; with it, X is integrated
+     * from the rate that its momentum gives. */
     {"gear, X' conserved", gear_J,
      GEAR
      "input pull = 0 [N]\nQ(theta) = pull*X\nscene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\n"
@@ -84,7 +83,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
     const double begin_m = of->rates ? centre_m(&m) : 0.0;
     uint64_t end = 1000;
     int at = 0;
-    const uint64_t go = 37; /* no part of a period */
+    const uint64_t go = 37; /* not a fraction of the period */
     for (uint64_t k = 0; k + go <= steps;) {
         if (motion_step(&m, go) != WH_OK) {
             printf("%-18s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);

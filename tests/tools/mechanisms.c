@@ -1,5 +1,5 @@
-/* mechanisms.c: `mechanisms COUNT SEED` writes COUNT generated mechanisms with a scene each on standard output, all of
- * which derive; on standard error it says how many were refused and replaced. */
+/* mechanisms.c: `mechanisms COUNT SEED` writes COUNT generated mechanisms with a scene each on standard output. All of them
+ * derive. It reports on standard error how many were refused and replaced. */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -39,7 +39,7 @@ int main(int count, char **words) {
         fputs("usage: mechanisms COUNT SEED\n", stderr);
         return 2;
     }
-    const bool tells = getenv("MECHANISMS_SHOW") != NULL; /* the refused ones, with their errors */
+    const bool tells = getenv("MECHANISMS_SHOW") != NULL; /* refused ones, with their errors */
     const unsigned wanted = (unsigned)strtoul(words[1], NULL, 10);
     uint64_t seed = strtoull(words[2], NULL, 10);
     unsigned refused = 0;

@@ -42,11 +42,11 @@ void (*mega_on_eeprom)(unsigned address);
 static avr_t *avr;
 static elf_firmware_t firmware;
 static hal_virtual_rig plant;
-static uint64_t plant_cycle; /* that its state stands at */
-static float force_N[2];     /* of its last step, at both ends */
+static uint64_t plant_cycle; /* time of the model's state */
+static float force_N[2];     /* at both ends of the last step */
 static hal_slot_edge edges[HAL_VIRTUAL_PULSES];
 static unsigned edge_count;
-static uint64_t high_until[2]; /* a sensor's pulse; 0: it is low */
+static uint64_t high_until[2]; /* end of a sensor's pulse; 0: low */
 static char heard[65536];
 static unsigned heard_bytes;
 static char said[4096];
@@ -111,7 +111,7 @@ static float cell_N(void) {
     return output[0];
 }
 
-/* The chip sees the rig one step of the model late: what lies in that step is known by then. */
+/* The chip sees the rig one model step late: the events in that step are known by then. */
 static void advance_plant(void) {
     const mega_motor motor = mega_motor_now();
     plant.supply_V = mega_supply_V;
@@ -134,7 +134,6 @@ void mega_level(unsigned sensor, bool high) {
     avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('L'), (int)sensor), high ? 1 : 0);
 }
 
-/* Of a time in the last step. */
 static uint64_t cycle_of(uint32_t ticks) {
     return plant_cycle - (uint64_t)(uint32_t)(plant.ticks - ticks) * MEGA_CYCLES_PER_US;
 }
@@ -171,7 +170,8 @@ static void on_convert(struct avr_irq_t *irq, uint32_t value, void *data) {
     const float mV = asked.mux.src == 0
                          ? 2500.0f + load_N / HAL_LOADCELL_FULL_SCALE_N * 2500.0f + noise_mV()
                          : 100.0f * mega_supply_V;
-    /* what a converter by the data sheet (DS 26.7: 1024 a reference) makes of it, as the voltage that simavr makes it of (1023) */
+    /* Simavr divides by 1023, the data sheet (DS 26.7) by 1024 per reference: the voltage is scaled so that the code is the
+     * data sheet's. */
     const float counts = mV * (1024.0f / 5000.0f);
     const uint32_t count = counts < 0.0f ? 0 : counts > 1023.0f ? 1023U : (uint32_t)counts;
     avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, (int)asked.mux.src),
@@ -250,7 +250,7 @@ bool mega_step(void) {
     if (mega_parts_wrong() != NULL) {
         fail(mega_parts_wrong());
     }
-    if (avr->cycle < before) { /* a reset begins the count anew */
+    if (avr->cycle < before) { /* a reset restarts the count */
         fail("the cycles' count went back");
     }
     while (plant_cycle < avr->cycle) {
@@ -412,7 +412,7 @@ bool mega_answers(const char *order, const char *begin, char *line, unsigned roo
     return true;
 }
 
-/* --- what is asked of it ---------------------------------------------------------------------------------- */
+/* --- inspecting the chip --------------------------------------------------------------------------------- */
 
 uint64_t mega_cycle(void) { return avr->cycle; }
 mega_times *mega_times_now(void) { return &times; }
@@ -422,7 +422,7 @@ uint32_t mega_pc(void) { return avr->pc; }
 void mega_set_pc(uint32_t at) { avr->pc = at; }
 uint16_t mega_sp(void) { return word_at(REG_SPL); }
 
-/* As a call does: the address in words, three bytes, the highest at the lowest place. */
+/* Pushes a return address like a call: in words, three bytes, the highest at the lowest address. */
 void mega_push_pc(void) {
     const uint16_t sp = mega_sp();
     const uint32_t words = avr->pc / 2U;

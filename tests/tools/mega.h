@@ -1,8 +1,8 @@
-/* mega.h: an ATmega2560 in simavr with its image, its console, and round its pins the rig: the core's own model, played in real
- * time by the chip's cycles (hal/virtual). Slot sensors are edges on the capture pins, load cell and supply voltages at the
- * converter, the motor is what PWM and enable pins make of the supply.
+/* mega.h: an ATmega2560 in simavr with its image, its console and the rig at its pins. The rig is the core's own model, run in
+ * real time by the chip's cycles (hal/virtual). Slot sensors are edges at the capture pins; load cell and supply are voltages
+ * at the converter. PWM and enable pins set the motor's voltage.
  *
- * What is wrong with the emulator itself ends the program with a message. */
+ * A fault of the emulator itself ends the program with a message. */
 #ifndef TESTS_TOOLS_MEGA_H
 #define TESTS_TOOLS_MEGA_H
 
@@ -15,30 +15,29 @@
 #define MEGA_CYCLES_PER_US (MEGA_HZ / 1000000U)
 #define MEGA_EEPROM_BYTES 4096U
 
-/* What the chip's time went into, in cycles: a control step, from the end of the wait for it to the console's turn; and all until the
- * next wait, the console's turn in it. */
+/* The chip's time in cycles. A control step runs from the end of its wait to the console's turn; `all` runs to the next wait,
+ * with the console's turn. */
 typedef struct mega_times {
     uint64_t steps;
     uint64_t worst_step;
     uint64_t worst_loop;
     uint64_t sum_step;
-    uint64_t late;          /* waits that began after their time */
-    unsigned histogram[64]; /* of steps, 1000 cycles each; the last has what is above */
+    uint64_t late;          /* waits that began late */
+    unsigned histogram[64]; /* of steps, 1000 cycles each; the last counts all above */
 } mega_times;
 
-/* The motor as its pins have it. */
+/* The motor as its pins drive it. */
 typedef struct mega_motor {
     bool enabled;
     float duty;
 } mega_motor;
 
-/* Begins anew with the power, the EEPROM as it was (mega_eeprom()): erased at first. */
+/* Restarts with power-on. The EEPROM stays (mega_eeprom()); at first it is erased. */
 void mega_start(const char *image);
 
-/* One instruction, and what its cycles bring. False: the program has ended, or crashed. */
+/* One instruction and the events of its cycles. False: the program ended or crashed. */
 bool mega_step(void);
 
-/* So many milliseconds of the chip's time. */
 bool mega_run(unsigned ms);
 
 uint64_t mega_cycle(void);
@@ -52,35 +51,35 @@ void mega_set_pc(uint32_t at);
 void mega_push_pc(void);
 uint16_t mega_sp(void);
 
-/* Calls code of the chip, the arguments in r22 to r25, and goes on behind as if it had not been. */
+/* Calls code of the chip with the arguments in r22 to r25, then continues as if nothing had happened. */
 void mega_call(uint32_t at, const uint8_t arguments[4]);
 
-/* Flash as it is executed, two bytes; returns what was there. */
+/* Overwrites executed flash, two bytes; returns the old ones. */
 uint16_t mega_set_flash(uint32_t at, uint16_t word);
 
-/* An address of flash, or of memory as mega_data() has it; 0: there is no such symbol. */
+/* An address of flash, or of memory as for mega_data(); 0: no such symbol. */
 uint32_t mega_symbol(const char *name);
 
-/* The supply's voltage, and whether stop's contacts are open: from now on. */
+/* The supply's voltage, and whether stop's contacts are open, from now on. */
 extern float mega_supply_V;
 extern bool mega_stop;
-extern float mega_noise_mV; /* of the load cell's amplifier, evenly, either way */
+extern float mega_noise_mV; /* noise of the load cell's amplifier, uniform, both ways */
 
-/* The plant gives no more slot pulses: levels at the capture pins are whoever sets them. */
+/* The plant gives no more slot pulses: the caller sets the levels at the capture pins. */
 extern bool mega_no_pulses;
 void mega_level(unsigned sensor, bool high);
 
-/* A byte of the EEPROM is about to be written: its address, before it changes. NULL: nobody is told. */
+/* Called with the address before an EEPROM byte changes; NULL: no call. */
 extern void (*mega_on_eeprom)(unsigned address);
 
-/* A reset that is not the power's: `flag` of MCUSR. Memory stays. */
+/* A reset other than power-on: `flag` of MCUSR. Memory stays. */
 void mega_reset(uint8_t flag);
 
-/* To the console, at its speed; its next line, within so many milliseconds. */
+/* Sends to the console at its speed; reads its next line within `ms`. */
 void mega_say(const char *line);
 bool mega_hear(char *line, unsigned room, unsigned ms);
 
-/* A line, and its answer, which begins so; else a word of it on standard output, and false. */
+/* Sends a line; its answer begins with these words. Otherwise prints a message and returns false. */
 bool mega_answers(const char *order, const char *begin, char *line, unsigned room);
 
 #endif

@@ -1,4 +1,4 @@
-/* mega_parts.c: places in the data sheet (DS40002211A) as "DS 8.6". */
+/* mega_parts.c: parts of the ATmega2560. "DS 8.6" is a section of the data sheet (DS40002211A). */
 #include "mega_parts.h"
 
 #include <string.h>
@@ -17,15 +17,15 @@ enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* from mega_timer_base on */
 #define SET_EEPE 0x9AF9U /* sbi EECR, EEPE */
 #define EEPE 0x02U
 #define EEMPE 0x04U
-#define EEPM 0x30U                  /* 0: erase and write in one go */
-#define EEPROM_CYCLES (18U * 1600U) /* 1.8 ms; 3.4 in one go (DS 8.6.3, table 8-1) */
+#define EEPM 0x30U                  /* 0: erase and write at once */
+#define EEPROM_CYCLES (18U * 1600U) /* 1.8 ms; 3.4 for both (DS 8.6.3, table 8-1) */
 #define EEPROM_BOTH_CYCLES (34U * 1600U)
 #define WDR 0x95A8U
 #define WDE 0x08U
 #define WATCHDOG_CYCLES (UINT64_C(2048) * 125U) /* 2048 of 128 kHz (DS 12.5.2) */
 
 static struct {
-    uint64_t until; /* the EEPROM writes; 0: it rests */
+    uint64_t until; /* end of the EEPROM's write; 0: idle */
     uint64_t heard; /* the watchdog, */
     uint64_t kept;  /* and simavr's own, from biting */
     uint8_t settings;
@@ -63,7 +63,7 @@ static void look_at_timers(const avr_t *avr, mega_next *next) {
                   (avr->data[REG_DDRB] & OC1A_PIN) != 0;
 }
 
-/* Captures come between instructions: a change by one is the CPU's. */
+/* Captures come between instructions: a change during one is the CPU's. */
 static void keep_captured(avr_t *avr, const mega_next *before) {
     for (unsigned i = 0; i < MEGA_TIMERS; i++) {
         if (!before->writable[i]) {
@@ -73,8 +73,8 @@ static void keep_captured(avr_t *avr, const mega_next *before) {
     }
 }
 
-/* OC1A keeps its level when it is disconnected, also over a change of mode (DS 17.8), and shows it when it is connected again. The
- * strobe FOC1A sets it, in modes without PWM alone. */
+/* OC1A keeps its level when it is disconnected, also over a change of mode (DS 17.8), and drives it when it is connected again.
+ * The strobe FOC1A sets it in modes without PWM only. */
 static void keep_output(avr_t *avr, const mega_next *before) {
     const unsigned base = mega_timer_base[0];
     const unsigned mode = mode_of(avr, base);
@@ -96,7 +96,7 @@ static void keep_output(avr_t *avr, const mega_next *before) {
     }
 }
 
-/* Of timers 4 and 5 whose overflow waits, but for one that `out TIFR4, Rr` or `out TIFR5, Rr` is to clear. */
+/* Timers 4 and 5 with a pending overflow, except one that `out TIFR4, Rr` or `out TIFR5, Rr` clears. */
 static uint8_t overflows_now(const avr_t *avr, unsigned word) {
     const unsigned to = 0x20U + ((word >> 5 & 0x30U) | (word & 0xFU));
     const bool out = (word & 0xF800U) == 0xB800U && (avr->data[word >> 4 & 0x1FU] & TOV) != 0;
@@ -108,7 +108,8 @@ static uint8_t overflows_now(const avr_t *avr, unsigned word) {
     return waits;
 }
 
-/* simavr clears all flags of a timer where one is written (DS 17.11.37: that one); an overflow goes by its own interrupt. */
+/* simavr clears all flags of a timer when one is written; the chip clears that one (DS 17.11.37). The interrupt clears an
+ * overflow. */
 static void keep_overflows(avr_t *avr, uint8_t overflows) {
     for (avr_io_t *io = avr->io_port; io != NULL && overflows != 0; io = io->next) {
         avr_timer_t *timer = (avr_timer_t *)io;
@@ -132,7 +133,7 @@ mega_next mega_parts_next(const avr_t *avr) {
     return next;
 }
 
-/* simavr writes a byte at once. On the chip it takes its time, and EEPE says so. */
+/* simavr writes a byte at once. The chip takes time and shows it in EEPE. */
 static void keep_eeprom_busy(avr_t *avr, bool writes) {
     if (writes) {
         const bool both = (avr->data[REG_EECR] & EEPM) == 0;
@@ -146,7 +147,7 @@ static void keep_eeprom_busy(avr_t *avr, bool writes) {
     }
 }
 
-/* Behind the last `wdr` or change of its settings; simavr's own goes on with the time that it had before a change. */
+/* After the last `wdr` or change of its settings. simavr's own watchdog keeps the old time after a change. */
 bool mega_parts_bite(avr_t *avr, const mega_next *done) {
     keep_captured(avr, done);
     keep_output(avr, done);

@@ -1,5 +1,5 @@
-/* naive_epicyclic.c: the epicyclic gear as a textbook programs it: the mass matrix of equations (10)
- * and (11), Cramer's rule, libm's sine and cosine, the classic Runge-Kutta method on four states. */
+/* naive_epicyclic.c: the epicyclic gear as in a textbook: the mass matrix of equations (10) and (11), Cramer's rule, libm's
+ * sine and cosine, the classic Runge-Kutta method on four states. */
 #include <math.h>
 
 #include "naive.h"

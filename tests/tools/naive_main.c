@@ -1,9 +1,9 @@
-/* naive_main.c: steps of a mechanism by hand, or by another library (mk/peers), once it has shown that it computes the
- * right motion. It speaks as boards/programs/bench.c does:
+/* naive_main.c: main program for a mechanism stepped by hand-written code or by another library (mk/peers). It first checks the
+ * motion. Its commands are those of boards/programs/bench.c:
  *
- *     PROGRAM            what mk/count/count_host.sh counts
- *     PROGRAM steps N    N steps and nothing else
- *     PROGRAM time N     N steps; prints how many nanoseconds one took */
+ *     PROGRAM            the steps that mk/count/count_host.sh counts
+ *     PROGRAM steps N    N steps only
+ *     PROGRAM time N     N steps; prints the nanoseconds per step */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 #include "naive.h"
 
-/* Into the middle of the motion: libm's sine takes longer for angles beyond a few radians. */
+/* Starts in the middle of the motion: libm's sine takes longer for angles beyond a few radians. */
 #define WARM_STEPS 3000U
 #define COUNTED_STEPS 100U
 #define STEP_S 1e-3
@@ -23,7 +23,6 @@ void wh_count_end(void);
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
-/* From rest at zero on. */
 static void run(double state[], unsigned long steps) {
     naive_start(state);
     for (unsigned long i = 0; i < steps; i++) {
@@ -57,7 +56,7 @@ static int count(void) {
     wh_count_begin();
     wh_count_end();
     run(state, WARM_STEPS);
-    /* Counting is on while a function named to the counter runs, and looked at in between. */
+    /* The counter counts while a function named to it runs, and is read in between. */
     for (unsigned i = 0; i < COUNTED_STEPS; i++) {
         wh_count_begin();
         naive_step(state, STEP_S);

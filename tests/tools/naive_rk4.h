@@ -1,5 +1,4 @@
-/* naive_rk4.h: the classic Runge-Kutta method on STATES first-order states with slope(), as any
- * textbook has it. To be included behind the two. */
+/* naive_rk4.h: the classic Runge-Kutta method on STATES first-order states with slope(). Include it after both. */
 #ifndef TESTS_NAIVE_RK4_H
 #define TESTS_NAIVE_RK4_H
 

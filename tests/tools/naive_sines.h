@@ -1,4 +1,4 @@
-/* naive_sines.h: the sines and cosines that Thomson's device takes. */
+/* naive_sines.h: the sines and cosines of Thomson's device. */
 #ifndef TESTS_NAIVE_SINES_H
 #define TESTS_NAIVE_SINES_H
 

@@ -1,6 +1,5 @@
-/* naive_thomson.h: Thomson's device as a textbook programs it: the mass matrix of its three
- * coordinates, Gauss elimination, the classic Runge-Kutta method on six states. To be included behind
- * NAME, `sines` and sines_of(). */
+/* naive_thomson.h: Thomson's device as in a textbook: the mass matrix of its three coordinates, Gauss elimination, the classic
+ * Runge-Kutta method on six states. Define NAME, `sines` and sines_of() before the inclusion. */
 #ifndef TESTS_NAIVE_THOMSON_H
 #define TESTS_NAIVE_THOMSON_H
 
@@ -39,7 +38,7 @@ static void slope(const double y[STATES], double dy[STATES]) {
     const double f2 = 2.0 * mrr * (s.sin_a_b + 2.0 * s.sin_2a_b) * a_squared;
     const double f3 = 4.0 * mr * (s.cos_a + s.cos_2a) * a_squared + mr * s.cos_b * b_squared;
 
-    /* Gauss: the first row out of the second and third, then the second out of the third. */
+    /* Gauss: eliminates the first column, then the second. */
     const double l2 = m12 / m11;
     const double l3 = m13 / m11;
     const double n22 = m22 - l2 * m12;

@@ -1,9 +1,8 @@
 /* root_exhaustive.c: the float square root in integers at all 2^32 numbers.
  *
- * Held against the processor's or library's root in double, rounded to float, which is the nearest float too:
- * double has more than twice a float's bits and two (Figueroa, When is double rounding innocuous?, SIGNUM
- * Newsletter 30 (1995) 3). What scenes use, WH_SQRT, is held against it as well. NaN counts as equal to NaN.
- * The exit status is 1 if one differs. */
+ * The reference is the processor's or library's root in double, rounded to float. That is the nearest float: double has more
+ * than twice a float's bits plus two (Figueroa, When is double rounding innocuous?, SIGNUM Newsletter 30 (1995) 3). WH_SQRT,
+ * the root that scenes use, is compared too. NaN equals NaN. The exit status is 1 if one differs. */
 #include "core/root.h"
 
 #include <math.h>
@@ -20,7 +19,7 @@ static bool same(number a, number b) {
     return a.bits == b.bits || (isnan(a.value) && isnan(b.value));
 }
 
-/* Numbers first to last - 1. The count of those whose root is another. */
+/* Counts the wrong roots of numbers first to last - 1. */
 static uint64_t measure(uint64_t first, uint64_t last) {
     uint64_t wrong = 0;
     for (uint64_t bits = first; bits < last; bits++) {

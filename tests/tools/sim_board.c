@@ -1,16 +1,16 @@
-/* sim_board.c: board.h on this machine in simulated time, for hours of the rig's station in seconds: time passes as fast as
- * it is waited for, and the serial line, a pseudo-terminal, takes as many bytes of it as its speed allows.
+/* sim_board.c: board.h on this machine in simulated time, which runs hours of the rig's station in seconds. Time passes as fast
+ * as the program waits. The serial line is a pseudo-terminal with a limited byte rate.
  *
- *   SIM_SECONDS  how long it runs (60 unless told); each minute it is given the orders of a run
- *   SIM_BAUD     the line's speed (115200); a byte is ten bits
- *   SIM_LINK     a link to the terminal
- *   SIM_ALONE    nobody reads: what the terminal does not take at once is not taken
- *   SIM_TEL      telemetry is on from the beginning, also where nobody asks for it
- *   SIM_SEED     settings, orders, a supply that is not steady, and what fails of the hardware, drawn from it
+ * SIM_SECONDS  simulated duration (default 60); each minute has the orders of a run
+ * SIM_BAUD     the line's speed (default 115200); a byte is ten bits
+ * SIM_LINK     a link to the terminal
+ * SIM_ALONE    no reader: bytes that the terminal does not accept at once are lost
+ * SIM_TEL      telemetry is on from the start
+ * SIM_SEED     seed for settings, orders, an unsteady supply and hardware failures
  *
- * For the first second time is the clock's, so that whoever reads can ask first. After that it stands still while whoever
- * reads has not yet read what the line has brought, unless alone: a reader on a slow machine loses nothing by that. Ends
- * with the hash of the plant's state on standard error: commands that were the same give the same. */
+ * The first second runs in real time, so that a reader can ask first. After that time stands still until the reader has read
+ * the line's bytes, unless SIM_ALONE is set. A reader on a slow machine thus loses nothing. At the end it prints the hash of
+ * the plant's state on standard error: equal commands give equal hashes. */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
@@ -37,15 +37,15 @@ const uint32_t board_ticks_per_s = 1000000U;
 static uint64_t now_us;
 static uint32_t last_ticks;
 static uint64_t until_us;
-static uint64_t credit; /* of the line, in bytes a million */
+static uint64_t credit; /* of the line, in millionths of a byte */
 static uint64_t baud;
 static bool alone;
 static int line = -1;
 static int other_end = -1;
 static const char *link_name;
-static uint64_t seed;    /* 0: nothing is drawn */
-static unsigned drawn;   /* lines that were */
-static unsigned ordered; /* orders that were given, of this minute's */
+static uint64_t seed;    /* 0: no random events */
+static unsigned drawn;   /* lines so far */
+static unsigned ordered; /* orders given in this minute */
 static uint64_t minute;
 
 static const struct {
@@ -70,7 +70,7 @@ void board_start(void) {
 
 void hal_console_write(const char *bytes, unsigned count) { (void)fwrite(bytes, 1, count, stderr); }
 
-/* Whoever reads gets what is on its way. */
+/* Lets the reader take the pending bytes. */
 static void let_read(void) {
     const struct timespec nap = {.tv_nsec = 10000000L};
     int left = 1;
@@ -96,11 +96,11 @@ _Noreturn void board_exit(int code) {
     exit(code);
 }
 
-/* --- what is drawn --------------------------------------------------------------------------------------------- */
+/* --- random events ---------------------------------------------------------------------------------------------- */
 
 static bool happens(unsigned one_in) { return draw_one_of(&seed, one_in) == 0; }
 
-/* A control step of hardware that fails now and then. */
+/* A control step of hardware with occasional failures. */
 static void disturb(void) {
     hal_virtual_rig *plant = hal_virtual_rig_instance();
     hal_virtual_faults *faults = &plant->faults;
@@ -185,7 +185,7 @@ bool board_converse(void) {
         (link_name != NULL && symlink(name, link_name) != 0)) {
         return false;
     }
-    if (!alone) { /* until somebody is there */
+    if (!alone) { /* until a reader opens it */
         struct pollfd wait = {.fd = line, .events = POLLIN};
         (void)poll(&wait, 1, PATIENCE_MS);
     }
@@ -201,7 +201,7 @@ static unsigned give(const char *given, char *bytes) {
     return count;
 }
 
-/* The orders of each minute, each whole, as if typed. */
+/* The orders of each minute, as whole typed lines. */
 static unsigned order(char *bytes, unsigned room) {
     const double at_s = (double)(now_us - minute * 60000000U) / 1e6;
     if (at_s >= 60.0) {
@@ -223,7 +223,7 @@ unsigned hal_console_read(char *bytes, unsigned room) {
     if (line_drawn[0] != '\0') {
         return give(line_drawn, bytes);
     }
-    static char typed[256]; /* a line of the reader's is not cut by an order */
+    static char typed[256]; /* an order must not split the reader's line */
     static unsigned length;
     const ssize_t more = alone ? 0 : read(line, typed + length, sizeof typed - length);
     length += more > 0 ? (unsigned)more : 0U;

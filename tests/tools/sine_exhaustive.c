@@ -2,13 +2,11 @@
  *
  *     sine_exhaustive [STRIDE]
  *
- * STRIDE > 1 takes one phase out of every STRIDE, at a scattered place in each. Prints the worst
- * and the rms error of both functions; the exit status is 1 if either errs by more than 1e-7.
+ * STRIDE > 1 takes one phase out of every STRIDE, at a scattered place in each. Prints the worst and the RMS error of both
+ * functions. The exit status is 1 if either error exceeds 1e-7.
  *
- * The reference of a phase is sinl and cosl of a multiple of 2^11 phases, turned on by the rest
- * with the addition theorems in double: 6 operations a phase instead of two library calls. About
- * one phase in 2^16 is also compared with sinl and cosl themselves.
- */
+ * The reference is sinl and cosl of a multiple of 2^11 phases, rotated by the remainder with the addition theorems in double: 6
+ * operations instead of two library calls. About one phase in 2^16 is also compared with sinl and cosl themselves. */
 #include "core/angle.h"
 
 #include <math.h>
@@ -65,7 +63,7 @@ static void merge(tally *into, const tally *from) {
     }
 }
 
-/* How far the reference (s, c) of a phase is from the library's own value. */
+/* The distance of a phase's reference (s, c) from the library's own value. */
 static double reference_error(uint32_t phase, double s, double c) {
     const long double angle = (long double)phase * RAD_PER_PHASE;
     return (double)fmaxl(fabsl((long double)s - sinl(angle)), fabsl((long double)c - cosl(angle)));
@@ -75,7 +73,7 @@ static void show_progress(uint64_t done, uint64_t all) {
     fprintf(stderr, "\r%3u %%", (unsigned)(100 * done / all));
 }
 
-/* Strata first to last - 1, each of `stride` phases, of which one is taken. */
+/* Strata first to last - 1 of `stride` phases each, of which one is taken. */
 static result measure(uint64_t first, uint64_t last, uint32_t stride, int show) {
     result r = {.phases = last - first};
     uint32_t block = UINT32_MAX; /* no block: there are only 2^21 */
@@ -111,7 +109,7 @@ static result measure(uint64_t first, uint64_t last, uint32_t stride, int show) 
     return r;
 }
 
-/* The second half of the strata in a child process, the first half here. Zero if that failed. */
+/* The second half of the strata in a child process, the first half here. Zero if the child failed. */
 static int measure_on_two_cores(uint64_t strata, uint32_t stride, result *both) {
     int channel[2];
     if (pipe(channel) != 0) {

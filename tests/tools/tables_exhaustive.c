@@ -1,10 +1,10 @@
-/* tables_exhaustive.c: the tables of steps (--tables) in float against the exact functions in double, at all 2^32 phases.
+/* tables_exhaustive.c: the step's tables (--tables) in float against the exact functions in double, at all 2^32 phases.
  *
  *     tables_exhaustive [STRIDE [SCENE...]]
  *
- * STRIDE > 1 takes one phase out of every STRIDE, at a scattered place in each. Prints for each table of the built-in
- * SCENEs, linear and cubic, the worst and the rms error beside what they may be: the interpolation's error that `whirl
- * describe` states, and rounding. The exit status is 1 where one is beyond that. */
+ * STRIDE > 1 takes one phase out of every STRIDE, at a scattered place in each. Prints the worst and the RMS error of each
+ * linear and cubic table of the built-in SCENEs, with the bound: the interpolation error that `whirl describe` states, plus
+ * round-off. The exit status is 1 if an error exceeds its bound. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static const struct {
 } forms[FORMS] = {
     {TABLES_LINEAR, 256}, {TABLES_LINEAR, 1024}, {TABLES_CUBIC, 64}, {TABLES_CUBIC, 256}};
 
-/* The built-in scene's images, one for each form; false where there are none. */
+/* The built-in scene's images, one per form; false if it has no tables. */
 static bool make(const char *name, image *im[FORMS]) {
     diags *errors = diags_new();
     for (size_t i = 0; i < builtin_model_count; i++) {

@@ -1,10 +1,10 @@
-/* tel_check.c: what a rig's line has brought, as `whirl monitor --raw` keeps it, read by the tests' own decoder
- * (tests/core/wire.h): a line of counts, and with --csv its samples.
+/* tel_check.c: reads a rig's line as stored by `whirl monitor --raw` with the tests' own decoder (tests/core/wire.h). Prints a
+ * line of counts, and with --csv the samples.
  *
- *   frames F samples S pulses P missing M dropped D twice T damaged B gaps G
+ * frames F samples S pulses P missing M dropped D twice T damaged B gaps G
  *
- * missing: by the sequences; dropped: what the rig had no room for, since the first frame; twice: a sequence that was there
- * before; gaps: samples that are missing by their times, at 2,000 ticks each. */
+ * missing: by the sequence numbers. dropped: no room on the rig since the first frame. twice: a repeated sequence number. gaps:
+ * samples missing by their times, at 2,000 ticks each. */
 #include "tests/core/wire.h"
 
 #include <inttypes.h>
@@ -43,7 +43,7 @@ static void take_samples(counts *c, const wire_frame *frame, bool csv, double sc
 
 static void take(counts *c, const wire_frame *frame, bool csv, double scale) {
     if (frame->channel >= CHANNELS) {
-        c->twice++; /* there is none such */
+        c->twice++; /* no such channel */
         return;
     }
     const uint16_t gap = (uint16_t)(frame->sequence - c->next[frame->channel]);
@@ -79,7 +79,7 @@ int main(int count, char **words) {
     const double scale = csv ? strtod(words[3], NULL) : 1.0;
     for (int byte = getc(file); byte != EOF; byte = getc(file)) {
         wire_frame frame;
-        heard.text_count = 0; /* text is not asked for here */
+        heard.text_count = 0; /* text is ignored */
         if (wire_take(&heard, (uint8_t)byte, &frame)) {
             take(&c, &frame, csv, scale);
         }
