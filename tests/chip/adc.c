@@ -1,4 +1,4 @@
-/* adc.c: ADC1 of the played chip, regular groups by trigger, and stream 0 of DMA2 that takes its values: RM0090, chapters 13
+/* adc.c: ADC1 of the chip model, regular groups by trigger, and stream 0 of DMA2, which takes the values. RM0090, chapters 13
  * and 10; DS8626, table 67. */
 #include <string.h>
 
@@ -30,13 +30,13 @@ enum {
 static struct {
     uint32_t r[20];
     uint32_t ccr;
-    uint64_t stable_at; /* behind ADON */
+    uint64_t stable_at; /* after ADON */
     bool busy, sampled;
     unsigned at; /* of the group */
     uint64_t hold_at, end_at;
     uint16_t value;
     bool late;
-    bool unread, dma_open; /* DR has what nobody took; requests are served (DDS) */
+    bool unread, dma_open; /* DR holds an unread value; requests are served (DDS) */
 } adc;
 
 static uint32_t *reg(uint32_t offset) { return &adc.r[offset / 4U]; }
@@ -124,13 +124,13 @@ static uint16_t converted(void) {
 
 static void adc_happens(void) {
     if (!adc.sampled) {
-        adc.value = converted(); /* held from here on */
+        adc.value = converted(); /* held from now on */
         adc.sampled = true;
         return;
     }
     const bool dma = (*reg(CR2) & DMA) != 0;
     if (adc.unread && dma) {
-        *reg(SR) |= OVR; /* DR keeps what nobody took; requests end */
+        *reg(SR) |= OVR; /* DR keeps the unread value; requests end */
         adc.busy = false;
         adc.dma_open = false;
         return;
@@ -272,7 +272,7 @@ static struct {
 
 void dma_request_adc(void) {
     if ((dma.cr & EN) == 0 || FIELD(dma.cr, 25, 3) != 0) {
-        return; /* nobody takes it: an overrun comes of the next */
+        return; /* not taken: the next value overruns */
     }
     volatile uint16_t *memory = (volatile uint16_t *)memory_at(dma.m0ar);
     if (dma.par != AT_ADC1 + DR || memory == NULL || FIELD(dma.cr, 6, 2) != 0 ||
@@ -284,7 +284,7 @@ void dma_request_adc(void) {
         return;
     }
     memory[dma.whole - dma.left] =
-        adc_taken(dma.left == 1); /* of a circular stream, too: the last of each round */
+        adc_taken(dma.left == 1); /* also in a circular stream: the last of each round */
     dma.left--;
     if (dma.left == dma.whole / 2U) {
         dma.flags |= HTIF;
@@ -341,7 +341,7 @@ static void dma_store(uint32_t offset, uint32_t value) {
             dma.whole = dma.left;
         }
         if ((value & EN) == 0 && (dma.cr & EN) != 0) {
-            dma.flags |= TCIF; /* 10.3.17: off before the end */
+            dma.flags |= TCIF; /* 10.3.17: disabled before the end */
         }
         dma.cr = value;
         break;

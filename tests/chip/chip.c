@@ -1,4 +1,4 @@
-/* chip.c: time, the bus, interrupts, resets: what the parts of the played chip hang on. */
+/* chip.c: time, bus, interrupts and resets of the chip model. */
 #include "tests/chip/chip.h"
 
 #include <setjmp.h>
@@ -22,14 +22,13 @@ static const part *const parts[] = {
 
 #define INTERRUPTS 82U /* RM0090, table 62 */
 #define NMI 1000U
-/* A handler that runs so often without the program's going on never ends. */
+/* A handler that runs this often without progress of the program never ends. */
 #define HANDLED_MOST 20000U
 static struct {
     uint64_t now;
     uint64_t random;
     uint64_t begun, may_take, power_at;
-    uint64_t
-        quiet_until; /* nothing happens by itself before, and no interrupt comes: 0 where that is not known */
+    uint64_t quiet_until; /* no event and no interrupt before this time; 0: unknown */
     jmp_buf back;
     bool trying, masked, handling, in_nmi, halted, nmi_taken, passing;
     bool power_ends;
@@ -41,7 +40,7 @@ static struct {
     unsigned long taken[INTERRUPTS];
 } chip;
 
-/* --- what is forbidden ------------------------------------------------------------------------------ */
+/* --- violations ------------------------------------------------------------------------------------- */
 void forbidden(const char *words, ...) {
     if (chip.violations++ == 0) {
         va_list list;
@@ -136,7 +135,7 @@ static bool asks(unsigned interrupt) {
     return false;
 }
 
-/* Vectors by name: those that no driver of this program takes are NULL, and their interrupt is a fault. */
+/* Vectors by name. A NULL vector has no driver in this program, and its interrupt is a fault. */
 #define WEAK_ROW(number, name) __attribute__((weak)) void on_##name(void);
 BOARD_VECTOR_ROWS(WEAK_ROW)
 __attribute__((weak)) void on_nmi(void);
@@ -186,7 +185,7 @@ static void take_interrupts(void) {
     }
 }
 
-/* Who is the next to do something, and when. */
+/* The next part with an event, and its time. */
 static const part *next_part(uint64_t *when) {
     const part *first = NULL;
     *when = CHIP_NEVER;
@@ -230,8 +229,8 @@ void chip_pass(uint64_t units) {
 }
 void chip_pass_us(uint64_t us) { chip_pass(us * CHIP_UNITS_PER_US); }
 
-/* An access, with what the core computes around it. While the flash is busy the core waits for its own instructions, and takes
- * no interrupt. */
+/* An access, with the core's work around it. While the flash is busy the core waits for its own instructions and takes no
+ * interrupt. */
 static void time_passes(void) {
     if (flash_busy()) {
         run_until(flash_busy_until());
@@ -263,7 +262,7 @@ static const part *part_at(uint32_t address) {
     return NULL;
 }
 
-/* The part, when it may be touched. */
+/* The part, if it may be accessed. */
 static const part *reached(uint32_t address, const char *how) {
     const part *which = part_at(address);
     if (which == NULL) {
@@ -316,7 +315,7 @@ void reg_go_on(uint32_t before) {
     take_interrupts();
 }
 
-/* Memory as DMA is told of it: 32 bits of address, on every machine. */
+/* Memory by its DMA address: 32 bits, on every machine. */
 #define MEMORIES 8U
 #define MEMORY_BYTES 0x4000U
 static volatile void *memories[MEMORIES];
@@ -346,7 +345,7 @@ static uint32_t nvic_load(uint32_t offset) {
 static void nvic_store(uint32_t offset, uint32_t value) {
     const uint32_t i = (offset % 0x80U) / 4U;
     if (offset >= 0x300U) {
-        return; /* priorities: all that the drivers have are alike */
+        return; /* priorities: the drivers' are all equal */
     }
     if (i >= 3 || (i == 2 && (value >> (INTERRUPTS - 64U)) != 0)) {
         forbidden("an interrupt that there is none of");
@@ -397,7 +396,7 @@ const part scb_part = {
 #define DEMCR 0x0CU
 #define DWT_CTRL 0x00U
 #define DWT_CYCCNT 0x04U
-#define DWT_LAR 0xFB0U /* there is no lock in a Cortex-M4 */
+#define DWT_LAR 0xFB0U /* a Cortex-M4 has no lock */
 static struct {
     uint32_t demcr, ctrl, count; /* the count at: */
     uint64_t since;

@@ -1,91 +1,88 @@
-/* chip.h: an STM32F405 played on the PC: what its reference manual (ST RM0090) and data sheet (DS8626) say of the parts that
- * the drivers of boards/stm32f4 use, written from these alone, not from the drivers. Time passes with each access to a register
- * and when a test lets it pass; interrupts come between accesses. What the manual forbids is a violation: it is counted, and
- * the first is kept in words.
+/* chip.h: a model of an STM32F405 on the PC. It implements the parts that the drivers of boards/stm32f4 use, from the reference
+ * manual (ST RM0090) and data sheet (DS8626) alone, not from the drivers. Time passes with each access to a register and when a
+ * test lets it pass. Interrupts come between accesses. An action that the manual forbids is a violation: it is counted, and the
+ * first is recorded in words.
  *
- * The drivers' variables are put back to what the image has at each start of the chip (drivers_as_flashed()), so that a reset
- * is one for them, too. */
+ * Each start of the chip restores the drivers' variables from the image (drivers_as_flashed()), so a reset is one for them
+ * too. */
 #ifndef TESTS_CHIP_CHIP_H
 #define TESTS_CHIP_CHIP_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Time: units of which every clock of the chip has a whole number. */
+/* Time: units that divide every clock of the chip. */
 #define CHIP_UNITS_PER_S UINT64_C(8400000000)
 #define CHIP_UNITS_PER_US UINT64_C(8400)
 #define CHIP_NEVER UINT64_MAX
 
 typedef enum chip_cause {
-    CHIP_BY_POWER, /* the supply comes: nothing of the memories that need it is left */
-    CHIP_BY_DIP,   /* it sank below the brown-out level, not below power-down */
+    CHIP_BY_POWER, /* power-on: volatile memories are lost */
+    CHIP_BY_DIP,   /* below the brown-out level, not below power-down */
     CHIP_BY_PIN,
     CHIP_BY_WATCHDOG,
     CHIP_BY_SOFTWARE /* the core's own SYSRESETREQ */
 } chip_cause;
 
-/* How what was run ended. */
+/* How the program's run ended. */
 typedef enum chip_end {
     CHIP_RETURNED,
-    CHIP_RESET,     /* a reset came: the chip has been reset, chip_start() begins anew */
+    CHIP_RESET,     /* a reset: the chip has been reset, chip_start() restarts it */
     CHIP_POWER_OFF, /* chip_power_off_after() */
-    CHIP_HANGS      /* more time than chip_may_take() */
+    CHIP_HANGS      /* longer than chip_may_take() */
 } chip_end;
 
 /* The core's cycle counter. */
 typedef enum chip_counter {
     CHIP_COUNTS,
     CHIP_NO_COUNTER,   /* DWT_CTRL.NOCYCCNT */
-    CHIP_COUNTER_STILL /* as emulators have it */
+    CHIP_COUNTER_STILL /* as in emulators */
 } chip_counter;
 
-/* What the world around the chip is. Anything may be changed at any time but by chip_crystal_stops(). */
+/* The world around the chip. All may change at any time, except by chip_crystal_stops(). */
 typedef struct chip_world {
     uint32_t crystal_Hz;
     bool crystal;           /* answers */
-    uint64_t crystal_units; /* that it takes to start */
+    uint64_t crystal_units; /* start-up time */
     bool pll;               /* locks */
     uint64_t watchdog_Hz;   /* LSI: 17 to 47 kHz */
     bool
-        halt_disables; /* a timer's outputs, where its counter stops with a halt: unproven on this chip */
-    double (*volts)(unsigned input, double s); /* at an ADC1 input, at a time; NULL: 0 */
+        halt_disables; /* a timer's outputs when its counter stops with a halt: unverified on this chip */
+    double (*volts)(unsigned input, double s); /* voltage at an ADC1 input, at a time; NULL: 0 */
     double vdda_V;
     chip_counter counter;
-    unsigned
-        access_cycles; /* of the core, that each access to a register takes, with what is computed around it */
+    unsigned access_cycles; /* core cycles of each register access, with the code around it */
 } chip_world;
 extern chip_world world;
 
-/* A new chip of usual properties: flash erased but for the option bytes as they are delivered, no power yet. */
+/* A new chip of typical properties: erased flash, factory option bytes, no power yet. */
 void chip_new(uint64_t seed);
-/* The power comes, or one of the other resets. Pins are as the world drives them. */
+/* Power-on, or another reset. The pins are as the world drives them. */
 void chip_reset(chip_cause cause);
-unsigned chip_resets(void); /* so many since the chip was new */
+unsigned chip_resets(void); /* count since the chip was new */
 
-/* The drivers' variables as in the image, for a start; board_clock_start() ran before. */
+/* The drivers' variables as in the image; board_clock_start() ran before. */
 void drivers_as_flashed(void);
 
-/* Runs; a reset, the end of power and what takes too long end it. May not be nested. */
+/* Runs the program until a reset, the end of power or the time limit. Not nestable. */
 chip_end chip_try(void (*what)(void));
 chip_end chip_try_with(void (*what)(void *), void *with);
-void chip_may_take(uint64_t units); /* what is run by chip_try(), from its start: 5 s unless told */
-/* The power goes instead of the store of that number from now, 0 the next. */
+void chip_may_take(uint64_t units); /* limit of chip_try() from its start (default 5 s) */
+/* Power fails instead of the store of this number from now, 0 the next. */
 void chip_power_off_after(unsigned stores);
 void chip_power_off_at(uint64_t when); /* or at a time */
 void chip_power_stays(void);
-/* Stores since the chip was new. */
 unsigned chip_stores(void);
-/* Told behind each store; NULL: nobody. */
+/* Called after each store; NULL: no call. */
 extern void (*chip_stored)(void);
-/* The program holds interrupts off. */
+/* The program has disabled interrupts. */
 bool chip_is_masked(void);
 
-/* Time. */
 uint64_t chip_now(void);
 double chip_s(void);
-void chip_pass(uint64_t units); /* interrupts are taken; the program does nothing */
+void chip_pass(uint64_t units); /* takes interrupts while the program idles */
 void chip_pass_us(uint64_t us);
-/* The core does nothing and takes no interrupt: a debugger holds it. */
+/* The core is halted by a debugger and takes no interrupt. */
 void chip_halt(bool halted);
 
 /* Violations since the chip was new; the first in words. */
@@ -93,14 +90,14 @@ unsigned chip_violations(void);
 const char *chip_violation(void);
 void chip_forgive(void);
 
-/* Pins: what drives it from outside. CHIP_OPEN lets it to a resistor. */
+/* A pin's external drive. CHIP_OPEN leaves it to a resistor. */
 typedef enum chip_level { CHIP_LOW, CHIP_HIGH, CHIP_OPEN } chip_level;
 typedef enum chip_resistor { CHIP_NO_RESISTOR, CHIP_TO_GROUND, CHIP_TO_SUPPLY } chip_resistor;
 void chip_pin_drive(char port, unsigned pin, chip_level level);
 void chip_pin_drive_at(uint64_t when, char port, unsigned pin,
-                       chip_level level); /* times do not go back */
+                       chip_level level); /* times do not decrease */
 void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor);
-chip_level chip_pin(char port, unsigned pin); /* CHIP_OPEN: nothing says */
+chip_level chip_pin(char port, unsigned pin); /* CHIP_OPEN: undriven */
 
 /* Clocks, Hz. */
 typedef struct chip_clocks {
@@ -110,16 +107,16 @@ chip_clocks chip_clocks_now(void);
 void chip_crystal_stops(void);
 bool chip_nmi_taken(void);
 
-/* TIM2's counter, for what would take an hour to come. */
+/* Sets TIM2's counter, to reach values that would take an hour. */
 void chip_tim2_count_is(uint32_t count);
 uint32_t chip_tim2_count(void);
 uint64_t chip_tim1_tick_units(void);
 uint32_t chip_tim1_period_ticks(void);
 
-/* The bus was busy: DMA does not take the next value in time, and the ADC overruns. */
+/* A busy bus: DMA takes the next value too late, and the ADC overruns. */
 void chip_adc_overruns(void);
 
-/* Serial line of USART6: bytes that come (at their stop bit's end), those that went out with the time of their end. */
+/* Serial line of USART6: received bytes (at the end of the stop bit), and sent ones with the time of their end. */
 void chip_serial_comes(uint64_t when, uint8_t byte);
 /* With these flags of SR: 2 a framing error, 4 noise. */
 void chip_serial_comes_as(uint64_t when, uint8_t byte, uint8_t flags);
@@ -134,7 +131,7 @@ unsigned chip_flash_erases(unsigned sector);
 void chip_protect_sector(unsigned sector); /* by its option byte */
 unsigned chip_option_writes(void);
 bool chip_options_are_locked(void);
-uint32_t chip_option_bytes(void); /* FLASH_OPTCR's bits that they are, as power finds them */
+uint32_t chip_option_bytes(void); /* bits of FLASH_OPTCR, as loaded at power-on */
 
 /* Interrupts taken since the chip was new, by number. */
 unsigned long chip_interrupts(unsigned number);

@@ -1,5 +1,5 @@
-/* flash.c: the flash of the played chip: wait states, erase, program, option bytes, the cache of data: RM0090, chapter 3;
- * DS8626, tables 40 and 41. */
+/* flash.c: the flash of the chip model: wait states, erase, program, option bytes, data cache. RM0090, chapter 3; DS8626,
+ * tables 40 and 41. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -33,11 +33,11 @@ typedef enum flash_work { NOTHING, ERASES, PROGRAMS, OPTIONS_CHANGE } flash_work
 
 static struct {
     uint32_t acr, sr, cr, optcr;
-    unsigned keys, option_keys; /* 0, 1: one was right; 2: open; 3: shut until a reset */
+    unsigned keys, option_keys; /* 0, 1: keys so far; 2: open; 3: locked until a reset */
     uint64_t busy_until;
-    bool looked; /* BSY was seen to be 0 since the operation before */
+    bool looked; /* BSY was read as 0 since the previous operation */
     flash_work does;
-    uint32_t at, value; /* of what it does */
+    uint32_t at, value; /* of the current operation */
     struct {
         bool used;
         uint32_t address;
@@ -56,7 +56,7 @@ static uint32_t sector_bytes(uint32_t sector) {
     return sector < 4 ? 0x4000U : sector == 4 ? 0x10000U : 0x20000U;
 }
 
-/* Table 10, 2.7 to 3.6 V: 30 MHz for each wait state. */
+/* Table 10, 2.7 to 3.6 V: 30 MHz per wait state. */
 void flash_clock_is(uint32_t hertz) {
     if (hertz > 30000000U * ((f.acr & 7U) + 1U)) {
         forbidden("core at %u Hz, flash with %u wait states", hertz, f.acr & 7U);
@@ -98,7 +98,7 @@ static void begins(flash_work what, uint32_t at, uint32_t value, uint64_t us) {
     f.sr |= BSY;
 }
 
-/* The power went, or a reset came, in the middle: bits that were on their way are anything. */
+/* Power loss or a reset in the middle of an operation: the bits being changed are random. */
 void flash_power_goes(void) {
     if (f.does == ERASES) {
         for (uint32_t i = 0; i < sector_bytes(f.at); i++) {
@@ -109,7 +109,8 @@ void flash_power_goes(void) {
             memory[f.at + i] &= (uint8_t)(f.value >> (8U * i) | drawn());
         }
     } else if (f.does == OPTIONS_CHANGE) {
-        option_bytes = (drawn() & 1U) != 0 ? f.value : option_bytes; /* worse is not told of */
+        option_bytes =
+            (drawn() & 1U) != 0 ? f.value : option_bytes; /* worse cases are unspecified */
     }
     f.does = NOTHING;
 }
@@ -251,7 +252,7 @@ static uint32_t word_of(const uint8_t *bytes) {
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-/* Eight lines of 16 bytes, the oldest goes. A program operation changes what they have, an erase does not (3.5.2). */
+/* Eight lines of 16 bytes, oldest replaced first. A program operation updates them, an erase does not (3.5.2). */
 static uint32_t memory_load(uint32_t at) {
     if ((f.acr & DCEN) == 0) {
         return word_of(memory + at);

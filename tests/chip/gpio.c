@@ -1,4 +1,5 @@
-/* gpio.c: ports A to I of the played chip (RM0090, chapter 8) and what is wired to their pins: functions by DS8626, table 9. */
+/* gpio.c: ports A to I of the chip model (RM0090, chapter 8) and the wiring of their pins; alternate functions by DS8626, table
+ * 9. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -26,7 +27,7 @@ static struct {
     chip_resistor resistor[16];
 } ports[PORTS];
 
-/* Functions that a driver may mean: pin, number, and what it is there. */
+/* The alternate functions that a driver may select: pin, number, meaning. */
 typedef enum wire { TIM1_CH1N, TIM1_BKIN, TIM2_IN, USART6_TX, USART6_RX, DEBUG } wire;
 static const struct {
     char port;
@@ -44,7 +45,7 @@ static const struct {
 };
 #define FUNCTIONS (sizeof functions / sizeof *functions)
 
-/* Edges to come, in order of time. */
+/* Future edges in order of time. */
 #define EDGES 4096U
 static struct {
     uint64_t when;
@@ -74,7 +75,7 @@ static const uint8_t *function_row(unsigned port, unsigned pin, wire is) {
     return NULL;
 }
 
-/* What the chip itself drives. */
+/* The chip's own drive. */
 static chip_level chip_drives(unsigned port, unsigned pin) {
     chip_level level = CHIP_OPEN;
     if (mode_of(port, pin) == OUTPUT) {
@@ -100,7 +101,7 @@ static chip_level level_of(unsigned port, unsigned pin) {
         return inside;
     }
     if (ports[port].resistor[pin] !=
-        CHIP_NO_RESISTOR) { /* of 10 kOhm: stronger than the chip's own, of 40 */
+        CHIP_NO_RESISTOR) { /* 10 kOhm: stronger than the chip's own 40 */
         return ports[port].resistor[pin] == CHIP_TO_SUPPLY ? CHIP_HIGH : CHIP_LOW;
     }
     const uint32_t pull =
@@ -110,13 +111,13 @@ static chip_level level_of(unsigned port, unsigned pin) {
 
 chip_level chip_pin(char port, unsigned pin) { return level_of((unsigned)(port - 'A'), pin); }
 
-/* An open input may be read as anything. */
+/* An open input may read as either level. */
 bool pin_input(unsigned port, unsigned pin) {
     const chip_level level = level_of(port, pin);
     return level == CHIP_OPEN ? (drawn() & 1U) != 0 : level == CHIP_HIGH;
 }
 
-/* Inputs of other parts, which hear of a change. */
+/* Inputs of other parts, which are notified of a change. */
 static void tell(unsigned port, unsigned pin) {
     const uint8_t *channel = function_row(port, pin, TIM2_IN);
     if (channel != NULL) {
@@ -126,7 +127,7 @@ static void tell(unsigned port, unsigned pin) {
 }
 void pins_changed(void) { tim1_break_input(); }
 
-/* Is the break's input selected, and what is there? An input that no pin is given to is low. */
+/* Is the break's input selected, and its level? An unconnected input is low. */
 bool break_pin_is_high(void);
 bool break_pin_is_high(void) {
     for (unsigned i = 0; i < FUNCTIONS; i++) {
@@ -202,7 +203,7 @@ static uint32_t gpio_load(uint32_t offset) {
     }
 }
 
-/* PA13 and PA14 are the debugger's: who takes them away locks it out. */
+/* PA13 and PA14 are the debugger's: a driver that reassigns them locks it out. */
 static void debug_stays(unsigned port) {
     if (port == 0 && (!pin_is_function(0, 13, 0) || !pin_is_function(0, 14, 0))) {
         forbidden("the debugger's pins are taken away");
@@ -231,7 +232,7 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     }
     debug_stays(port);
     for (unsigned pin = 0; pin < 16; pin++) {
-        (void)level_of(port, pin); /* a short circuit is one now */
+        (void)level_of(port, pin); /* a change may make a short circuit */
         const uint8_t *channel = function_row(port, pin, TIM2_IN);
         if (channel != NULL) {
             tim2_input(*channel, pin_input(port, pin));

@@ -1,4 +1,4 @@
-/* inner.h: what the parts of the played chip have in common. */
+/* inner.h: interfaces between the parts of the chip model. */
 #ifndef TESTS_CHIP_INNER_H
 #define TESTS_CHIP_INNER_H
 
@@ -27,24 +27,22 @@
 #define AT_DWT 0xE0001000U
 #define AT_CORE_DEBUG 0xE000EDF0U
 
-/* Bit n; a field's value. */
 #define BIT(n) (UINT32_C(1) << (n))
 #define FIELD(value, low, bits) (((value) >> (low)) & ((UINT32_C(1) << (bits)) - 1U))
 
-/* A part: registers at an address, a clock that it needs, and what it does by itself. All but name, base and bytes may be
- * NULL. */
+/* A part: registers at an address, the clock that it needs, and its own events. All but name, base and bytes may be NULL. */
 typedef struct part {
     const char *name;
     uint32_t base;
     uint32_t bytes;
-    uint32_t clock_register; /* of RCC: offset, 0: none */
+    uint32_t clock_register; /* offset in RCC, 0: none */
     uint32_t clock_bit;
     uint32_t (*load)(uint32_t offset);
     void (*store)(uint32_t offset, uint32_t value);
     void (*reset)(chip_cause cause);
-    uint64_t (*next)(void);              /* when something happens by itself */
-    void (*happens)(void);               /* it is that time */
-    bool (*pending)(unsigned interrupt); /* does it ask for this one? */
+    uint64_t (*next)(void);              /* time of its next event */
+    void (*happens)(void);               /* handles that event */
+    bool (*pending)(unsigned interrupt); /* does it request this interrupt? */
 } part;
 
 extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, tim1_part,
@@ -58,8 +56,8 @@ bool core_halted(void);
 uint64_t drawn(void); /* a random number */
 void core_resets(
     chip_cause
-        cause); /* does not return to the program; in chip_pass() it does: the chip is reset there */
-volatile void *memory_at(uint32_t address); /* that reg_address() told of */
+        cause); /* does not return to the program. In chip_pass() it returns: the chip is reset there */
+volatile void *memory_at(uint32_t address); /* set by reg_address() */
 
 /* rcc.c: Hz, 0: the clock does not run. */
 uint32_t core_Hz(void);
@@ -71,7 +69,7 @@ bool pll_is_on(void);
 bool lsi_is_on(void);
 void lsi_forced(void);             /* by the watchdog */
 uint64_t units_of(uint32_t hertz); /* a period */
-/* Told by rcc.c around a change of clocks. */
+/* Called by rcc.c before and after a change of clocks. */
 void timers_hold_counts(void);
 void timers_go_on(void);
 void tim1_hold_count(void);
@@ -85,22 +83,22 @@ uint64_t flash_busy_until(void);
 void flash_power_goes(void);
 void flash_new(void);
 
-/* gpio.c: the level at a pin as an input sees it, and what is selected there. */
+/* gpio.c: the level at a pin as an input sees it, and the selected function. */
 bool pin_is_function(unsigned port, unsigned pin, unsigned function);
 bool pin_is_analogue(unsigned port, unsigned pin);
 bool pin_input(unsigned port, unsigned pin);
-void pins_changed(void); /* an output did */
+void pins_changed(void); /* called when an output changed */
 void pins_new(void);
 
-/* tim1.c: what it gives to PB13 as TIM1_CH1N: CHIP_OPEN: nothing. */
+/* tim1.c: its drive of PB13 as TIM1_CH1N; CHIP_OPEN: none. */
 chip_level tim1_ch1n(void);
-void tim1_break_input(void);  /* the pin may have changed */
+void tim1_break_input(void);  /* called when the pin may have changed */
 void tim1_clock_failed(void); /* CSS */
 
 /* timers.c */
 void tim2_input(unsigned channel, bool high); /* 1 ... 4 */
 
-/* adc.c: TIM3's update, as its trigger output; which event of EXTSEL that is. */
+/* adc.c: TIM3's update as its trigger output, and the EXTSEL number of that event. */
 void adc_trigger(unsigned event);
 bool adc_dma_takes(uint16_t *value);
 void dma_request_adc(void);
@@ -108,7 +106,7 @@ void dma_request_adc(void);
 /* dbgmcu */
 bool debug_stops(uint32_t offset, unsigned bit);
 
-/* The debugger holds the core; it is about to let go. */
+/* The debugger holds the core; it is about to release it. */
 void iwdg_holds(void);
 void iwdg_goes_on(void);
 

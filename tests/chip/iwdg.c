@@ -1,4 +1,4 @@
-/* iwdg.c: the independent watchdog of the played chip: RM0090, chapter 21; DS8626, table 35 (its oscillator: 17 to 47 kHz). */
+/* iwdg.c: the independent watchdog of the chip model. RM0090, chapter 21; DS8626, table 35 (oscillator: 17 to 47 kHz). */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -9,7 +9,7 @@ enum { KR = 0x00, PR = 0x04, RLR = 0x08, SR = 0x0C };
 
 static struct {
     uint32_t pr, rlr;           /* as written */
-    uint32_t pr_used, rlr_used; /* behind the update */
+    uint32_t pr_used, rlr_used; /* after the update */
     uint64_t pr_at, rlr_at;
     uint64_t bites_at;
     uint64_t held_at; /* by a debugger */
@@ -21,7 +21,7 @@ static uint64_t count_units(void) {
     return period_units() * (UINT64_C(4) << (w.pr_used < 6 ? w.pr_used : 6U));
 }
 
-/* The prescaler runs by itself: the first count may be nearly none. */
+/* The prescaler runs freely: the first count may take almost no time. */
 static void reload(void) {
     w.bites_at = now_units() + w.rlr_used * count_units() + drawn() % (count_units() + 1U);
 }

@@ -1,4 +1,4 @@
-/* rcc.c: clocks and resets of the played chip, its supply's scale: RM0090, chapters 5 and 7; DS8626, table 14. */
+/* rcc.c: clocks and resets of the chip model, and its supply's scale. RM0090, chapters 5 and 7; DS8626, table 14. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -31,12 +31,12 @@ enum {
 static struct {
     uint32_t r[REGISTERS];
     uint64_t hsi_at, hse_at, pll_at,
-        lsi_at;           /* when each gets ready; CHIP_NEVER: not, or is already */
-    uint64_t hse_gone_at; /* HSERDY falls six of its cycles behind HSEON (7.3.1) */
+        lsi_at;           /* when each becomes ready; CHIP_NEVER: never, or is already */
+    uint64_t hse_gone_at; /* HSERDY falls six HSE cycles after HSEON (7.3.1) */
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;
     uint32_t
-        enabled_late; /* a register whose bit was just set, and which: its part may not be the next that is touched */
+        enabled_late; /* a register with a newly set bit, and the bit: the next access may not touch its part */
 } rcc;
 
 static uint32_t *reg(uint32_t offset) { return &rcc.r[offset / 4U]; }
@@ -93,7 +93,7 @@ chip_clocks chip_clocks_now(void) {
 }
 bool pll_is_on(void) { return (*reg(CR) & PLLON) != 0; }
 
-/* What holds at every instant. */
+/* Invariants of every instant. */
 static void clocks_are_allowed(void) {
     const chip_clocks now = chip_clocks_now();
     if (now.core_Hz > (rcc.vos_1 ? 168000000U : 144000000U)) {
@@ -118,7 +118,7 @@ static void clocks_change(void) {
     clocks_are_allowed();
 }
 
-/* SW asks, SWS tells: the switch is made when the source is ready. */
+/* SW requests, SWS reports: the switch happens when the source is ready. */
 static void switch_source(void) {
     static const uint32_t ready[3] = {HSIRDY, HSERDY, PLLRDY};
     const uint32_t asked = FIELD(*reg(CFGR), 0, 2);
@@ -303,7 +303,7 @@ bool lsi_is_on(void) { return rcc.lsi_forced || (*reg(CSR) & 2U) != 0; }
 void lsi_forced(void) { rcc.lsi_forced = true; }
 bool nmi_pending(void) { return (*reg(CIR) & CSSF) != 0; }
 
-/* RM0090, 7.2.7. Without the guard the chip stands still, which only the watchdog ends. */
+/* RM0090, 7.2.7. Without the clock security system the chip stops, and only the watchdog ends that. */
 void chip_crystal_stops(void) {
     world.crystal = false;
     if ((*reg(CR) & HSERDY) == 0) {
@@ -330,7 +330,7 @@ void chip_crystal_stops(void) {
 
 bool part_is_clocked(const part *which) {
     if (which == &gpio_part || which->clock_register == 0) {
-        return true; /* ports: gpio.c asks for each */
+        return true; /* ports: gpio.c reads each */
     }
     if (rcc.enabled_late == which->clock_register) {
         rcc.enabled_late = 0;
@@ -383,7 +383,7 @@ const part pwr_part = {.name = "PWR",
                        .store = pwr_store,
                        .reset = pwr_reset};
 
-/* --- DBGMCU: which clocks stop when a debugger holds the core; not reset by a reset of the system ------- */
+/* --- DBGMCU: which clocks stop when a debugger holds the core; a system reset does not reset it -------- */
 static uint32_t dbgmcu[4];
 static uint32_t dbgmcu_load(uint32_t offset) {
     return offset == 0 ? 0x10076413U : dbgmcu[offset / 4U];

@@ -1,5 +1,5 @@
-/* start.c: how an image starts on the played chip: clocks, variables, devices, as boards/cortexm/startup.c has it; and memory that
- * a reset leaves alone. */
+/* start.c: an image's start on the chip model as in boards/cortexm/startup.c: clocks, variables, devices, and memory that a
+ * reset preserves. */
 #include "tests/chip/start.h"
 
 #include <stdlib.h>
@@ -10,15 +10,15 @@
 
 #include "unity.h"
 
-/* What the linker puts around the drivers' variables (mk/tests.mk). */
+/* The linker's symbols around the drivers' variables (mk/tests.mk). */
 extern uint8_t __start_drivers_bss[], __stop_drivers_bss[];
-/* There is none while no variable has an initial value. */
+/* Absent while no variable has an initial value. */
 __attribute__((weak)) extern uint8_t __start_drivers_data[], __stop_drivers_data[];
 
 static uint8_t image[16384];
 static size_t image_bytes;
 
-/* Byte by byte: a sanitizer has guards of its own between variables. */
+/* Byte by byte: a sanitizer has guards between variables. */
 __attribute__((no_sanitize("address", "undefined"), noinline)) static void
 put(volatile uint8_t *to, const uint8_t *from, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -40,7 +40,7 @@ void drivers_as_flashed(void) {
     put(__start_drivers_bss, NULL, (size_t)(__stop_drivers_bss - __start_drivers_bss));
 }
 
-/* What docs/boards.md's table has; the inputs of ADC1 by DS8626, table 9. */
+/* Wiring by the table of docs/boards.md; the inputs of ADC1 by DS8626, table 9. */
 const chip_wiring *chip_wires(void) {
     static const chip_wiring boards[] = {
         {"netduinoplus2", 25000000U, {'A', 'A'}, {0, 2}, 10, 11},
@@ -118,7 +118,6 @@ uint64_t chip_seed(uint64_t usual) {
     return (usual + by * 1000003U) | UINT64_C(1) << 40;
 }
 
-/* Wiring as docs/boards.md has it. */
 void chip_wired(uint64_t seed) {
     chip_new(chip_seed(seed));
     chip_pin_resistor('B', 13, CHIP_TO_GROUND);

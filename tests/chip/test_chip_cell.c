@@ -1,4 +1,4 @@
-/* test_chip_cell.c: the load cell's samples on a chip played from the manual: each is the force at its stamp. */
+/* test_chip_cell.c: the load cell's samples on the chip model: each is the force at its time stamp. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,10 +19,10 @@ void suite_chip_cell(void);
 
 #define ROOM 2048U
 static hal_load_sample got[ROOM];
-static double got_s[ROOM]; /* when it was there, of the chip's time */
+static double got_s[ROOM]; /* arrival, in the chip's time */
 static unsigned got_count;
 
-/* A tick of the timer in the chip's time: it is half its range from now at most. */
+/* A timer tick in the chip's time, at most half the timer's range from now. */
 static double second_of(uint32_t tick) {
     return chip_s() - (double)(int32_t)(chip_tim2_count() - tick) / 1e6;
 }
@@ -36,7 +36,7 @@ static void run_take(void) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(take));
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
-/* So many of the force as it is now: what was on its way before is left out. */
+/* This many samples of the present force, without the ones already under way. */
 static void collect(unsigned samples) {
     for (unsigned i = 0; i < 4; i++) {
         chip_pass_us(2000);
@@ -55,7 +55,7 @@ static double sine(double s) {
     return MIDDLE_V + offset_V + swing_V * sin(2.0 * PI * turns_Hz * s + phase);
 }
 
-/* What the samples say of a sine of known frequency: amplitude, and the time it is off; least squares at their stamps. */
+/* Fits a sine of known frequency to the samples at their stamps by least squares: amplitude and time error. */
 static void fit(double *amplitude, double *late_s, double *mean) {
     double m[3][4] = {{0}};
     const double from = got_s[0];
@@ -94,21 +94,21 @@ static void begin(uint64_t seed) {
     swing_V = 0;
     turns_Hz = 1;
     chip_tim2_count_is(seed % 3U == 0 ? UINT32_MAX - 50000U : (uint32_t)scattered());
-    for (unsigned i = 0; i < 6; i++) { /* what was on its way when the timer was set */
+    for (unsigned i = 0; i < 6; i++) { /* samples under way when the timer was set */
         chip_pass_us(2000);
         run_take();
     }
     got_count = 0;
 }
 
-/* Amplitude to 0.05 %, and stamps that are where the force was: to 1.5 us. Frequencies of the rig, and such at which a mean
- * alone would show a percent too little. */
+/* Amplitude to 0.05 % and stamps to 1.5 us. Frequencies are the rig's, and ones at which a plain mean would be a percent
+ * low. */
 static void test_sines(void) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
         turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
                                : 25.0 + (double)(scattered() % 1000U) / 66.0;
-        swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0; /* with the offset not below 0.2 V */
+        swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0; /* with the offset at least 0.2 V */
         phase = (double)(scattered() % 6283U) / 1000.0;
         offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
         collect(220);
@@ -124,11 +124,11 @@ static void test_sines(void) {
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1.5e-6, 0.0, late_s,
                                           "stamps are not in the window's middle");
         TEST_ASSERT_DOUBLE_WITHIN(9.0, offset_V * RAW_OF_V,
-                                  mean); /* a converter cuts off: half a count of 12 bits */
+                                  mean); /* a converter truncates: half a count of 12 bits */
     }
 }
 
-/* A parabola is exactly what the correction of a mean is for; a count of the converter is 16 of these. */
+/* The mean's correction is exact for a parabola; a converter count is 16 units. */
 static double bend_from;
 static double parabola(double s) {
     const double t = s - bend_from;
@@ -166,7 +166,7 @@ static double level(double s) {
 static void test_ends(void) {
     begin(60);
     chip_cell_V = level;
-    /* a wire that is broken leaves what leaks into its pin; an amplifier does not come quite to its rails */
+    /* a broken wire leaves the pin's leakage; an amplifier does not quite reach its rails */
     static const struct {
         double least_V, most_V;
         uint8_t status;
@@ -178,7 +178,7 @@ static void test_ends(void) {
         const unsigned row = i % (sizeof rows / sizeof *rows);
         const double part = i < 4 ? 0.0 : i < 8 ? 1.0 : (double)(scattered() % 10001U) / 10000.0;
         level_V = rows[row].least_V + part * (rows[row].most_V - rows[row].least_V);
-        chip_pass_us(10000); /* those of before, and those that have both */
+        chip_pass_us(10000); /* samples from before, and those with both */
         run_take();
         collect(5);
         for (unsigned at = 0; at < got_count; at++) {
@@ -193,7 +193,7 @@ static void test_ends(void) {
     }
 }
 
-/* A force that is clipped in a part of the window only: the sample that has it is none of a force. */
+/* A sample whose window contains a clipped part of the force is not valid. */
 static double clip_V;
 static double clipped(double s) {
     const double in_turn = fmod(s, 0.05);
@@ -226,7 +226,7 @@ static void test_clipped_for_a_moment(void) {
     clipped_at(0.0);
 }
 
-/* Four at least are kept; the newest are lost. */
+/* At least four are buffered; the newest are lost. */
 static void test_kept(void) {
     begin(62);
     run_take();
@@ -243,8 +243,8 @@ static void test_kept(void) {
 
 static void erase(void) { (void)hal_settings_erase(0); }
 
-/* The core stands still, for an erase or by a debugger, at any instant and for any time, while the force changes: what is
- * then called good is the force at its stamp all the same. */
+/* The core stops at any instant for any time, for an erase or by a debugger, while the force changes. A sample reported as good
+ * is still the force at its stamp. */
 static double ramp(double s) { return 0.4 + 2.4 * fabs(remainder(s, 1.0)); }
 static void test_core_that_stood(void) {
     for (unsigned i = 0; i < 30; i++) {
@@ -278,8 +278,8 @@ static void test_core_that_stood(void) {
     }
 }
 
-/* An overrun of the converter ends its requests (13.8.1). The driver does not begin anew: no sample comes any more, which the
- * controller takes for a cell that is silent, and none that is wrong. A reset brings them back. */
+/* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no sample follows, and none is wrong. The
+ * controller sees a silent cell. A reset restores the samples. */
 static void test_overrun(void) {
     begin(110);
     chip_cell_V = ramp;
@@ -300,7 +300,7 @@ static void test_overrun(void) {
     collect(5);
 }
 
-/* On the chip's own oscillator, too: a pair is converted before the next is asked for, and the force is told as it is. */
+/* Also on the chip's internal oscillator: a pair is converted before the next request, and the force is right. */
 static void test_fallback(void) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(111);
@@ -317,7 +317,7 @@ static void test_fallback(void) {
     }
 }
 
-/* The supply beside it: as it was within the last 2 ms. */
+/* The supply channel: its value within the last 2 ms. */
 static float supply;
 static void read_supply(void) { supply = hal_motor_supply_V(); }
 static void test_supply(void) {
@@ -330,8 +330,8 @@ static void test_supply(void) {
     }
 }
 
-/* Any supply up to 60 V, over a divider of resistors of 1 % (1.8 % of its part): the guard takes what is meant, 12 to 30 V, and
- * nothing above 31.5 V and that error, by its own limit and by any that is set. */
+/* Any supply up to 60 V over a divider of 1 % resistors (1.8 % of its ratio). The guard accepts 12 to 30 V, and nothing above
+ * 31.5 V plus that error, by its own limit or by any setting. */
 static void test_supplies(void) {
     wh_guard_config guard = {.supply_min_V = 10.8F, .supply_max_V = hal_motor_supply_most_V()};
     begin(121);

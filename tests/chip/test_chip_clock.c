@@ -1,5 +1,5 @@
-/* test_chip_clock.c: the STM32F405's start and its time, on a chip played from the manual: every limit of clock tree and flash
- * holds at every instant, and no clock that does not answer holds the start up for long. */
+/* test_chip_clock.c: start and time of the STM32F405 on the chip model. Every limit of clock tree and flash holds at every
+ * instant, and a dead clock delays the start only briefly. */
 #include "unity.h"
 
 #include "boards/stm32f4/registers.h"
@@ -13,7 +13,7 @@ static hal_start how;
 static uint32_t ticks;
 static void read_ticks(void) { ticks = hal_clock_ticks(); }
 
-/* Ticks of the timer over so many s that pass, ppm off a microsecond. */
+/* Checks the timer's ticks over so many seconds, to ppm of a microsecond. */
 static double ppm_over(double s) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_ticks));
     const uint32_t before = ticks;
@@ -29,7 +29,7 @@ static void test_crystals_that_start(void) {
     for (unsigned i = 0; i < 20; i++) {
         chip_wired(scattered());
         world.crystal_units =
-            (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms usually */
+            (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms typical */
         chip_reset(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
         TEST_ASSERT_EQUAL_STRING("none", chip_violation());
@@ -41,7 +41,7 @@ static void test_crystals_that_start(void) {
         TEST_ASSERT_EQUAL(42000000, now.apb1_Hz);
         TEST_ASSERT_EQUAL(84000000, now.apb2_Hz);
         TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 &&
-                         ppm_over(0.05) > -25.0); /* a tick in 50 ms is 20 */
+                         ppm_over(0.05) > -25.0); /* a tick in 50 ms is 20 ppm */
     }
 }
 
@@ -71,7 +71,7 @@ static void test_no_lock(void) {
     fallback_is_taken(1000);
 }
 
-/* A crystal that takes its time, or the driver's patience: one source or the other, and all limits hold. */
+/* A slow crystal against the driver's timeout: one source or the other, and all limits hold. */
 static void test_crystals_that_are_late(void) {
     scattered_state = chip_seed(7);
     unsigned taken = 0;
@@ -91,7 +91,7 @@ static void test_crystals_that_are_late(void) {
     TEST_ASSERT_EQUAL(15, taken);
 }
 
-/* A loader in ROM that left the core on its own loop, with its crystal, buses and wait states; a core of any speed. */
+/* A loader in ROM left the core on its own PLL, with its crystal, buses and wait states; a core of any speed. */
 #define RCC_AT(offset) (0x40023800U + (offset))
 static void wait_for(uint32_t offset, uint32_t bit) {
     while ((reg_load(RCC_AT(offset)) & bit) == 0) {
@@ -129,7 +129,7 @@ static void test_behind_a_loader(void) {
     }
 }
 
-/* From any of its resets the chip starts as from the first. */
+/* The chip starts from any reset as from the first. */
 static void test_from_every_reset(void) {
     static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG,
                                         CHIP_BY_SOFTWARE};
@@ -176,7 +176,7 @@ static void drive(void) {
     hal_motor_set_voltage(6.0F);
 }
 
-/* A crystal that stops while the motor turns: hardware has the output low before the NMI. */
+/* A crystal that stops while the motor turns: the hardware pulls the output low before the NMI. */
 static void test_crystal_dies(void) {
     scattered_state = chip_seed(6);
     for (unsigned i = 0; i < 10; i++) {

@@ -1,4 +1,4 @@
-/* test_chip_console.c: the console on a chip played from the manual, both ways, at 115,200 baud and random times. */
+/* test_chip_console.c: the console on the chip model, both ways, at 115,200 baud and random times. */
 #include <string.h>
 
 #include "unity.h"
@@ -32,7 +32,7 @@ static void test_rate(void) {
         0.01, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
 }
 
-/* What is written waits until all is out, what is offered does not; in order, each once, in bursts, with a pause or none. */
+/* A write waits until all is sent, an offer does not. Bytes arrive in order, each once, in bursts, with or without pauses. */
 static void test_out(void) {
     static uint8_t mine[16384];
     scattered_state = chip_seed(2);
@@ -66,7 +66,7 @@ static void test_out(void) {
     }
 }
 
-/* The same where much happens between two accesses, and bytes come, so that interrupts come in between as well. */
+/* The same with long delays between accesses and incoming bytes, so that interrupts come in between. */
 static void test_out_between_accesses(void) {
     scattered_state = chip_seed(10);
     chip_on(10);
@@ -95,7 +95,7 @@ static void test_out_between_accesses(void) {
     }
 }
 
-/* Offered without an end: the line is never idle, at least 11,000 bytes a second. */
+/* Continuous offers never let the line idle: at least 11,000 bytes per second. */
 static void test_out_is_full(void) {
     chip_on(4);
     const unsigned from = chip_serial_sent();
@@ -107,8 +107,8 @@ static void test_out_is_full(void) {
     TEST_ASSERT_TRUE(chip_serial_sent() - from > 1100U);
 }
 
-/* What comes, however it is spaced: in order, none lost while it is read each control step; in the place of what the hardware says
- * is invalid (a framing error, noise) a zero, but for Escape. */
+/* Received bytes arrive in order at any spacing, and none is lost if read each control step. A byte with a framing error or
+ * noise becomes a zero, except Escape. */
 static void test_in(void) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);
@@ -140,7 +140,6 @@ static void test_in(void) {
     TEST_ASSERT_EQUAL(made, got);
 }
 
-/* Both at once. */
 static void test_both(void) {
     scattered_state = chip_seed(6);
     chip_on(6);
@@ -174,8 +173,8 @@ static void test_both(void) {
     }
 }
 
-/* Lost ones, because nobody read, or nobody took them from the device (the core stood, or was held up): what is handed on is in
- * order, and a zero byte stands wherever some are missing. */
+/* Bytes are lost if the program does not read, or if the core stood or was held up. The bytes handed on are in order, and a
+ * zero stands for each gap. */
 static void lost(bool held) {
     static uint8_t seen[4096];
     chip_on(7U + (held ? 1U : 0U));
@@ -236,7 +235,7 @@ static void test_core_that_stood(void) {
     lost(true);
 }
 
-/* With interrupts off, as from a fault's handler: all goes out by polling. */
+/* With interrupts off, as in a fault's handler: all is sent by polling. */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 static void write_held(void) {

@@ -1,7 +1,6 @@
-/* test_chip_constants.c: every constant of boards/stm32f4/rm0090.h against a second source: ST's own header for the chip
- * (stm32f405xx.h of STM32CubeF4: bases, offsets, interrupts) and headers made of its SVD files (clocks, flash, timers, DMA,
- * converter, serial interface, watchdog, debug), where the drivers' author had the manual. A constant without a row here is
- * found. */
+/* test_chip_constants.c: compares every constant of boards/stm32f4/rm0090.h with a second source. The drivers' author had the
+ * manual. ST's header for the chip (stm32f405xx.h of STM32CubeF4) gives bases, offsets and interrupts. Headers generated from
+ * ST's SVD files give clocks, flash, timers, DMA, converter, serial interface, watchdog and debug. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -13,7 +12,7 @@
 
 void suite_chip_constants(void);
 
-/* Bases in the second source's words. */
+/* Bases by the second source's names. */
 #define APB1 0x40000000U
 #define APB2 0x40010000U
 #define AHB1 0x40020000U
@@ -228,7 +227,6 @@ static void test_values(void) {
     }
 }
 
-/* ST's numbers, by the names of ST. */
 static void test_interrupts(void) {
     static const struct {
         const char *name;
@@ -244,7 +242,7 @@ static void test_interrupts(void) {
     TEST_ASSERT_EQUAL(sizeof theirs / sizeof *theirs, at);
 }
 
-/* Each #define of the header is in a row: none has come since that nobody compared. */
+/* Every #define of the header has a row here. */
 static void test_every_one_has_a_row(void) {
     FILE *file = fopen("boards/stm32f4/rm0090.h", "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, "to be run from the project's root");

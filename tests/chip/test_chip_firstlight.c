@@ -1,6 +1,5 @@
-/* test_chip_firstlight.c: first light's image (boards/programs/firstlight.c) on a chip played from the manual: its record tells
- * clock, cycles, cell, supply, stop and slots as the drawn world has them, once more when Enter is typed; and neither enable
- * nor PWM is high at any instant. */
+/* test_chip_firstlight.c: the image boards/programs/firstlight.c on the chip model. Its record matches the drawn world: clock,
+ * cycles, cell, supply, stop and slots. Enter repeats it. Neither enable nor PWM is ever high. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,8 +17,8 @@
 void suite_chip_firstlight(void);
 int firstlight_main(void);
 
-#define RUN_UNITS (CHIP_UNITS_PER_S * 3U) /* two seconds, and what it says */
-/* Of the core, an access: so many that the run takes this machine a second or two. */
+#define RUN_UNITS (CHIP_UNITS_PER_S * 3U) /* two seconds, and the record's output */
+/* Cycles per access, so large that the run takes this machine a second or two. */
 #define ACCESS_CYCLES(crystal) ((crystal) ? 400U : 40U)
 
 unsigned board_stack_used_bytes(void) { return 1000; }
@@ -41,7 +40,6 @@ static void image(void) {
     (void)firstlight_main();
 }
 
-/* All that was sent from there on, as one record. */
 static void read_record(unsigned from) {
     static char bytes[8192];
     unsigned count = 0;
@@ -62,7 +60,7 @@ static const char *value(const char *name) {
     return "";
 }
 
-/* The whole numbers that a field begins with. */
+/* The whole numbers at a field's start. */
 static void numbers(const char *name, int count, int *const *number) {
     const char *at = value(name);
     for (int i = 0; i < count; i++) {
@@ -107,7 +105,7 @@ static void test_drawn_worlds(void) {
         }
         const unsigned from = chip_serial_sent();
         chip_may_take(RUN_UNITS);
-        TEST_ASSERT_EQUAL(CHIP_HANGS, chip_try(image)); /* it never ends */
+        TEST_ASSERT_EQUAL(CHIP_HANGS, chip_try(image)); /* the image never ends */
         TEST_ASSERT_EQUAL_STRING("none", chip_violation());
         TEST_ASSERT_EQUAL_MESSAGE(0, driven, "enable or PWM was high");
         read_record(from);
@@ -148,7 +146,6 @@ static void test_drawn_worlds(void) {
     }
 }
 
-/* Enter brings the same record again; other bytes do not. */
 static void test_again(void) {
     static char said[LIGHT_ROOM];
     chip_wired(120);

@@ -1,4 +1,4 @@
-/* test_chip_motor.c: the motor's PWM, enable and break on a chip played from the manual: what comes out of the pins. */
+/* test_chip_motor.c: the motor's PWM, enable and break at the pins of the chip model. */
 #include <math.h>
 
 #include "unity.h"
@@ -42,7 +42,7 @@ static void set_to(float V) {
 #define PERIOD_UNITS (CHIP_UNITS_PER_S / 20000U)
 #define TICKS 8400U
 
-/* Ticks of one period that the pin is high. Interrupts would take time from between two looks. */
+/* Ticks of one period with the pin high. Interrupts would take time between two reads. */
 static unsigned high_ticks(void) {
     unsigned high = 0;
     const uint32_t before = reg_hold();
@@ -62,7 +62,7 @@ static void is_low_for(uint64_t units) {
 }
 static bool enabled(void) { return chip_pin('B', 14) == CHIP_HIGH; }
 
-/* In reset, and before anything was started, also where off is called then. */
+/* Low in reset and before any start, also if off is called then. */
 static void test_before_the_start(void) {
     chip_wired(1);
     chip_reset(CHIP_BY_POWER);
@@ -72,18 +72,17 @@ static void test_before_the_start(void) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(off));
     is_low_for(PERIOD_UNITS);
     TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
-    chip_forgive(); /* its parts have no clock yet: the stores go nowhere, and nothing is on */
+    chip_forgive(); /* its parts have no clock yet: the stores have no effect */
     chip_on(1);
     is_low_for(PERIOD_UNITS);
     TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
 }
 
-/* Through the whole start no instant at which anything is driven. */
 static void never_driven(void) {
     TEST_ASSERT_FALSE(chip_pin('B', 13) == CHIP_HIGH);
     TEST_ASSERT_FALSE(chip_pin('B', 14) == CHIP_HIGH);
 }
-/* A loader in ROM may leave any output levels behind its inputs. */
+/* A loader in ROM may leave any output levels latched under its inputs. */
 static uint32_t left_levels;
 static void leave_levels(void) {
     reg_store(0x40023830U, reg_load(0x40023830U) | 2U); /* RCC_AHB1ENR: port B */
@@ -146,7 +145,7 @@ static void test_what_is_out_of_range(void) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* The first store of off is enough, at any instant of the period and of any duty. */
+/* The first store of off suffices, at any instant of the period and at any duty. */
 static unsigned stores;
 static void first_store(void) {
     if (stores++ == 0) {
@@ -176,8 +175,8 @@ static void test_off_at_once(void) {
     }
 }
 
-/* A fault's first stores (boards/cortexm/fault.c makes them before it touches the stack): the first is enough, the second takes
- * the enable. */
+/* A fault's first stores (boards/cortexm/fault.c makes them before it touches the stack). The first turns the PWM off, the
+ * second the enable. */
 static void fault_stores(void) {
 #define SAFE_STORE(address, value) reg_store((address), (value));
     BOARD_SAFE_ROWS(SAFE_STORE)
@@ -198,7 +197,8 @@ static void test_fault_from_anywhere(void) {
     }
 }
 
-/* Stop, or the drive stage's fault: low without any software, until the next off, however short it was and whatever is ordered. */
+/* Stop or the drive stage's fault pulls the output low without software, until the next off, however short the pulse and
+ * whatever the order. */
 static void test_break(void) {
     scattered_state = chip_seed(6);
     chip_on(6);
@@ -237,7 +237,7 @@ static void test_break(void) {
     }
 }
 
-/* Ordered while it is pressed: it does not come by itself when it is let go, but by another start, behind an off. */
+/* An order given while stop is pressed has no effect on release. It takes an off and another start. */
 static void test_ordered_while_pressed(void) {
     chip_on(7);
     chip_pass_us(10000);
@@ -259,7 +259,8 @@ static void test_ordered_while_pressed(void) {
     TEST_ASSERT_EQUAL(TICKS, high_ticks());
 }
 
-/* Pressed for less than a step since the last off, which comes each step while nothing drives: a start is none. */
+/* Stop was pressed for less than a step since the last off, which comes each step while the motor is off: a start has no
+ * effect. */
 static void test_pressed_before_a_start(void) {
     scattered_state = chip_seed(14);
     chip_on(14);
@@ -283,7 +284,7 @@ static void test_pressed_before_a_start(void) {
     }
 }
 
-/* A voltage drives nothing that is not started: before the first start, and after each off. */
+/* A voltage has no effect before a start and after each off. */
 static void test_voltage_alone(void) {
     scattered_state = chip_seed(12);
     chip_on(12);
@@ -301,7 +302,7 @@ static void test_voltage_alone(void) {
     }
 }
 
-/* Off by an interrupt, behind the store by which a voltage is set: it stays off, whatever voltages follow. */
+/* An interrupt switches off after the store that sets a voltage: the output stays off, whatever voltages follow. */
 static void off_behind(void) {
     chip_stored = NULL;
     hal_motor_off(way);
@@ -326,7 +327,7 @@ static void test_off_from_an_interrupt(void) {
     }
 }
 
-/* A start is whole: an interrupt that switches off comes before its first store, or behind its last. */
+/* A start is atomic: an interrupt that switches off comes before its first store or after its last. */
 static void is_held(void) { TEST_ASSERT_TRUE_MESSAGE(chip_is_masked(), "an off may come between"); }
 static void test_start_is_whole(void) {
     chip_on(15);
@@ -352,8 +353,8 @@ static void test_no_supply(void) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* A debugger that halts the core, anywhere: off, at once where a halt disables the outputs, and by the watchdog's reset where it does
- * not. What a debugger left before the start changes nothing. */
+/* A debugger halts the core at any instant: the motor is off, at once if a halt disables the outputs, otherwise by the
+ * watchdog's reset. Settings that a debugger left before the start change nothing. */
 static void freeze_watchdog(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 static void watch(void) { hal_watchdog_start(20000); }
 static void test_debugger(void) {
@@ -383,7 +384,7 @@ static void test_debugger(void) {
     }
 }
 
-/* Each reset, at any instant: both pins are let go, and the resistors hold them low. */
+/* Each reset, at any instant: both pins float, and the resistors hold them low. */
 static void test_reset_at_any_instant(void) {
     scattered_state = chip_seed(10);
     for (unsigned i = 0; i < 12; i++) {

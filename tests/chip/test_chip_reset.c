@@ -1,4 +1,4 @@
-/* test_chip_reset.c: why the chip started, and its brown-out level, on a chip played from the manual. */
+/* test_chip_reset.c: the reset cause and the brown-out level on the chip model. */
 #include "unity.h"
 
 #include "hal/reset.h"
@@ -23,7 +23,7 @@ static void start_and_ask(void) {
     TEST_ASSERT_TRUE(length > 0 && length < sizeof words && words[length] == 0);
 }
 
-/* Each start tells its own cause, whichever came before. */
+/* Each start reports its own cause, whichever came before. */
 static void test_causes(void) {
     static const hal_reset told[] = {[CHIP_BY_POWER] = HAL_RESET_POWER_ON,
                                      [CHIP_BY_DIP] = HAL_RESET_SUPPLY,
@@ -42,7 +42,7 @@ static void test_causes(void) {
     }
 }
 
-/* Room for words is kept to. */
+/* The text stays within its buffer. */
 static void test_words_are_cut(void) {
     chip_on(2);
     for (unsigned room = 1; room < 20; room++) {
@@ -55,7 +55,7 @@ static void test_words_are_cut(void) {
 
 #define LEVEL(options) ((options) >> 2 & 3U) /* BOR_LEV: 0 is level 3, 3 is off (3.9.10) */
 
-/* From any level, level 3; nothing else of the option bytes changes (that is a violation); and it is written once. */
+/* From any level to level 3. Other option bytes do not change (a violation otherwise), and it is written once. */
 static void test_brown_out(void) {
     chip_wired(3);
     chip_reset(CHIP_BY_POWER);
@@ -74,7 +74,7 @@ static void test_brown_out(void) {
     }
 }
 
-/* The power goes while they are written, at any instant: the next start does it. */
+/* Power fails at any instant of the write: the next start repairs it. */
 static void test_brown_out_torn(void) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 15; i++) {

@@ -1,5 +1,5 @@
-/* test_chip_settings.c: the settings' flash on a chip played from the manual: erased, written, read; and a supply that fails
- * before any store and at any instant leaves what was there before, or what is new. */
+/* test_chip_settings.c: erase, write and read of the settings' flash on the chip model. A power failure before any store or at
+ * any instant leaves the old content or the new. */
 #include <string.h>
 
 #include "unity.h"
@@ -41,7 +41,7 @@ static void run(void (*what)(void)) {
                              "longer than a call may take");
 }
 
-/* Both slots against memory of the test's own, through erases and writes of any length; nothing else is touched. */
+/* Both slots against the test's own memory, through erases and writes of any length; nothing else changes. */
 static void test_slots(void) {
     static uint8_t mine[2][HAL_SETTINGS_BYTES];
     scattered_state = chip_seed(1);
@@ -91,7 +91,7 @@ static void test_slots(void) {
     }
 }
 
-/* A sector that is protected: the memory says so. */
+/* A protected sector is reported by the memory. */
 static void test_refused(void) {
     chip_clocks_on(2);
     for (slot = 0; slot < 2; slot++) {
@@ -108,7 +108,7 @@ static void test_refused(void) {
     }
 }
 
-/* A word that is not erased: told by whoever reads it back (store.h); the flash itself says nothing. */
+/* A write to a word that is not erased: the flash reports nothing, the reader of store.h detects it. */
 
 static const wh_store_memory memory = {erases, writes, reads};
 static uint8_t payload[WH_STORE_PAYLOAD_MOST];
@@ -135,7 +135,7 @@ static void drawn_payload(void) {
 static uint8_t old[WH_STORE_PAYLOAD_MOST], new[WH_STORE_PAYLOAD_MOST];
 static unsigned old_bytes, new_bytes;
 
-/* Behind a power-off in the middle of a save: true, what is there is the new. Anything but old or new fails. */
+/* After a power-off in the middle of a save. True: the content is the new one. Anything but old or new fails. */
 static bool new_is_there(void) {
     chip_power_stays();
     chip_clocks_again();
@@ -198,7 +198,7 @@ static void test_torn_at_any_instant(void) {
     unsigned kept = 0;
     for (unsigned i = 0; i < 300; i++) {
         one_more();
-        /* half of them in the erase, half in what is written behind it */
+        /* half of them in the erase, half in the write that follows */
         chip_power_off_at(chip_now() + (i % 2U == 0 ? scattered() % (CHIP_UNITS_PER_S / 3U)
                                                     : CHIP_UNITS_PER_S / 4U +
                                                           scattered() % (CHIP_UNITS_PER_S / 4U)));

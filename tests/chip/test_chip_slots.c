@@ -1,4 +1,4 @@
-/* test_chip_slots.c: pulses of the slot sensors on a chip played from the manual: each edge once, with its time, in order. */
+/* test_chip_slots.c: slot pulses on the chip model: each edge once, with its time, in order. */
 #include "unity.h"
 
 #include "hal/slots.h"
@@ -10,7 +10,7 @@ void suite_chip_slots(void);
 #define ROOM 4096U
 static struct {
     uint64_t units;
-    uint32_t ticks; /* of the timer, when it was */
+    uint32_t ticks; /* the timer's value at that time */
     uint8_t sensor;
     uint8_t end;
 } made[ROOM];
@@ -40,7 +40,7 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* An edge to come. The timer's reading then follows from now, a tick being a microsecond. */
+/* Schedules an edge. Its timer reading follows from now, at one tick per microsecond. */
 static void edge_at(uint64_t units, unsigned sensor, hal_slot_end end) {
     made[made_count].units = units;
     made[made_count].sensor = (uint8_t)sensor;
@@ -50,20 +50,19 @@ static void edge_at(uint64_t units, unsigned sensor, hal_slot_end end) {
     made_count++;
     chip_slot_is_at(units, sensor, end == HAL_SLOT_LEADING ? CHIP_HIGH : CHIP_LOW);
 }
-/* One now. */
 static void edge_now(unsigned sensor, hal_slot_end end) {
     made[made_count].sensor = (uint8_t)sensor;
     made[made_count].end = (uint8_t)end;
     made[made_count++].ticks = chip_tim2_count();
     chip_slot_is(sensor, end == HAL_SLOT_LEADING ? CHIP_HIGH : CHIP_LOW);
 }
-/* A pulse to come: high for so long. */
+/* Schedules a pulse of this length. */
 static void pulse_at(uint64_t units, unsigned sensor, uint64_t high_us) {
     edge_at(units, sensor, HAL_SLOT_LEADING);
     edge_at(units + high_us * CHIP_UNITS_PER_US, sensor, HAL_SLOT_TRAILING);
 }
 
-/* What the filter takes, 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz by 4 and by 32), and two roundings to ticks. */
+/* The filter's delay, 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz by 4 and by 32), and two roundings to ticks. */
 #define LATE_LEAST 10U
 #define LATE_MOST 14U
 
@@ -78,7 +77,7 @@ static void all_are_there(void) {
     }
 }
 
-/* Both sensors, pulses of a monostable's length, from 300 us apart to 100 ms, looked for each millisecond. */
+/* Both sensors, pulses of a monostable's length, 300 us to 100 ms apart, polled each millisecond. */
 static void turn(unsigned pulses, uint32_t from_ticks) {
     chip_tim2_count_is(from_ticks);
     for (unsigned i = 0; i < pulses; i++) {
@@ -110,7 +109,7 @@ static void test_over_the_wrap(void) {
     }
 }
 
-/* Both sensors at once, or nearly: in order of time, though one interrupt may have all; over the wrap, too. */
+/* Both sensors at or near the same time, also over the wrap: in order of time, though one interrupt may report both. */
 static void test_together(void) {
     begin(11);
     for (unsigned i = 0; i < 200; i++) {
@@ -120,7 +119,7 @@ static void test_together(void) {
         const uint64_t at = chip_now() + CHIP_UNITS_PER_US * (1000U + scattered() % 10U);
         const unsigned first = (unsigned)(scattered() % 2U);
         const uint64_t apart_us =
-            4U + scattered() % 8U; /* two samples of the filter at least: other ticks */
+            4U + scattered() % 8U; /* at least two samples of the filter: different ticks */
         made_count = got_count = 0;
         edge_at(at, first, HAL_SLOT_LEADING);
         chip_pass(at - chip_now());
@@ -136,14 +135,14 @@ static void test_together(void) {
     }
 }
 
-/* What is shorter than the filter is none; both levels. */
+/* A pulse shorter than the filter is none, of either level. */
 static void test_spikes(void) {
     begin(12);
     for (unsigned i = 0; i < 200; i++) {
         const unsigned pin = (unsigned)(scattered() % 2U);
         chip_slot_is(pin, CHIP_HIGH);
         chip_pass(scattered() %
-                  (21U * CHIP_UNITS_PER_US / 2U)); /* eight samples take 10.7 us at least */
+                  (21U * CHIP_UNITS_PER_US / 2U)); /* eight samples take at least 10.7 us */
         chip_slot_is(pin, CHIP_LOW);
         chip_pass_us(20U + scattered() % 100U);
     }
@@ -160,7 +159,7 @@ static unsigned leading(void) {
     return count;
 }
 
-/* A level that is high when the timer starts is no pulse; its fall is none, but the end of one. */
+/* A level that is high when the timer starts is no pulse; its fall counts as an end only. */
 static void test_high_at_the_start(void) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(13);
@@ -179,11 +178,11 @@ static void test_high_at_the_start(void) {
     run_take(ROOM);
     TEST_ASSERT_EQUAL_MESSAGE(at_start, leading(), "a fall was taken for a pulse");
     TEST_ASSERT_EQUAL(at_start + 2U, got_count);
-    /* The input reads low before its pin is given to it, so that one rise each may be seen, and no more. */
+    /* The input reads low before its pin is connected, so each sensor may show one rise, and no more. */
     TEST_ASSERT_TRUE(at_start <= 2U);
 }
 
-/* Pulses while nobody takes any: the oldest are kept, at least 8; overruns are counted; and it goes on. */
+/* Unread pulses: the oldest, at least 8, stay, and overruns are counted. Later pulses arrive. */
 static void test_full(void) {
     scattered_state = chip_seed(14);
     for (unsigned round = 0; round < 10; round++) {
@@ -213,7 +212,7 @@ static void test_full(void) {
     }
 }
 
-/* The core stands while edges come, a pulse of each sensor: their time was taken all the same, and they come in order. */
+/* The core stops while one pulse per sensor arrives: their times are captured, and they come in order. */
 static void test_core_that_stood(void) {
     begin(19);
     for (unsigned i = 0; i < 100; i++) {
@@ -239,7 +238,7 @@ static void test_core_that_stood(void) {
     TEST_ASSERT_EQUAL(0, overruns);
 }
 
-/* A pulse over one that was not read yet: one of them is lost, and that is told; the other is whole. */
+/* A pulse over an unread one: one is lost and reported, the other is whole. */
 static void test_overrun(void) {
     begin(20);
     for (unsigned i = 0; i < 40; i++) {
@@ -261,7 +260,7 @@ static void test_overrun(void) {
     }
 }
 
-/* 5 kHz and 30 kHz into both while the loop looks once a millisecond: interrupts take a bounded part of the time. */
+/* 5 kHz and 30 kHz at both inputs with a poll per millisecond: interrupts take a bounded share of the time. */
 static void storm(uint64_t period_us, uint64_t ms) {
     begin(15 + period_us);
     const uint64_t end = chip_now() + ms * 1000U * CHIP_UNITS_PER_US;
@@ -293,7 +292,7 @@ static void storm(uint64_t period_us, uint64_t ms) {
     if (period_us < 100U) {
         TEST_ASSERT_TRUE(overruns > overruns_before);
     }
-    /* Behind it all is as before. */
+    /* Afterwards all works as before. */
     chip_pass_us(3000);
     run_take(ROOM);
     made_count = got_count = 0;

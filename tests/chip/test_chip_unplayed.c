@@ -1,5 +1,5 @@
-/* test_chip_unplayed.c: a register that the played chip does not have is not quietly memory: a driver that begins to use it has
- * to be noticed. */
+/* test_chip_unplayed.c: a register missing from the chip model is not silent memory, so a driver that begins to use it is
+ * noticed. */
 #include "unity.h"
 
 #include "boards/stm32f4/registers.h"
@@ -8,7 +8,7 @@
 
 void suite_chip_unplayed(void);
 
-/* Of each part: where it is, and the registers that the manual has there and nobody plays. */
+/* Each part's base, and the registers of the manual that the model lacks. */
 static const struct {
     uint32_t base;
     uint16_t offset[8];

@@ -1,5 +1,5 @@
-/* test_chip_watchdog.c: the watchdog on a chip played from the manual, at any speed that its oscillator may have: never before
- * its time, and within three times of it. */
+/* test_chip_watchdog.c: the watchdog on the chip model, at any speed of its oscillator: never early, and within three times its
+ * time. */
 #include "unity.h"
 
 #include "boards/stm32f4/stm32f4.h"
@@ -27,7 +27,6 @@ static void begin(void) {
     world.watchdog_Hz = 17000U + scattered() % 30001U;
 }
 
-/* As long as it is allowed. */
 static void is_quiet_for(uint32_t ticks) {
     const unsigned before = chip_resets();
     chip_pass_us(ticks);
@@ -69,7 +68,7 @@ static void test_any_time_and_speed(void) {
     }
 }
 
-/* Longer for an erase, then short again, at any time and soon behind each other. */
+/* Longer for an erase, then short again, at any time and in quick succession. */
 static void test_other_times(void) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 8; i++) {
@@ -97,7 +96,7 @@ static void test_other_times(void) {
     }
 }
 
-/* Told another time in the last moment: that is a sign of life, too. */
+/* A new time set at the last moment also counts as a kick. */
 static void test_told_late(void) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 40; i++) {
@@ -113,7 +112,7 @@ static void test_told_late(void) {
     }
 }
 
-/* Held by a debugger that has asked for it (docs/boards.md), it stands still, and goes on behind it. */
+/* It stops while a debugger that asked for it (docs/boards.md) holds the core, and continues after that. */
 static void freeze(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 static void test_debugger(void) {
     scattered_state = chip_seed(3);

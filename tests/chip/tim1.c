@@ -1,4 +1,4 @@
-/* tim1.c: TIM1's channel 1 of the played chip, with break, idle state and lock: RM0090, chapter 17, table 94. */
+/* tim1.c: TIM1's channel 1 of the chip model, with break, idle state and lock. RM0090, chapter 17, table 94. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -40,9 +40,9 @@ bool break_pin_is_high(void);
 
 static struct {
     uint32_t r[20];
-    uint32_t psc, arr, ccr1; /* in use: behind what is preloaded */
+    uint32_t psc, arr, ccr1; /* in use: after the preload */
     uint32_t count;
-    uint64_t base; /* when it was that */
+    uint64_t base; /* time of that value */
     bool locked_once, failed;
 } t;
 
@@ -102,7 +102,7 @@ static void tim1_happens(void) {
     }
 }
 
-/* Asynchronously, in hardware. */
+/* Asynchronous, in hardware. */
 void tim1_break_input(void) {
     if (break_is_active()) {
         *reg(BDTR) &= ~MOE;
@@ -115,14 +115,14 @@ void tim1_clock_failed(void) {
     t.failed = false;
 }
 
-/* OC1REF (17.4.7, OC1M): PWM mode 1 and 2, counting up; the forced ones. */
+/* OC1REF (17.4.7, OC1M): PWM modes 1 and 2, counting up, and the forced ones. */
 static bool reference(void) {
     const uint32_t count = count_now() % (t.arr + 1U);
     switch (FIELD(*reg(CCMR1), 4, 3)) {
     case 5: return true;
     case 6: return count < t.ccr1;
     case 7: return count >= t.ccr1;
-    case 0: /* frozen, as a reset has left it */
+    case 0: /* frozen, as after a reset */
     case 4: return false;
     default:
         forbidden("OC1M: a match toggles or sets, which the played chip does not");
@@ -130,7 +130,7 @@ static bool reference(void) {
     }
 }
 
-/* Table 94. Dead time is 0, or forbidden: one output alone needs none. */
+/* Table 94. Dead time must be 0: a single output needs none. */
 chip_level tim1_ch1n(void) {
     const uint32_t ccer = *reg(CCER);
     const uint32_t bdtr = *reg(BDTR);
@@ -169,7 +169,7 @@ static uint32_t tim1_load(uint32_t offset) {
     }
 }
 
-/* Bits of a register that a lock keeps. A store that leaves them as they are is none against it. */
+/* The bits of a register that a lock protects. A store that leaves them unchanged is allowed. */
 static uint32_t kept_by_lock(uint32_t offset) {
     const uint32_t level = FIELD(*reg(BDTR), 8, 2);
     uint32_t kept = 0;
@@ -244,7 +244,7 @@ static void tim1_reset(chip_cause cause) {
 }
 void tim1_new(void) { tim1_reset(CHIP_BY_POWER); }
 
-/* Flags that ask: BIF with BIE for the break's (24), UIF with UIE for the update's (25). */
+/* Interrupt requests: BIF with BIE for the break (24), UIF with UIE for the update (25). */
 static bool tim1_pending(unsigned interrupt) {
     const uint32_t asked = *reg(SR) & *reg(DIER);
     return (interrupt == 24 && (asked & BIF) != 0) || (interrupt == 25 && (asked & 1U) != 0) ||

@@ -1,5 +1,4 @@
-/* timers.c: TIM2 and TIM3 of the played chip: counting, captures behind their filters, updates that trigger: RM0090,
- * chapter 18. */
+/* timers.c: TIM2 and TIM3 of the chip model: counting, filtered captures, updates as triggers. RM0090, chapter 18. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -31,13 +30,13 @@ typedef struct timer {
     uint32_t r[21];
     uint32_t psc, arr; /* in use */
     uint64_t count, base;
-    uint64_t most; /* the widest count */
+    uint64_t most; /* the largest count */
     unsigned interrupt;
     unsigned debug_bit; /* of DBGMCU_APB1_FZ */
     unsigned trigger;   /* of the ADC's, by its update */
     struct {
         bool level, filtered;
-        uint64_t accepted_at; /* when the filter lets the new level through */
+        uint64_t accepted_at; /* when the filter passes the new level */
     } input[4];
 } timer;
 
@@ -56,7 +55,7 @@ static bool counts(timer *t) {
 static uint64_t count_now(timer *t) {
     return counts(t) ? t->count + (now_units() - t->base) / tick_units(t) : t->count;
 }
-/* Keeps the part of a tick that has passed, while the clock stays. */
+/* Keeps the elapsed fraction of a tick while the clock stays. */
 static void hold(timer *t, bool clock_changes) {
     const uint64_t count = count_now(t);
     t->base =
@@ -96,8 +95,8 @@ static uint32_t mode_of(timer *t, unsigned i) {
     return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU;
 }
 
-/* A capture (18.3.5) of channel i, of its own input or the other's of its pair (CCxS 1 or 2): into CCRx, its flag, and the one for
- * a capture that the flag before it was still up for. The filter is the input's, the edge the channel's (figures of 18.3.4). */
+/* A capture (18.3.5) of channel i, from its own input or its pair's (CCxS 1 or 2). It sets CCRx, the flag, and the over-capture
+ * flag if the flag was still set. The filter is the input's, the edge the channel's (figures of 18.3.4). */
 static void capture(timer *t, unsigned input, unsigned i) {
     const uint32_t cc = *reg(t, CCER) >> (4U * i) & 0xFU;
     const uint32_t mode = mode_of(t, i);
@@ -116,7 +115,7 @@ static void capture(timer *t, unsigned input, unsigned i) {
     *reg(t, SR) |= BIT(1U + i);
 }
 
-/* IC1F: how many samples agree, and how far apart they are (18.4.7), in units. */
+/* IC1F: the number of agreeing samples and their distance (18.4.7), in units. */
 static void filter(timer *t, unsigned i, unsigned *samples, uint64_t *apart) {
     static const uint8_t many[16] = {0, 2, 4, 8, 6, 8, 6, 8, 6, 8, 5, 6, 8, 5, 6, 8};
     static const uint8_t divided[16] = {1, 1, 1, 1, 2, 2, 4, 4, 8, 8, 16, 16, 16, 32, 32, 32};
@@ -174,7 +173,7 @@ static uint32_t load_of(timer *t, uint32_t offset) {
     if (offset >= CCR1 && offset <= CCR1 + 12U) {
         const unsigned i = (offset - CCR1) / 4U;
         if ((mode_of(t, i) & 3U) != 0) {
-            *reg(t, SR) &= ~BIT(1U + i); /* reading takes CCxIF away, not CCxOF */
+            *reg(t, SR) &= ~BIT(1U + i); /* reading clears CCxIF, not CCxOF */
         }
     }
     return offset == EGR ? 0 : *reg(t, offset);

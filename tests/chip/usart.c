@@ -1,4 +1,4 @@
-/* usart.c: USART6 of the played chip: RM0090, chapter 30. */
+/* usart.c: USART6 of the chip model. RM0090, chapter 30. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -17,7 +17,7 @@ enum { SR = 0x00, DR = 0x04, BRR = 0x08, CR1 = 0x0C, CR2 = 0x10, CR3 = 0x14, GTP
 static struct {
     uint64_t when;
     uint8_t byte;
-    uint8_t flags; /* of SR: it is one that never was sent */
+    uint8_t flags; /* in SR: a byte that was never sent */
 } coming[COMING];
 static unsigned coming_from, coming_to;
 static uint8_t sent[SENT];
@@ -81,9 +81,9 @@ static void usart_happens(void) {
         const uint8_t byte = coming[coming_from++ % COMING].byte;
         if ((u.cr1 & (UE | RE)) == (UE | RE) && serial_pin_in()) {
             if ((u.sr & RXNE) != 0) {
-                u.sr |= ORE; /* DR keeps the one before; this one is lost */
+                u.sr |= ORE; /* DR keeps the previous byte; this one is lost */
             } else {
-                u.received = byte; /* also one that is invalid (30.3.3) */
+                u.received = byte; /* also an invalid one (30.3.3) */
                 u.sr |= RXNE | flags;
             }
         }
@@ -94,7 +94,7 @@ static uint32_t usart_load(uint32_t offset) {
     switch (offset) {
     case SR: u.seen = u.sr; return u.sr;
     case DR: {
-        /* ORE goes by a load of SR, then one of DR. */
+        /* A load of SR, then one of DR clears ORE. */
         u.sr &= ~(RXNE | (u.seen & (ORE | 0x17U)));
         u.seen = 0;
         return u.received;
@@ -111,7 +111,7 @@ static void usart_store(uint32_t offset, uint32_t value) {
     switch (offset) {
     case SR:
         u.sr &= value | ~(uint32_t)(BIT(9) | BIT(8) | TC | RXNE);
-        break; /* rc_w0, these alone */
+        break; /* rc_w0, only these */
     case DR:
         if ((u.cr1 & (UE | TE)) != (UE | TE)) {
             forbidden("a byte to a USART that does not send");
