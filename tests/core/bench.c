@@ -5,7 +5,7 @@ bench bench_now;
 
 /* --- drawing ------------------------------------------------------------------------------------------------ */
 
-/* Is it asked where it is to be? */
+/* Is the evaluation at the expected place? */
 static void look_at(const void *model, const wh_phase *phase, const wh_real *linear,
                     const wh_real *rate, const wh_real *input) {
     const wh_contact_point *at = bench_now.at;
@@ -73,7 +73,7 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
     }
 }
 
-/* Account 0: each contact's energy is what the first line says; account 1 + i: ten times the rate i. */
+/* Account 0: each contact's energy is the first line's place; account 1 + i: ten times the rate i. */
 static void bench_levels(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *level) {
     (void)model;
@@ -104,7 +104,7 @@ void bench_build(uint64_t *seed, unsigned coordinates, unsigned angles) {
             }
         }
     }
-    for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* none is in use yet */
+    for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* unused as yet */
         bench_now.contact[k].pin = -1;
         bench_now.first[k] = BENCH_SENTINEL;
         bench_now.second[k] = BENCH_SENTINEL;
@@ -160,7 +160,7 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
         of->kinds = (uint8_t)(of->kinds | WH_KIND_BIT(kind));
         of->pinned = (uint8_t)(of->pinned + (pin >= 0));
     }
-    for (unsigned l = k + 1; l < BENCH_CONTACTS; l++) { /* as if it were one more of these */
+    for (unsigned l = k + 1; l < BENCH_CONTACTS; l++) { /* as if it were one of these */
         bench_now.contact[l] = bench_now.contact[k];
     }
     return k;
@@ -280,7 +280,7 @@ bool bench_near(wh_real value, wh_real wanted) {
            (WH_DOUBLE ? WH_R(1e-10) : WH_R(1e-3)) * (WH_R(1.0) + WH_ABS(wanted));
 }
 
-/* Rows are made upper triangular one after another, each by the others' own steps: exact for whole numbers this small. */
+/* Rows become upper triangular one by one, by the others' steps: exact for whole numbers this small. */
 unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at) {
     double kept[BENCH_COORDS][BENCH_COORDS];
     unsigned lead[BENCH_COORDS];
@@ -296,7 +296,7 @@ unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at) 
         for (unsigned i = 0; i < n; i++) {
             row[i] = (double)bench_now.row[member[p]][i];
         }
-        for (unsigned r = 0; r < rank; r++) { /* cross-multiplied: nothing is rounded */
+        for (unsigned r = 0; r < rank; r++) { /* cross-multiplied: no round-off */
             const double mine = row[lead[r]];
             for (unsigned i = 0; i < n; i++) {
                 row[i] = row[i] * kept[r][lead[r]] - mine * kept[r][i];

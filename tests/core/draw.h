@@ -1,4 +1,4 @@
-/* draw.h: what the tests of contacts draw at random, in numbers of the build: the same on every machine. */
+/* draw.h: random draws for the tests of contacts, in the build's numbers: the same on every machine. */
 #ifndef TESTS_DRAW_H
 #define TESTS_DRAW_H
 
@@ -7,7 +7,7 @@
 
 #include "core/real.h"
 
-/* The next 31 bits: a linear congruence, whose lowest ones are left out. */
+/* The next 31 bits of a linear congruential generator, without the lowest ones. */
 static inline uint64_t draw_bits(uint64_t *seed) {
     *seed = *seed * 6364136223846793005U + 1442695040888963407U;
     return *seed >> 33;
@@ -18,18 +18,18 @@ static inline wh_real draw_whole(uint64_t *seed, int least, int most) {
     return (wh_real)(least + (int)(draw_bits(seed) % (uint64_t)(most - least + 1)));
 }
 
-/* Any other: no two meet by chance. */
+/* Any other number: two never coincide by chance. */
 static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
     return draw_whole(seed, least * 1024, most * 1024 - 1) / 1024 +
            draw_whole(seed, 1, 1023) / WH_R(1048576.0);
 }
 
-/* One of so many, counted from zero; zero where there is none. */
+/* One of `count`, from zero; zero if there is none. */
 static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
     return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;
 }
 
-/* An emulated board takes an eighth of the cases, for all of them take its emulator minutes. This machine takes all. */
+/* An emulated board takes an eighth of the cases, because all take its emulator minutes. This machine takes all. */
 enum { DRAW_PART = __STDC_HOSTED__ ? 1 : 8 };
 static inline unsigned draw_cases(unsigned all) { return all / DRAW_PART; }
 

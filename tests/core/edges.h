@@ -1,4 +1,5 @@
-/* edges.h: what the suites of the core's functions share: where numbers end, arguments with known results, any numbers. */
+/* edges.h: shared by the suites of the core's functions: the limits of numbers, arguments with known results, random
+ * numbers. */
 #ifndef TESTS_CORE_EDGES_H
 #define TESTS_CORE_EDGES_H
 
@@ -34,7 +35,7 @@
 
 static inline uint64_t bits_of(wh_real x) { return wh_hash_real(0, x); }
 
-/* Equal bits, or both no number. */
+/* Equal bits, or both NaN. */
 static inline bool same(wh_real a, wh_real b) {
     return bits_of(a) == bits_of(b) || (a != a && b != b);
 }
@@ -75,7 +76,7 @@ static inline wh_real any(void) {
     return as.value;
 }
 
-/* What is no number counts alike: its bits tell where it came from. */
+/* NaNs count as equal: their bits depend on their origin. */
 static inline uint64_t mixed(uint64_t hash, wh_real x) {
     return wh_hash_real(hash, x != x ? ONE : x);
 }

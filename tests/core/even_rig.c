@@ -42,7 +42,7 @@ static uint32_t ticks_of_turn(wh_real speed_radps) {
     return (uint32_t)(WH_RIG_TWO_PI / speed_radps * (wh_real)WH_RIG_TICKS_PER_S + WH_R(0.5));
 }
 
-/* The turn that begins now is as fast as it is led. */
+/* The turn that begins now has the set-point's speed. */
 static void lead(even_rig *even) {
     const wh_run *run = &even->rig.run;
     const wh_real open_rpm = even->hand_rpm > WH_R(0.0) ? even->hand_rpm : EVEN_BEGIN_RPM;
@@ -83,15 +83,14 @@ static void give_pulses(even_rig *even) {
         if ((int32_t)(even->inputs.now_ticks - ticks) < 0) {
             break;
         }
-        if (due == 2U) { /* the next turn */
+        if (due == 2U) {
             even->from_ticks = ticks;
             even->due_sensor = 0;
             lead(even);
             continue;
         }
         even->due_sensor++;
-        even->late_ticks =
-            (uint32_t)draw_whole(&even->seed, 0, (int)even->fails.jitter_ticks); /* the next one */
+        even->late_ticks = (uint32_t)draw_whole(&even->seed, 0, (int)even->fails.jitter_ticks);
         if (even->failing && even->fails.lose[due] > 0) {
             even->fails.lose[due]--;
             continue;

@@ -1,7 +1,7 @@
 /* even_rig.h: the rig's controller on a made-up rotor that turns evenly, for the suites of its run and its life.
  *
- * The made-up rotor stands still until a tenth of a second of spin-up is over, turns at EVEN_BEGIN_RPM until the loop is
- * closed and then at the loop's set-point, whatever the voltage, each turn evenly; it stops with the motor. Its load is
+ * The rotor stands still for the first tenth of a second of spin-up, then turns at EVEN_BEGIN_RPM until the loop is closed.
+ * After that it follows the loop's set-point, whatever the voltage, each turn evenly, and stops with the motor. Its load is
  * EVEN_LOAD_N cos(theta), so the right answer is known. */
 #ifndef TESTS_CORE_EVEN_RIG_H
 #define TESTS_CORE_EVEN_RIG_H
@@ -19,19 +19,19 @@
 #define EVEN_ALWAYS (~0U)
 #define EVEN_NEVER WH_PHASES
 
-/* What fails, from the time `after_ticks` into the phase `in` on. */
+/* Failures, from `after_ticks` into the phase `in` on. */
 typedef struct even_failure {
-    wh_rig_phase in; /* EVEN_NEVER: nothing does */
+    wh_rig_phase in; /* EVEN_NEVER: no failure */
     uint32_t after_ticks;
     unsigned lose[WH_SPEED_SENSORS]; /* pulses */
     unsigned lose_samples;
-    bool swapped;                /* the sensors, from the beginning */
-    bool jams;                   /* the rotor, for good */
-    int shows;                   /* the cell: so many counts to and fro, whatever the load */
-    int creeps;                  /* so many counts a second more */
+    bool swapped;                /* the sensors, from the start */
+    bool jams;                   /* the rotor, permanently */
+    int shows;                   /* the cell: this many counts of square wave, whatever the load */
+    int creeps;                  /* drift, counts per second */
     wh_load_status status;       /* of all samples */
-    bool adds[WH_SPEED_SENSORS]; /* one pulse that is none */
-    /* the whole time: marks come late by up to so many ticks, evenly drawn; the speed hunts by so much, so often a second, and
+    bool adds[WH_SPEED_SENSORS]; /* one false pulse */
+    /* permanent: marks are late by up to this many ticks, uniformly; the speed hunts by this much, this often a second, and
      * drifts */
     uint32_t jitter_ticks;
     wh_real hunts_rpm;
@@ -42,49 +42,47 @@ typedef struct even_failure {
 typedef struct even_rig {
     wh_rig rig;
     wh_rig_config config;
-    wh_rig_inputs inputs; /* of the next step, which moves now_ticks on */
+    wh_rig_inputs inputs; /* of the next step, which advances now_ticks */
     wh_rig_command command;
     even_failure fails;
     bool failing;         /* it began */
     wh_rig_phase phase;   /* at the last step, */
-    uint32_t phase_ticks; /* which began then */
+    uint32_t phase_ticks; /* the start time of that step */
     bool turns;
-    wh_real hand_rpm; /* not 0: somebody turns it, whatever the motor does */
+    wh_real hand_rpm; /* not 0: a hand turns it, whatever the motor does */
     uint32_t turn_ticks;
-    uint32_t from_ticks;   /* the rotor's angle is 0, and a turn begins */
+    uint32_t from_ticks;   /* the rotor's angle is 0: a turn begins */
     unsigned due_sensor;   /* the next pulse, */
-    uint32_t late_ticks;   /* so late */
-    uint32_t settle_ticks; /* it began to settle */
+    uint32_t late_ticks;   /* and its delay */
+    uint32_t settle_ticks; /* start of settling */
     uint64_t seed;
 } even_rig;
 
-/* The rig's configuration for a rotor that turns evenly. */
 wh_rig_config even_config(void);
 
 /* Idle, at rest. */
 void even_start(even_rig *even);
 
-/* One control step. */
 void even_step(even_rig *even);
 void even_steps(even_rig *even, unsigned steps);
 
-/* Post an order, step, and return the answer. */
+/* Posts an order, steps, and returns the answer. */
 wh_refusal even_order(even_rig *even, wh_rig_event event, wh_real value);
 
-/* Somebody turns the rotor from now on, or (0) lets it go, which stops it. */
+/* A hand turns the rotor from now on, or (0) lets it go, which stops it. */
 void even_turn_by_hand(even_rig *even, wh_real rpm);
 
-/* Until rest is known: then `arm` is allowed. */
+/* Until rest is known, so that `arm` is allowed. */
 void even_rest(even_rig *even);
 
-/* From even_start() to where `arm` is done; or to the tare of a run. */
+/* From even_start() until `arm` is done; or to the tare of a run. */
 void even_arm(even_rig *even);
 void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
-/* Nothing is left to wait for: idle, or tripped and at rest. */
+/* Idle, or tripped and at rest. */
 bool even_is_over(const even_rig *even);
 
-/* Steps until a phase begins, or nothing is left to wait for. */
+/* Steps until a phase begins, or the rig is done. */
 void even_go_on_until(even_rig *even, wh_rig_phase phase);
 
 /* From even_start() to this phase of a run to 330 rpm; WH_PHASE_OFF: by `stop`. */
@@ -93,7 +91,7 @@ void even_reach(even_rig *even, wh_rig_phase phase);
 /* A whole run; checks that the motor is off at the end. */
 void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
-/* The run is through, and nothing tripped. */
+/* The run is finished without a trip. */
 bool even_is_done(const even_rig *even);
 
 #endif

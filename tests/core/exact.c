@@ -5,8 +5,7 @@
 
 /* --- velocities --------------------------------------------------------------------------------------------- */
 
-/* Impulses: those in `set` come to target[], what holds and what is in `beside` to zero, stops at least. Returns the
- * stops that open. */
+/* Impulses: those in `set` reach target[], holds and those in `beside` zero, stops at least. Returns the stops that open. */
 static unsigned strike(exact *e, unsigned set, unsigned beside, const double *target,
                        double *impulse) {
     exact_problem p = {set | beside | exact_those(e, WH_STOP, WH_ACTIVE) |
@@ -26,7 +25,7 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     const unsigned opens = exact_solve(e, &p, e->v, lambda);
     for (unsigned k = 0; k < exact_forced(); k++) {
         if (exact_in(p.members, k)) {
-            /* neither pushed nor opened: whether it rests is chance */
+            /* neither pushed nor opened: rest is undecided */
             e->vague = e->vague || (!exact_in(set | beside | opens, k) && exact_is(k, WH_STOP) &&
                                     exact_size_of(lambda[k]) <= EXACT_ZERO);
             impulse[k] += lambda[k];
@@ -37,7 +36,7 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     return opens;
 }
 
-/* Is a flight that begins so too short? */
+/* Is a flight that starts like this too short? */
 static bool rests(exact *e, unsigned k, double speed, const double *a) {
     const int pressed = exact_sign(e, -exact_along(k, a));
     return pressed == 0
@@ -47,7 +46,7 @@ static bool rests(exact *e, unsigned k, double speed, const double *a) {
 
 static bool touched(exact *e, unsigned k) { return exact_sign(e, exact_gap(e, k)) <= 0; }
 
-/* Free stops that are touched and close, as bits. */
+/* Free stops in touch and closing, as bits. */
 static unsigned closing(exact *e) {
     unsigned bits = 0;
     for (unsigned k = 0; k < exact_forced(); k++) {
@@ -57,7 +56,7 @@ static unsigned closing(exact *e) {
     return bits;
 }
 
-/* Free stops in `found` are hit, and all that close with them. Returns them. */
+/* Hits the free stops in `found` and all that close with them. Returns them. */
 static unsigned hit(exact *e, unsigned found, double *impulse) {
     double a[2];
     double force[HAND_CONTACTS];
@@ -69,7 +68,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     unsigned leaving = 0;
     unsigned gone = 0;
     exact_accelerate(e, a, force);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* that merely touch */
+    for (unsigned k = 0; k < exact_forced(); k++) { /* in touch only */
         if (exact_in(resting, k) && hand_now.law[k].first > 0 && exact_sign(e, force[k]) <= 0) {
             e->mode[k] = WH_FREE;
         }
@@ -108,7 +107,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
         gone |= open && rests(e, k, exact_along(k, e->v), a) ? 1U << k : 0U;
     }
     exact_give(e, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* all that holds, together, whatever it takes */
+    if ((gone | leaving) != 0) { /* all holds together, without limit */
         exact_problem p = {exact_those(e, WH_STOP, WH_ACTIVE) | exact_those(e, WH_HOLD, WH_ACTIVE),
                            {0.0},
                            {0.0},
@@ -133,7 +132,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     return hits;
 }
 
-/* Moves what is beyond free stops back, the least that does it. Returns those stops, and those that push, as bits. */
+/* Moves bodies back from free stops that they passed, by the least move. Returns those stops, and those that push, as bits. */
 static unsigned push_out(exact *e) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -183,7 +182,7 @@ void exact_squeeze(exact *e) {
 
 /* --- crossings ---------------------------------------------------------------------------------------------- */
 
-/* The new value; what rests on what it disturbs flies, or is put back; what is held is captured again. */
+/* Sets the new value. A resting contact that it disturbs flies or is put back; a hold captures again. */
 static void assign(exact *e, unsigned k, double *impulse) {
     const exact was = *e;
     const double zero[HAND_CONTACTS] = {0.0};
@@ -228,7 +227,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
 }
 
-/* What stands on its crossing is on the side to which it goes. */
+/* A contact on its crossing is on the side that it moves to. */
 static void leave(exact *e) {
     for (unsigned k = exact_forced(); k < hand_now.system.contacts; k++) {
         const int side = exact_in(e->stands, k) ? exact_sign(e, exact_along(k, e->v)) : e->mode[k];
@@ -249,7 +248,7 @@ static void note(exact *e, unsigned events, double at_s, const double *impulse) 
     }
 }
 
-/* All that happens at a moment. Returns what did. */
+/* All events of one moment. Returns them. */
 static unsigned happen(exact *e, unsigned events, double *impulse) {
     const double zero[HAND_CONTACTS] = {0.0};
     const unsigned let_go = events & exact_those(e, WH_HOLD, WH_ACTIVE);
@@ -317,10 +316,10 @@ void exact_start(exact *e) {
     }
     const unsigned holds = still & exact_those(e, WH_HOLD, WH_FREE);
     exact_give(e, still & ~holds, WH_ACTIVE);
-    if (still != 0) { /* settled before anything is hit */
+    if (still != 0) { /* settled before any hit */
         (void)happen(e, holds, impulse);
         exact_put_back(e, exact_those(e, WH_FRICTION, WH_STUCK),
-                       HAND_CONTACTS); /* nothing holds it there */
+                       HAND_CONTACTS); /* no hold keeps it there */
     }
     const unsigned events = happen(e, moving, impulse);
     note(e, events, 0.0, impulse);
@@ -328,7 +327,7 @@ void exact_start(exact *e) {
 
 /* --- motion ------------------------------------------------------------------------------------------------- */
 
-/* When g + r t + a t^2 / 2 first falls below zero within `left`, having not been there; `left` if it does not. */
+/* The first time within `left` at which g + r t + a t^2 / 2 falls below zero after being above; `left` if there is none. */
 static double falls(exact *e, double g, double r, double a, double left) {
     const double end = g + r * left + 0.5 * a * left * left;
     const int below = exact_sign(e, end);
@@ -337,7 +336,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
                             exact_size_of(a) < EXACT_ZERO && exact_holding(e) != 0);
     e->vague = e->vague || (below == 0 && begins > 0); /* just at the step's end */
     if (below >= 0) {
-        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that the step's end does not see */
+        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that the step's end does not show */
             e->vague = e->vague || exact_sign(e, g - 0.5 * r * r / a) < 0;
         }
         return left;
@@ -345,7 +344,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     if (begins == 0 && (r < 0.0 || (exact_sign(e, r) == 0 && a < 0.0))) {
         return 0.0;
     }
-    if (begins < 0) { /* beyond: none as long as it is on its way out */
+    if (begins < 0) { /* beyond: no event on its way out */
         if (exact_sign(e, r) <= 0) {
             e->vague = e->vague || (exact_sign(e, r) == 0 && exact_sign(e, a) == 0);
             return exact_sign(e, r) < 0 || a < 0.0 ? 0.0 : left;
@@ -367,7 +366,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     return r < 0.0 ? 2.0 * g / (root - r) : (-r - root) / a;
 }
 
-/* Of contact k: how long until its event. */
+/* The time until the event of contact k. */
 static double waits(exact *e, unsigned k, const double *a, double left) {
     const double r = exact_along(k, e->v);
     switch ((wh_contact_kind)hand_now.contact[k].kind) {
@@ -407,7 +406,7 @@ static void move(exact *e, const double *a, const double *force, double span) {
 void exact_step(exact *e) {
     double left = STEP_S;
     unsigned rounds = 0;
-    if (hand_state.steps > 1) { /* a run's start is noted with its first step */
+    if (hand_state.steps > 1) { /* the first step reports the run's start */
         e->logged = 0;
     }
     while ((left > 0.0 || e->next != 0) && !e->vague) {
@@ -432,7 +431,7 @@ void exact_step(exact *e) {
         if (events != 0) {
             double impulse[HAND_CONTACTS];
             const double at_s = STEP_S - left;
-            for (unsigned k = 0; k < exact_forced(); k++) { /* it has just come to zero */
+            for (unsigned k = 0; k < exact_forced(); k++) { /* it has just reached zero */
                 const int pin = hand_now.contact[k].pin;
                 if (exact_in(events, k) && exact_is(k, WH_FRICTION)) {
                     e->v[pin] = 0.0;

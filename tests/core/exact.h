@@ -1,6 +1,6 @@
-/* exact.h: what a mechanism by hand (hand.h) does, worked out another way. Its loads are constant, so between events it
- * moves on parabolas, whose roots are closed forms; at an event the laws of docs/dev/events.md are solved by trying all of
- * their cases. In double, without probes, pivots or pins. */
+/* exact.h: an independent reference for mechanisms by hand (hand.h). Loads are constant, so motion between events is a parabola
+ * with roots in closed form. At an event all cases of the laws of docs/dev/events.md are tried. In double, without probes,
+ * pivots or pins. */
 #ifndef TESTS_EXACT_H
 #define TESTS_EXACT_H
 
@@ -8,7 +8,7 @@
 
 enum { EXACT_LOG = 32 };
 
-/* Where a double is no more than a float, as on AVR, it is no reference. */
+/* A double that is only a float, as on AVR, is no reference. */
 #define EXACT_NEEDS_DOUBLE() \
     do { \
         if (__DBL_MANT_DIG__ < 53) { \
@@ -20,21 +20,21 @@ typedef struct exact {
     double x[2];
     double v[2];
     int mode[HAND_CONTACTS];
-    double energy[HAND_CONTACTS];  /* what each contact gave, */
-    double impulse[HAND_CONTACTS]; /* and pushed with along its row, from the start on */
+    double energy[HAND_CONTACTS];  /* each contact's energy */
+    double impulse[HAND_CONTACTS]; /* and impulse along its row, since the start */
     double pushed;                 /* the input */
     wh_event log[EXACT_LOG];       /* of the last step */
     unsigned logged;
     unsigned next;   /* stops that are hit in the next round, as bits */
-    unsigned stands; /* crossings just taken that are where they cross, as bits */
-    bool vague;      /* something hung on less than rounding: what follows is no reference */
-    bool shared;     /* contacts repeated each other: what each gave is not unique */
+    unsigned stands; /* crossings just taken that are still at their place, as bits */
+    bool vague;      /* a decision depended on less than round-off: no reference from here on */
+    bool shared;     /* redundant contacts: each one's share is not unique */
 } exact;
 
 /* hand_now's start, and a step of 1 ms. */
 void exact_start(exact *e);
 void exact_step(exact *e);
-/* Moves what is beyond free stops back, the least that does it, and stops what closes there. */
+/* Moves bodies back from free stops that they passed, by the least move, and stops those that close there. */
 void exact_squeeze(exact *e);
 
 #endif

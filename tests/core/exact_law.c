@@ -1,7 +1,7 @@
 /* exact_law.c: see exact_law.h. */
 #include "exact_law.h"
 
-/* What is below it, and no zero, is vague. */
+/* Below it, but not zero, a number is vague. */
 #define NEAR (WH_DOUBLE ? 1e-6 : 1e-4)
 
 double exact_size_of(double value) { return value < 0.0 ? -value : value; }
@@ -18,7 +18,6 @@ unsigned exact_forced(void) { return hand_now.system.forced; }
 
 bool exact_is(unsigned k, wh_contact_kind kind) { return hand_now.contact[k].kind == kind; }
 
-/* Contacts of a kind in a mode (those of crossings are none), as bits. */
 unsigned exact_those(const exact *e, wh_contact_kind kind, int mode) {
     unsigned bits = 0;
     for (unsigned k = 0; k < exact_forced(); k++) {
@@ -42,7 +41,6 @@ double exact_gap(const exact *e, unsigned k) {
     return exact_along(k, e->x) - (double)hand_now.law[k].offset;
 }
 
-/* x += M^-1 J_k^T lambda. */
 void exact_push(unsigned k, double lambda, double *x) {
     for (unsigned i = 0; i < hand_now.n; i++) {
         for (unsigned j = 0; j < hand_now.n; j++) {
@@ -59,7 +57,6 @@ double exact_coupled(unsigned k, unsigned l) {
 
 /* --- all cases ---------------------------------------------------------------------------------------------- */
 
-/* lambda[] of those in `tight`, which reach their targets; the others' are given. False: their rows repeat each other. */
 bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double *lambda) {
     double a[HAND_CONTACTS][HAND_CONTACTS + 1];
     unsigned member[HAND_CONTACTS];
@@ -101,8 +98,6 @@ static bool good(const exact_problem *p, unsigned k, int which, double lambda, d
                        : off <= 1e-9;
 }
 
-/* The case that meets the conditions: x changes, lambda[] of the members. Returns those whose J x is beyond their
- * targets, as bits. */
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda) {
     for (unsigned number = 0; number < 27;
          number++) { /* each at its target, its low or its high end */
@@ -141,7 +136,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
                 const bool off =
                     exact_in(p->members, k) && exact_sign(e, exact_along(k, y) - p->target[k]) != 0;
                 beyond |= off ? 1U << k : 0U;
-                if (exact_in(tight, k)) { /* at an end all the same? */
+                if (exact_in(tight, k)) { /* at an end nevertheless? */
                     (void)exact_sign(e, lambda[k] - p->low[k]);
                     (void)exact_sign(e, lambda[k] - p->high[k]);
                 }
@@ -151,11 +146,10 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
             return beyond;
         }
     }
-    e->vague = true; /* holds that repeat each other: none here */
+    e->vague = true; /* dependent holds: none here */
     return 0;
 }
 
-/* Do rows of the members repeat each other? */
 bool exact_repeat(const exact *e, unsigned members) {
     exact_problem p = {members, {0.0}, {0.0}, {0.0}};
     const double x[2] = {0.0, 0.0};
@@ -171,7 +165,7 @@ unsigned exact_holding(const exact *e) {
            exact_those(e, WH_FRICTION, WH_STUCK);
 }
 
-/* Accelerations and forces as the modes are; what has to pull pulls. Of rows that repeat each other the last ones get
+/* Accelerations and forces in the current modes; a contact that must pull pulls. Of dependent rows the last ones get
  * nothing. */
 void exact_accelerate(exact *e, double *a, double *force) {
     double own[2] = {0.0, 0.0};
@@ -204,7 +198,7 @@ void exact_accelerate(exact *e, double *a, double *force) {
     a[1] = own[1];
 }
 
-/* Which have more than they take? The stops go first, then the friction that is furthest above its limit. */
+/* Contacts above their limit: stops first, then the friction furthest above its limit. */
 void exact_give_way(exact *e) {
     for (;;) {
         double a[2];
@@ -273,8 +267,7 @@ double exact_kinetic(const exact *e) {
     return sum;
 }
 
-/* What rests goes back onto its place, and what else holds, but for those in `but`, stays with it. The energy is
- * contact `mover`'s, or, if there is none, the first one's that is off. */
+/* See exact_law.h. Without a `mover` the energy is the first contact's that is off. */
 void exact_put_back(exact *e, unsigned but, unsigned mover) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -285,7 +278,7 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
         if (exact_in(p.members, k) && exact_is(k, WH_STOP) && exact_sign(e, exact_gap(e, k)) != 0) {
             p.target[k] = -exact_gap(e, k);
             mover = mover < exact_forced() || mover == HAND_CONTACTS ? k : mover;
-            if (pin >= 0) { /* its coordinate alone; the furthest, of several */
+            if (pin >= 0) { /* its coordinate alone; the furthest of several */
                 const double by = p.target[k] / (double)hand_now.law[k].row[pin];
                 way[pin] = exact_size_of(by) > exact_size_of(way[pin]) ? by : way[pin];
             }
@@ -293,7 +286,7 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
     }
     e->x[0] += way[0];
     e->x[1] += way[1];
-    for (unsigned k = 0; k < exact_forced(); k++) { /* and what else is to be, around it */
+    for (unsigned k = 0; k < exact_forced(); k++) { /* and the places around it */
         p.target[k] = hand_now.contact[k].pin >= 0 ? 0.0 : p.target[k] - exact_along(k, way);
     }
     way[0] = 0.0;

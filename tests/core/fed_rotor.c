@@ -1,4 +1,4 @@
-/* fed_rotor.c: the made-up rotor under a speed drive, with observer and feed-forward beside it. */
+/* fed_rotor.c: the made-up rotor under a speed drive, with observer and feed-forward. */
 #include "fed_rotor.h"
 
 #include "build/gen/scenes.h"
@@ -22,7 +22,7 @@ void fed_rotor_standard(fed_rotor *fed, uint64_t seed) {
     fed->rotor.ticks = UINT32_MAX - UINT32_C(2500000); /* the timer wraps on the way */
 }
 
-/* The voltage that this speed takes. */
+/* The voltage for this speed. */
 static wh_real voltage_of(const rotor_kind *kind, wh_real speed_radps) {
     return (kind->drag_Nms * speed_radps + kind->friction_Nm) / kind->stall_Nm +
            speed_radps / kind->no_load_radps;
@@ -82,7 +82,7 @@ static void count(fed_rotor *fed) {
     }
 }
 
-/* One control step: what was computed at its begin holds for the next one. */
+/* One control step: the voltage computed at its start acts in the next one. */
 static void control(fed_rotor *fed) {
     const uint32_t now = fed->rotor.ticks;
     const wh_real speed = fed->speed.known ? fed->speed.turn_radps : fed->drive.setpoint_radps;

@@ -1,5 +1,5 @@
-/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward beside it, and what they are off by:
- * what tests of core/rig/observer.c and feed.c run. */
+/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward and their errors, for tests of
+ * core/rig/observer.c and feed.c. */
 #ifndef TESTS_CORE_FED_ROTOR_H
 #define TESTS_CORE_FED_ROTOR_H
 
@@ -11,7 +11,7 @@
 #define FED_STEP_TICKS 2000U
 #define FED_STEP_S WH_R(0.002)
 
-/* Where the voltage that gravity asks for comes from. */
+/* The source of gravity's voltage. */
 typedef enum fed_by { FED_BY_NOBODY, FED_BY_OBSERVER, FED_BY_TRUTH } fed_by;
 
 typedef struct fed_rotor {
@@ -24,13 +24,13 @@ typedef struct fed_rotor {
     wh_drive_config driving;
     wh_drive drive;
     wh_speed speed;
-    wh_real voltage; /* of the control step to come, a fraction of the rated one */
+    wh_real voltage; /* for the next control step, a fraction of the rated one */
     fed_by by;
-    unsigned lose_marks; /* so many to come, whichever sensor's */
+    unsigned lose_marks; /* this many, of either sensor */
     /* since fed_rotor_count(): */
     uint32_t steps;
     uint32_t valid;    /* of them with a valid observer, */
-    uint32_t lies;     /* with one that is valid and off by more than lie_rad */
+    uint32_t lies;     /* with a valid one that is off by more than lie_rad */
     wh_real worst_rad; /* while valid, as square_rad2 */
     wh_real square_rad2;
     wh_real least_radps;
@@ -41,21 +41,19 @@ typedef struct fed_rotor {
 
 #define FED_LIE_RAD WH_R(0.35)
 
-/* What the controller believes is the rig's standard; the rotor's kind and the rest are the caller's to change before
- * fed_rotor_start(), which sets it going at this speed. */
+/* The controller's settings are the standard rig's. The caller may change the rotor's kind and the rest before
+ * fed_rotor_start(), which sets it turning at this speed. */
 void fed_rotor_standard(fed_rotor *fed, uint64_t seed);
 wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm);
 
-/* Go on, with this set-point. */
 void fed_rotor_run(fed_rotor *fed, wh_real target_rpm, wh_real time_s);
 
-/* From now on the voltage is what this speed takes, and no drive corrects it. */
+/* From now on the voltage is this speed's, without a drive. */
 void fed_rotor_hold(fed_rotor *fed, wh_real speed_rpm);
 
-/* Begin counting. */
 void fed_rotor_count(fed_rotor *fed);
 
-/* Of what was counted: rms error of the angle while valid; half the range of the speed over its mean. */
+/* Of the counted steps: RMS angle error while valid; half the range of the speed over its mean. */
 wh_real fed_rotor_rms_rad(const fed_rotor *fed);
 wh_real fed_rotor_ripple(const fed_rotor *fed);
 wh_real fed_rotor_mean_rpm(const fed_rotor *fed);

@@ -58,17 +58,18 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)phase;
     (void)rate;
     (void)input;
-    for (unsigned k = 0; k < HAND_CONTACTS; k++) { /* with what is behind them: see hand_start() */
+    for (unsigned k = 0; k < HAND_CONTACTS;
+         k++) { /* with the values after them: see hand_start() */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
         law[WH_LAW_BIAS] = WH_R(0.0);
         if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
             m->law[k].first == WH_R(0.0)) {
-            law[WH_LAW_FIRST] = along(m, k, linear); /* as a curved one has */
+            law[WH_LAW_FIRST] = along(m, k, linear); /* like a curved one */
         } else if (m->contact[k].kind == WH_HOLD && m->contact[k].direction < 0 && linear != NULL) {
             law[WH_LAW_FIRST] =
-                along(m, k, linear) - m->law[k].offset; /* as one that inputs move */
+                along(m, k, linear) - m->law[k].offset; /* like one moved by inputs */
         }
         for (unsigned i = 0; i < m->n; i++) {
             law[WH_LAW_ROWS + i] = m->law[k].row[i];
@@ -77,7 +78,7 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     }
 }
 
-/* A crossing turns the first rate round and halves it, or puts the first coordinate somewhere. */
+/* A crossing reverses and halves the first rate, or sets the first coordinate. */
 static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
                       const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
@@ -87,7 +88,7 @@ static void hand_sets(const void *model, const wh_phase *phase, const wh_real *l
     result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
-/* Entries: what the loads and springs put into each momentum, and the loads' work. */
+/* Entries: the loads' and springs' effect on each momentum, and the loads' work. */
 static void hand_powers(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
@@ -116,7 +117,7 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
     }
 }
 
-/* What nobody wrote is no zero. */
+/* Uninitialized entries are not zero. */
 static void soil(void *memory, unsigned size) {
     unsigned char *byte = memory;
     for (unsigned i = 0; i < size; i++) {
@@ -124,7 +125,7 @@ static void soil(void *memory, unsigned size) {
     }
 }
 
-/* wh_step_contact() without its short way for calm steps. */
+/* wh_step_contact() without its shortcut for calm steps. */
 static wh_status eventful(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt attempt;
@@ -159,7 +160,6 @@ static uint64_t memory[WH_STATE_WORDS(0, 8, 1) + WH_CONTACT_WORDS(3) + WH_HELD_W
 wh_state hand_state;
 wh_real hand_pushed;
 
-/* One body of 1 kg, or two with the given mass matrix; no contact yet. */
 void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11) {
     const wh_real det = m00 * m11 - m01 * m01;
     hand_now = (hand){.n = n,
@@ -186,7 +186,7 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
-/* What is behind a scene's contacts is none of them: here it would stick, on the first coordinate, to the end. */
+/* Entries after a scene's contacts are invalid: used, they would stick on the first coordinate to the end. */
 static void put_sentinels(void) {
     for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
         hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};

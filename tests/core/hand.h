@@ -1,9 +1,9 @@
-/* hand.h: mechanisms with contacts written by hand: up to two coordinates, a constant mass matrix, constant
- * loads and springs, so that every result has a closed form. */
+/* hand.h: mechanisms with contacts, written by hand: up to two coordinates, a constant mass matrix, constant loads and springs,
+ * so that every result has a closed form. */
 #ifndef TESTS_HAND_H
 #define TESTS_HAND_H
 
-/* as a generated scene would: a board's stack is small */
+/* static, as in a generated scene: a board's stack is small */
 #define WH_LEDGER 1
 #define WH_LEDGER_MAX 12
 #define WH_ACCOUNTS_MAX 3
@@ -28,18 +28,18 @@ typedef struct hand {
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
-    unsigned bent;    /* so often a crossing's value is multiplied by its own square */
+    unsigned bent;    /* how often a crossing's value is multiplied by its own square */
     unsigned lost[2]; /* contacts whose first signal, or second, as bits, */
     wh_real nothing;  /* is this */
-    bool weighs;      /* the loads' energy is stored, and no work from outside */
-    bool eventful;    /* every step is taken as one with events is, however calm */
-    bool places;      /* a crossing assigns the first coordinate, */
-    wh_real place;    /* this, and not its rate */
+    bool weighs;      /* the loads' energy is potential energy, not external work */
+    bool eventful;    /* every step takes the path of steps with events */
+    bool places;      /* a crossing assigns the first coordinate */
+    wh_real place;    /* this value, not its rate */
     wh_real start[4];
     wh_scene scene;
 } hand;
 
-extern hand hand_now;             /* the mechanism that the calls below build and run */
+extern hand hand_now;             /* the mechanism of the calls below */
 extern wh_ledger_form hand_books; /* its ledger */
 extern wh_state hand_state;
 extern unsigned hand_looks; /* how often the signals were evaluated */
@@ -47,15 +47,15 @@ extern wh_real hand_pushed; /* the scene's input: a hold's condition, true above
 
 /* One body (of m00), or two with the given mass matrix; no contact, load or spring yet. */
 void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11);
-/* Add a contact; see hand.law for the numbers. Returns its number. Those with a force come first. */
+/* Adds a contact; see hand.law for the numbers. Returns its number. Contacts with a force come first. */
 unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
                   wh_real first, wh_real second);
-/* Put it at its start, with a step of 1 ms. */
+/* Puts it at its start, with a step of 1 ms. */
 void hand_start(bool with_books);
-/* So many steps, all of which must succeed. */
+/* Steps that must all succeed. */
 void hand_steps(unsigned count);
-/* |value - wanted|, at most `bound` in double and `bound_f` in float. A float sum rounds by up to 3e-8 of
- * its value a step, so what ran for n steps is bounded by n times that. */
+/* |value - wanted|, at most `bound` in double and `bound_f` in float. A float sum rounds by up to 3e-8 of its value a step, so
+ * n steps are bounded by n times that. */
 bool hand_near(wh_real value, wh_real wanted, double bound, double bound_f);
 
 /* Gravity, m/s^2. */

@@ -1,4 +1,4 @@
-/* on_plant.h: the rig's controller on the virtual rig, operated as boards/programs/rig.c does it; single precision only. */
+/* on_plant.h: the rig's controller on the virtual rig, operated as in boards/programs/rig.c; single precision only. */
 #ifndef TESTS_CORE_ON_PLANT_H
 #define TESTS_CORE_ON_PLANT_H
 
@@ -26,30 +26,29 @@ typedef struct on_plant {
     wh_rig_command command;
     bool drives; /* obey.h */
     trip_memory memory;
-    float fastest_radps; /* of the rotor itself, not as measured */
-    float noise_N;       /* standard deviation of what is added to each sample */
+    float fastest_radps; /* the rotor's own, not the measured one */
+    float noise_N;       /* standard deviation of the noise added to each sample */
 } on_plant;
 
 /* One control step. */
 void plant_control(on_plant *on);
 
-/* Post an order, step, and return the answer. */
+/* Posts an order, steps, and returns the answer. */
 wh_refusal plant_order(on_plant *on, wh_rig_event event, float value);
 
-/* The processor is reset while the rig is as it is, and starts again. */
+/* Resets and restarts the processor; the rig continues. */
 void plant_reset(on_plant *on, hal_reset cause);
 
-/* The hardware and its controller, idle at rest; armed; or at the tare of a run. */
+/* Hardware and controller: idle at rest; armed; or at the tare of a run. */
 void plant_start(on_plant *on);
 void plant_arm(on_plant *on);
 void plant_begin(on_plant *on, float target_rpm);
 
-/* Control until `phase` is reached or the run is over: nothing is left to wait for, idle, or tripped and at rest. A run
- * that does neither is stopped. */
+/* Runs until `phase`, or until the rig is idle, or tripped and at rest. An endless run is stopped. */
 void plant_go_on_until(on_plant *on, wh_rig_phase phase);
 void plant_go_on_to_the_end(on_plant *on);
 
-/* The run is through, and nothing tripped. */
+/* The run is finished without a trip. */
 bool plant_is_done(const on_plant *on);
 
 /* The rotor ends at rest, hanging, with the motor off. */

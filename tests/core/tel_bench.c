@@ -1,4 +1,4 @@
-/* tel_bench.c: a station with telemetry on made-up samples and pulses, and who hears it. */
+/* tel_bench.c: a station with telemetry on made-up samples and pulses, and its receiver. */
 #include "tel_bench.h"
 
 #include <string.h>
@@ -25,10 +25,10 @@ void tel_type(const char *line) {
     wh_station_take(&bench.station, "\n", 1);
 }
 
-/* --- what is heard ------------------------------------------------------------------------------------- */
+/* --- received ------------------------------------------------------------------------------------------ */
 
-/* Whichever of a kind is the next with this time and value; those before it were dropped. Where samples do not come evenly
- * their times are told within an eighth of what lies between them. */
+/* The next item of this kind with this time and value; earlier ones were dropped. With uneven samples the times are exact to an
+ * eighth of the sample distance. */
 static void find_sample(uint32_t ticks, int32_t value) {
     const uint32_t within = bench.got.uneven ? bench.tel.every * EVEN_STEP_TICKS / 8U : 0;
     while (bench.samples.taken < bench.samples.put &&
@@ -40,7 +40,7 @@ static void find_sample(uint32_t ticks, int32_t value) {
     bench.samples.taken++;
 }
 
-/* Ends of pulses are in one row with their beginnings; their value is the sensor and */
+/* Ends of pulses are in one sequence with their beginnings; their value is the sensor and */
 #define OF_AN_END 2
 
 static void find_pulse(uint32_t ticks, int32_t sensor) {
@@ -84,7 +84,7 @@ void tel_hear_frame(const wire_frame *frame) {
     }
 }
 
-/* The line takes so many bytes in a control step. */
+/* The line takes this many bytes per control step. */
 void tel_hear(unsigned bytes) {
     char room[64];
     while (bytes > 0) {
@@ -104,7 +104,7 @@ void tel_hear(unsigned bytes) {
     }
 }
 
-/* --- what is seen --------------------------------------------------------------------------------------- */
+/* --- sampled ------------------------------------------------------------------------------------------- */
 
 static void draw_sample(bool evenly) {
     const wh_cell_config *cell = &bench.even.config.measure.cell;
@@ -112,7 +112,7 @@ static void draw_sample(bool evenly) {
     const unsigned shift = wh_tel_shift(cell);
     sample->ticks = bench.cell_ticks;
     sample->raw = (int32_t)draw_whole(&bench.seed, (int)-cell->raw_max, (int)cell->raw_max);
-    if (draw_one_in(&bench.seed, 40)) { /* full scale, which is none, though nobody says so */
+    if (draw_one_in(&bench.seed, 40)) { /* full scale, which is invalid even without a flag */
         sample->raw = draw_one_in(&bench.seed, 2) ? cell->raw_max : -cell->raw_max;
     }
     sample->status = WH_LOAD_OK;
@@ -166,7 +166,7 @@ void tel_step(void) {
     wh_station_step(&bench.station, &bench.even.rig);
 }
 
-/* One control period of the firmware; the line takes so many bytes of it. */
+/* One control period of the firmware; the line takes this many bytes. */
 void tel_period(bool evenly, unsigned bytes) {
     even_step(&bench.even);
     tel_draw_seen(evenly);
@@ -178,6 +178,6 @@ void tel_turn_on(const char *rate) {
     tel_type(rate);
     tel_period(true, FREE);
     TEST_ASSERT_TRUE(bench.tel.every > 0);
-    bench.samples.taken = bench.samples.put; /* from now on */
+    bench.samples.taken = bench.samples.put;
     bench.pulses.taken = bench.pulses.put;
 }

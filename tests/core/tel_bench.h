@@ -1,4 +1,4 @@
-/* tel_bench.h: a station with telemetry on made-up samples and pulses, and who hears it: for the suites of telemetry. */
+/* tel_bench.h: a station with telemetry on made-up samples and pulses, and its receiver, for the suites of telemetry. */
 #ifndef TESTS_CORE_TEL_BENCH_H
 #define TESTS_CORE_TEL_BENCH_H
 
@@ -9,10 +9,10 @@
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 #define FREE 4096U /* bytes a step: a line that is never full */
 #define AT_115200 23U
-/* Of a chip whose int has 16 bits no type is as large; what it has room for does not run there. */
+/* No type may be this large on a chip with a 16-bit int; the tests that need the room do not run there. */
 #define TRUTHS (sizeof(int) > 2U ? 1024U : 64U)
 
-/* What was sent, and has not been heard yet. */
+/* Sent and not received yet. */
 typedef struct tel_truth {
     uint32_t ticks[TRUTHS];
     int32_t value[TRUTHS];
@@ -27,8 +27,8 @@ typedef struct tel_counts {
     uint16_t before[WH_TEL_CHANNELS];
     unsigned loads;
     bool broken; /* the line loses frames, too */
-    bool uneven; /* samples do not come evenly */
-    bool blind;  /* what frames hold is not looked at */
+    bool uneven; /* the line loses frames too */
+    bool blind;  /* samples come unevenly */
     bool any[WH_TEL_CHANNELS];
     uint16_t next[WH_TEL_CHANNELS];
 } tel_counts;
@@ -37,7 +37,7 @@ typedef struct tel_bench {
     even_rig even;
     wh_station station;
     wh_tel tel;
-    wh_seen seen; /* in the last step */
+    wh_seen seen; /* frame contents are not checked */
     wire heard;
     uint64_t seed; /* of what is drawn */
     uint32_t cell_ticks;
@@ -48,26 +48,25 @@ typedef struct tel_bench {
 
 extern tel_bench bench;
 
-/* At rest, telemetry off, nothing heard. */
+/* At rest, telemetry off, nothing received. */
 void tel_begin(void);
 
-/* A line. */
 void tel_type(const char *line);
 
-/* The line takes so many bytes; what they say is held against what was sent. */
+/* The line takes this many bytes, which are compared with the sent data. */
 void tel_hear(unsigned bytes);
 void tel_hear_frame(const wire_frame *frame);
 
-/* What this step sees: a sample a step, evenly; or now and then two, none, one that is late or none at all. And pulses. */
+/* This step's input: one sample a step, evenly; or now and then two, none, a late or an invalid one. And pulses. */
 void tel_draw_seen(bool evenly);
 
-/* The station with what this step has seen. */
+/* Steps the station with this step's input. */
 void tel_step(void);
 
-/* One control period of the firmware, of which the line takes so many bytes. */
+/* One control period of the firmware; the line takes this many bytes. */
 void tel_period(bool evenly, unsigned bytes);
 
-/* By this order; all that comes from now on is held against what is sent. */
+/* Starts telemetry by this order; all later output is compared with the sent data. */
 void tel_turn_on(const char *rate);
 
 #endif

@@ -1,5 +1,5 @@
-/* test_ahead.c: many steps in one call are as many steps, bit by bit, however they end; steps by a constant matrix and steps
- * that say what their length lacks in float, against closed forms. */
+/* test_ahead.c: many steps in one call equal single steps bit by bit, however they end. Compares steps by a constant matrix,
+ * and steps with a length correction in float, with closed forms. */
 #include "core/scene.h"
 #define WH_COORDS 3
 #include "core/step.h"
@@ -15,18 +15,18 @@ void suite_ahead(void);
 
 enum { STEPS = WH_TEST_SMALL ? 256 : 4096 };
 
-/* Where a double is no more than a float, as on AVR, it is no reference. */
+/* A double that is only a float, as on AVR, is no reference. */
 #define HAS_REFERENCE (__DBL_MANT_DIG__ >= 53)
 
 static uint64_t memory[WH_STATE_WORDS(1, 3, 1)];
 static wh_state state;
-static wh_real length[2]; /* of a step, and what that lacks */
+static wh_real length[2]; /* step length and its correction */
 
 static double size_of(double x) { return x < 0.0 ? -x : x; }
 
 /* --- many in one call ----------------------------------------------------------------------------------- */
 
-/* A pendulum that is driven, beside a mass on a spring. */
+/* A driven pendulum beside a mass on a spring. */
 static void accel(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *input, wh_real *result) {
     wh_real sine;
@@ -74,7 +74,6 @@ typedef struct ending {
     wh_real carry;
 } ending;
 
-/* Some steps, and then more with this input. */
 static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_real input) {
     TEST_ASSERT_TRUE(wh_scene_start(scene, &state, memory, sizeof memory) == WH_OK);
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, some) == WH_OK);
@@ -88,7 +87,7 @@ static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_rea
 }
 
 static void test_steps_ahead_are_steps(void) {
-    /* it goes on; the shaft turns ever faster, until half a turn a step is too much; no number */
+    /* continues; the shaft accelerates until half a turn per step is too much; not a number */
     const wh_real inputs[] = {WH_R(2.0), WH_R(300.0), (wh_real)__builtin_nan("")};
     length[0] = WH_R(0.0625);
     length[1] = WH_R(0.0);
@@ -119,7 +118,7 @@ static const double turn_sine = 2.0 * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_
 static const double turn_less =
     -2.0 * HALF_TANGENT * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_TANGENT); /* cos - 1 */
 
-/* What a constant lacks when it is a real. */
+/* The rounding error of a constant as a real. */
 static wh_real lack(double constant) {
     volatile wh_real kept = (wh_real)constant;
     return (wh_real)(constant - (double)kept);
@@ -148,7 +147,7 @@ static void rotate_by_changes(const void *model, const wh_phase *phase, const wh
     given[3] = lack(turn_less) * real[1] - lack(turn_sine) * real[0];
 }
 
-/* How far off x is after STEPS of them, from (1, 0): the rotation's power by squaring, in double. */
+/* The error of x after STEPS steps from (1, 0): the reference is the rotation's power by squaring, in double. */
 static double rotation_error(bool compensated) {
     wh_real real[2] = {WH_R(1.0), WH_R(0.0)};
     wh_real carry[2] = {WH_R(0.0), WH_R(0.0)};
@@ -178,7 +177,7 @@ static void test_a_matrix_turns_as_far_as_its_power(void) {
 
 #endif
 
-/* A shaft (angle, rate) that the input speeds up: mean rate r + u h/2, and r + u h behind it, or the change. */
+/* A shaft (angle, rate) accelerated by the input: mean rate r + u h/2, end rate r + u h, or the change. */
 static bool changes_only;
 static void speed_up(const void *model, const wh_phase *phase, const wh_real *real,
                      const wh_real *rate, const wh_real *input, wh_real *given) {
@@ -208,7 +207,7 @@ static void test_a_matrix_moves_angles(void) {
     }
 }
 
-/* The first component that is no mechanism's is blamed; nothing is moved. */
+/* The first invalid component is blamed; nothing moves. */
 static wh_real spoilt[6];
 static void spoil(const void *model, const wh_phase *phase, const wh_real *real,
                   const wh_real *rate, const wh_real *input, wh_real *given) {
@@ -242,7 +241,7 @@ static void test_what_a_matrix_spoils_is_refused(void) {
 }
 
 #if HAS_REFERENCE
-/* --- what a step's length lacks ----------------------------------------------------------------------------- */
+/* --- length correction --------------------------------------------------------------------------------------- */
 
 static void pull(const void *model, const wh_phase *phase, const wh_real *linear,
                  const wh_real *rate, const wh_real *input, wh_real *result) {
@@ -254,7 +253,7 @@ static void pull(const void *model, const wh_phase *phase, const wh_real *linear
     result[1] = input[0];
 }
 
-/* How far off a body and a shaft of this rate are after STEPS milliseconds under this acceleration, as parts of the way. */
+/* The relative errors of a body and a shaft of this rate after STEPS milliseconds under this acceleration. */
 static void errors_after(wh_method method, wh_real rest, wh_real push, double *line, double *turn) {
     const double milli_s = 0.001;
     const double end_s = milli_s * STEPS;
@@ -267,22 +266,22 @@ static void errors_after(wh_method method, wh_real rest, wh_real push, double *l
         TEST_ASSERT_TRUE(wh_step_second(NULL, pull, method, true, 1, 2,
                                         (wh_span){(wh_real)milli_s, rest}, &of) == WH_OK);
     }
-    /* Euler's methods take the rate of one end of each step for its mean */
+    /* Euler's methods use the rate at one end of the step as its mean */
     const double ends = method == WH_EULER ? -1.0 : method == WH_SEMI_IMPLICIT_EULER ? 1.0 : 0.0;
     const double way = end_s + (double)push * 0.5 * end_s * (end_s + ends * milli_s);
     *line = size_of((double)real[0] + (double)carry[1] - way) / way;
     *turn = size_of((double)wh_angle_to_rad(angle[0]) - way) / way;
 }
 
-/* A millisecond is no float, but one and a part in 2e7. Said in two parts, many of them last as long as they should, of
- * lines and of angles; said in one they do not. Accelerations add the rounding of their products. */
+/* A millisecond is no float: the error is a part in 2e7. In two parts many steps last the right time, for lines and angles; in
+ * one part they do not. Accelerations add the round-off of their products. */
 static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         double line;
         double turn;
         errors_after((wh_method)m, lack(0.001), WH_R(0.0), &line, &turn);
         TEST_ASSERT_TRUE(line < (WH_DOUBLE ? 1e-13 : 2e-9));
-        TEST_ASSERT_TRUE(turn < (WH_DOUBLE ? 1e-12 : 6e-8)); /* half a unit of what is read */
+        TEST_ASSERT_TRUE(turn < (WH_DOUBLE ? 1e-12 : 6e-8)); /* half a unit of the output */
         errors_after((wh_method)m, WH_R(0.0), WH_R(0.0), &line, &turn);
         TEST_ASSERT_TRUE(WH_DOUBLE || (line > 4.7e-8 && line < 4.8e-8));
         errors_after((wh_method)m, lack(0.001), WH_R(0.5), &line, &turn);

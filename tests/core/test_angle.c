@@ -1,4 +1,4 @@
-/* test_angle.c: angles moved on, and radians to and fro. WH_TEST_SMALL takes fewer angles. */
+/* test_angle.c: moved angles, and radians both ways. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"
@@ -67,7 +67,7 @@ static void test_phase_moves(void) {
     }
 }
 
-/* Steps of every size: rounded to the nearest, halves away from zero, as integers say it. */
+/* Steps of every size: rounded to the nearest, halves away from zero, as in integers. */
 static void test_phase_moves_to_the_nearest(void) {
     for (unsigned i = 0; i < 20000; i++) {
         const uint32_t digits = (uint32_t)(scattered() & 0xffffffU);
@@ -156,7 +156,7 @@ static void test_angle_from_rad_out_of_range(void) {
     }
     expect_from_rad(999999936.0f); /* the last float below */
     expect_from_rad(-999999936.0f);
-    /* the sine of such a number is none */
+    /* such a number has no sine */
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         wh_real sine = 0.5f;
         wh_real cosine = 0.5f;
@@ -183,7 +183,7 @@ static void test_angle_to_rad(void) {
 }
 
 static void test_there_and_back(void) {
-    /* The float of an angle, turned back, is within half a unit of the float's last place. */
+    /* The float of an angle, converted back, is within half a unit of the float's last place. */
     const uint32_t many = WH_TEST_SMALL ? 2000 : 200000;
     scattered_state = 5;
     for (uint32_t i = 0; i < many; i++) {
@@ -198,7 +198,7 @@ static void test_there_and_back(void) {
 
 /* --- parts of angles --------------------------------------------------------------------------- */
 
-/* The low half in front of the point of angle * factor, rounded: 128 bits, added up bit by bit. */
+/* The low half above the point of angle * factor, rounded: 128 bits, added up bit by bit. */
 static uint32_t times_reference(int64_t angle, wh_factor factor) {
     uint64_t shifted_high = angle < 0 ? UINT64_MAX : 0U;
     uint64_t shifted_low = (uint64_t)angle;
@@ -224,7 +224,7 @@ static void test_parts_of_angles(void) {
     const wh_factor more = WH_FACTOR(1.5, 1U, UINT64_C(1) << 63);
     const wh_factor less = WH_FACTOR(-0.5, UINT32_MAX, UINT64_C(1) << 63);
     const wh_factor third = WH_FACTOR(1.0 / 3.0, 0U, UINT64_C(6148914691236517205));
-    /* a turn more is half a turn of the half */
+    /* a further turn is half a turn of the half */
     TEST_ASSERT_EQUAL_UINT32(2 * QUARTER, wh_phase_times(turn, half));
     TEST_ASSERT_EQUAL_UINT32(0, wh_phase_times(2000 * turn, half));
     TEST_ASSERT_EQUAL_UINT32(2 * QUARTER, wh_phase_times(-2001 * turn, half));

@@ -1,6 +1,5 @@
-/* test_arithmetic.c: a start looks at the arithmetic: of this build, of a file that was compiled with other
- * flags (played by functions that compute otherwise), and of a processor that is set up otherwise. What real
- * flags of real compilers do is tests/flags.sh's. */
+/* test_arithmetic.c: the start checks the arithmetic of this build, of a file compiled with other flags (imitated by functions
+ * that compute differently), and of a processor in another mode. tests/flags.sh tests the flags of real compilers. */
 #include "core/number/arithmetic.h"
 #include "core/scene.h"
 
@@ -45,7 +44,7 @@ static void test_this_build_is_sound(void) {
 }
 
 static void test_a_scene_of_other_arithmetic_is_refused(void) {
-    /* what contraction, reordering, truncation, flushing, reciprocals and lost signs make of the probes */
+    /* the probes under contraction, reordering, truncation, flushing, reciprocals and lost signs */
 #if WH_DOUBLE
     static const wh_real made[WH_PROBED_COUNT] = {0x1p-54,
                                                   0x1p-54,
@@ -69,11 +68,11 @@ static void test_a_scene_of_other_arithmetic_is_refused(void) {
         spoilt_to = made[i];
         TEST_ASSERT_TRUE(start() == WH_E_ARITHMETIC);
         TEST_ASSERT_TRUE(state.fault == (int)i);
-        TEST_ASSERT_TRUE(state.steps == 5); /* as it was */
+        TEST_ASSERT_TRUE(state.steps == 5); /* as before */
     }
 }
 
-/* --- the processor's modes, where the compiler lets them be set ------------------------------------- */
+/* --- the processor's modes, if the compiler can set them -------------------------------------------- */
 #if defined(__SSE2_MATH__)
 #define MODES 1
 static const uint32_t flushing[] = {0x8000U, 0x40U, 0x8040U}; /* results, arguments, both */

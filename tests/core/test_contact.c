@@ -7,7 +7,7 @@ void suite_contact(void);
 
 /* --- stops ----------------------------------------------------------------------------------------- */
 
-/* From 1 m, restitution 1/2: bounces end at 3 sqrt(2 h / g), and the ball is where it is for a minute. */
+/* From 1 m, restitution 1/2: the bounces end at 3 sqrt(2 h / g), and the ball then rests for a minute. */
 static void test_ball_comes_to_rest_and_stays(void) {
     const wh_real rest_s = WH_R(3.0) * WH_SQRT(WH_R(2.0) / HAND_G);
     hand_build_ball(WH_R(0.5));
@@ -24,7 +24,7 @@ static void test_ball_comes_to_rest_and_stays(void) {
     TEST_ASSERT_TRUE(hand_state.contacts->overruns == 0);
 }
 
-/* The first impact: at sqrt(2 h / g), with -(1 + e) times the speed. */
+/* The first impact is at sqrt(2 h / g), with -(1 + e) times the speed. */
 static void test_first_impact_is_where_and_what_it_must_be(void) {
     const wh_real fall_s = WH_SQRT(WH_R(2.0) / HAND_G);
     hand_build_ball(WH_R(0.5));
@@ -52,7 +52,7 @@ static void test_perfect_bounces_keep_the_height(void) {
     TEST_ASSERT_TRUE(highest <= WH_R(1.0) + (WH_DOUBLE ? WH_R(1e-9) : WH_R(2e-4)));
 }
 
-/* A spring presses the body on the stop, then a load lifts it off again. */
+/* A spring presses the body onto the stop, then a load lifts it off. */
 static void test_resting_stop_lets_go_when_the_force_turns(void) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_now.load[0] = WH_R(-1.0);
@@ -68,8 +68,8 @@ static void test_resting_stop_lets_go_when_the_force_turns(void) {
     TEST_ASSERT_TRUE(hand_near(hand_state.real[1], WH_R(1.0), 1e-12, 1e-5)); /* 2 t */
 }
 
-/* M = (2 1; 1 2), v = (-3, 1), a stop on the first coordinate with e = 0.4: the impulse is
- * (1 + e) 3 / (M^-1)_00 = 6.3; v+ = v + M^-1 (6.3, 0); the second momentum does not change. */
+/* M = (2 1; 1 2), v = (-3, 1), a stop on the first coordinate with e = 0.4. The impulse is (1 + e) 3 / (M^-1)_00 = 6.3. Then v+
+ * = v + M^-1 (6.3, 0), and the second momentum does not change. */
 static void test_coupled_impact_goes_through_the_mass_matrix(void) {
     hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
@@ -101,7 +101,7 @@ static void test_too_many_bounces_are_counted_and_end(void) {
     TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
 }
 
-/* Between two walls 1 m apart, n of them hit in each step of 1 ms: all are told, of more than eight the first, and counted. */
+/* Between two walls 1 m apart, n of them hit in each 1 ms step. All hits are counted; the first eight are reported. */
 static void test_a_step_has_room_for_so_many_moments(void) {
     for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
         const unsigned n = each / 2U;
@@ -129,7 +129,7 @@ static void test_a_step_has_room_for_so_many_moments(void) {
     }
 }
 
-/* Where something presses, the body rests on the wall that it hits at the eighth moment, and would have left it. */
+/* A pressed body rests on the wall that it hits at the eighth moment, although it would have left it. */
 static void test_a_rest_at_the_last_moment_is_counted(void) {
     for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
@@ -171,7 +171,7 @@ static void test_block_slides_when_friction_is_too_small(void) {
     TEST_ASSERT_TRUE(hand_near(hand_state.real[0], WH_R(0.5) * slope, 1e-12, 2e-5));
 }
 
-/* Thrown at 1 m/s on a level table, mu g = 2: stops after 1/2 s and 1/4 m, and stays. */
+/* Thrown at 1 m/s on a level table, mu g = 2: stops after 1/2 s and 1/4 m. */
 static void test_thrown_block_stops_and_sticks(void) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(2.0));
@@ -185,8 +185,8 @@ static void test_thrown_block_stops_and_sticks(void) {
     TEST_ASSERT_TRUE(hand_state.real[0] == where && hand_state.real[1] == WH_R(0.0));
 }
 
-/* Two bodies of 1 kg at 1 and 3 m/s whose difference is held: both go on at 2 m/s (the momentum), and
- * when they are let go under a load on the first, only that one is accelerated. */
+/* Two bodies of 1 kg at 1 and 3 m/s with a held difference: both go on at 2 m/s (momentum). After release, a load on the first
+ * accelerates only that one. */
 static void test_hold_captures_and_lets_go(void) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
@@ -222,7 +222,7 @@ static void test_crossing_sets_the_rate(void) {
 
 /* --- refusals -------------------------------------------------------------------------------------- */
 
-/* A load that no body can take: the step is refused, with state, modes and books as they were. */
+/* A load beyond all bounds: the step is refused, with state, modes and books unchanged. */
 static void test_a_refused_step_changes_nothing(void) {
     hand_build_ball(WH_R(0.5));
     hand_start(true);
@@ -238,8 +238,7 @@ static void test_a_refused_step_changes_nothing(void) {
     TEST_ASSERT_TRUE(hand_state.fault >= 0);
 }
 
-/* The component that a load throws out of all bounds is told, at a run's first try, after an event of its step, and later.
- */
+/* The component that a load drives out of bounds is named at a run's first try, after an event of its step, and later. */
 static void test_the_component_that_diverged_is_told(void) {
     for (unsigned where = 0; where < 3; where++) {
         for (unsigned c = 0; c < 2; c++) {

@@ -1,5 +1,5 @@
-/* test_contact_assign.c: what a crossing assigns (contact_resolve.h): turn angles and reals, evaluated before any is set, with
- * their low parts gone; what no component can hold is blamed; on mechanisms that are drawn (bench.h). */
+/* test_contact_assign.c: a crossing's assignments (contact_resolve.h), on random mechanisms (bench.h). Turn angles and reals
+ * are evaluated before any is set, and their low parts are cleared. Invalid values are blamed. */
 #include "bench.h"
 
 #include "unity.h"
@@ -19,7 +19,7 @@ static void give(const void *model, const wh_phase *phase, const wh_real *linear
     result[0] = values[0];
 }
 
-/* One crossing on a drawn mechanism, of `angles` angles, that sets component `to`. Its number. */
+/* One crossing on a random mechanism of `angles` angles, which sets component `to`. Returns its number. */
 static unsigned draw_crossing(uint64_t *seed, unsigned n, unsigned angles, unsigned to,
                               wh_contact_work *w, wh_contact_state *s) {
     bench_build(seed, n, angles);
@@ -78,7 +78,7 @@ static void test_each_component_can_be_assigned(void) {
     }
 }
 
-/* A turn angle holds less than 1e9 rad, all else less than 1e15; no number is none. */
+/* A turn angle holds less than 1e9 rad, any other component less than 1e15; NaN is invalid. */
 static void test_what_cannot_be_held_is_blamed(void) {
     uint64_t seed = 1123;
     for (unsigned round = 0; round < 200; round++) {
@@ -97,7 +97,7 @@ static void test_what_cannot_be_held_is_blamed(void) {
     }
 }
 
-/* Without anything to set a crossing changes its side, and nothing else. */
+/* A crossing without assignments changes its side only. */
 static void test_nothing_to_set(void) {
     uint64_t seed = 311;
     for (unsigned round = 0; round < 40; round++) {

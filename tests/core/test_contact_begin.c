@@ -1,5 +1,5 @@
-/* test_contact_begin.c: what a step begins with (contact_step.h): whatever stood in its memory before, what drawn contacts'
- * laws read of it is set, and what holds keep is the state's. */
+/* test_contact_begin.c: a step's start (contact_step.h): whatever its memory held, all that the drawn contacts' laws read is
+ * set, and held places come from the state. */
 #include <stddef.h>
 
 #include "draw.h"

@@ -1,5 +1,5 @@
-/* test_contact_books.c: what a contact's correction is entered as (contact_ledger.h): of two drawn coupled bodies, by how much
- * energy and momenta changed, computed here from masses and springs, in the contact's own entries and in no other. */
+/* test_contact_books.c: the entries of a contact's correction (contact_ledger.h) for two random coupled bodies. The energy and
+ * momentum changes, computed here from masses and springs, are in that contact's entries only. */
 #include "draw.h"
 #include "hand.h"
 
@@ -11,7 +11,7 @@ static wh_contact_work w;
 static wh_contact_state s;
 static wh_ledger_work books;
 
-/* Energy and both momenta of it all. */
+/* Total energy and both momenta. */
 static void level_of(wh_real *level) {
     const wh_real *rate = s.real + 2;
     level[0] = WH_R(0.0);
@@ -61,7 +61,7 @@ static void test_corrections_are_entered_where_they_belong(void) {
         w.books = &books;
         wh_ledger_open(&hand_books, &hand_state, &books);
         const unsigned k = draw_one_of(&seed, 3);
-        const bool levels = draw_one_in(&seed, 2); /* by its levels, taken twice, or looked at */
+        const bool levels = draw_one_in(&seed, 2); /* by its levels, counted twice, or evaluated */
         for (unsigned i = 0; i < hand_books.entries; i++) {
             books.step[i] = WH_R(0.0);
         }

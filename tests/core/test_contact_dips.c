@@ -1,6 +1,6 @@
-/* test_contact_dips.c: stops into which a try dips (contact_step.h): of drawn bodies that move freely under constant loads,
- * so that both ends are known, those that end passed and on their way out are told, and of these the ones that were
- * open, or closing, at the begin were hit, and that those passed between two open ends are found. */
+/* test_contact_dips.c: stops into which a try dips (contact_step.h), for random bodies under constant loads with both ends
+ * known. Stops passed and on their way out at the end are reported. Those open or closing at the start were hit. Passes between
+ * two open ends are found. */
 #include "draw.h"
 #include "hand.h"
 
@@ -15,7 +15,7 @@ static wh_contact_attempt a;
 
 typedef struct drawn_stop {
     wh_real gap[2];  /* at the begin and at the end */
-    wh_real rate[2]; /* likewise */
+    wh_real rate[2]; /* the same */
 } drawn_stop;
 
 /* On x0 from below, on x1, on x0 from above. */
@@ -30,7 +30,7 @@ static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, w
     return s;
 }
 
-/* Too near to zero for rounding to tell. */
+/* Too near zero for round-off to decide. */
 static bool is_plain(const drawn_stop *s) {
     return WH_ABS(s->gap[1]) > WH_R(1e-6) && WH_ABS(s->rate[1]) > WH_R(1e-4) &&
            WH_ABS(s->gap[0]) > WH_R(1e-6) && WH_ABS(s->rate[0]) > WH_R(1e-4);
@@ -41,7 +41,7 @@ static void test_what_dips_and_comes_back(void) {
     unsigned dips = 0;
     unsigned leaves = 0;
     unsigned passed = 0; /* and left again within the try */
-    unsigned missed = 0; /* by so little that the tangents do not tell */
+    unsigned missed = 0; /* too little for the tangents to show */
     for (unsigned round = 0; round < 3000; round++) {
         wh_real input[1] = {WH_R(0.0)};
         wh_real offset[3];
@@ -98,7 +98,7 @@ static void test_what_dips_and_comes_back(void) {
             dips += hit;
             leaves += (leaving >> k & 1U) != 0 && closed && !hit;
         }
-        /* a parabola between two open ends: its lowest place says whether the stop is passed on the way */
+        /* a parabola between two open ends: its lowest place decides whether the stop is passed */
         for (unsigned k = 0; k < 3; k++) {
             const drawn_stop *s = &stop[k];
             const wh_real least =

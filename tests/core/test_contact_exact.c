@@ -1,6 +1,6 @@
-/* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads, held
- * step by step against what exact.h works out: state, modes, events with their times and impulses, and what each contact
- * gave. Where a decision hangs on less than rounding a run is left; most are not. */
+/* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads. Each step's
+ * state, modes, events and energies are compared with the reference of exact.h. A run ends where a decision depends on less
+ * than round-off; most do not. */
 #include <string.h>
 
 #include "draw.h"
@@ -25,13 +25,12 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
     return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
 }
 
-/* Stops, of which one in `touched` is, a hold, frictions, a crossing: at least one, three at most, under loads so
- * `heavy`. */
+/* Stops (one in `touched` is in touch), a hold, frictions, a crossing: one to three in all, under loads of size `heavy`. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = (unsigned)HAND_CONTACTS - crosses;
     const bool beside =
-        crosses && n == 2 && draw_one_in(seed, 2); /* it is the other coordinate's */
+        crosses && n == 2 && draw_one_in(seed, 2); /* it belongs to the other coordinate */
     wh_real row[2];
     hand_build(n, draw_broken(seed, 1, 4), n == 1 ? WH_R(0.0) : draw_broken(seed, -1, 1),
                draw_broken(seed, 2, 4));
@@ -102,15 +101,14 @@ static double rate_of(unsigned k) {
     return sum;
 }
 
-/* What contact k has pushed with along its row, by the books. */
+/* The impulse of contact k along its row, by the books. */
 static double impulse_of(unsigned k) {
     const wh_real *entry = hand_state.ledger + wh_ledger_of_contact(&hand_books, k) + 1;
     const unsigned i = hand_now.law[k].row[0] != WH_R(0.0) ? 0 : 1;
     return (double)(entry[i] / hand_now.law[k].row[i]);
 }
 
-/* Did it do anything? A stop that is found again by rounding, as it leaves, gets nothing, and one that another repeats
- * may get nothing. */
+/* Did the contact act? A stop found again by round-off as it leaves gets nothing, and a redundant one may get nothing. */
 static bool counts(const exact *e, const wh_event *event) {
     return hand_now.contact[event->contact].kind != WH_STOP || event->mode != WH_FREE ||
            !(e->shared || near((double)event->impulse, 0.0));
@@ -162,11 +160,11 @@ static bool same(const exact *e) {
 
 typedef struct tally {
     unsigned wrong;
-    unsigned steps; /* that were compared */
+    unsigned steps; /* compared ones */
     uint64_t events;
 } tally;
 
-/* A run, until it hangs on rounding. */
+/* A run, until a decision depends on round-off. */
 static void compare(tally *t) {
     exact e;
     bool good = true;
@@ -182,7 +180,7 @@ static void compare(tally *t) {
         t->steps++;
         t->events += e.logged;
         t->wrong += !good;
-        if (step % 8U == 7U) { /* what is held is let go, and the other way round */
+        if (step % 8U == 7U) { /* toggles the hold */
             hand_state.input[0] = -hand_state.input[0];
             e.pushed = -e.pushed;
         }
@@ -213,7 +211,7 @@ static void test_crossings_beside_what_touches(void) { run(16, 1, true, 1); }
 
 enum { CORRECTED = __STDC_HOSTED__ ? 500 : 25, AFTER = 40 };
 
-/* What a run has come to. */
+/* Results of a run. */
 typedef struct reached {
     wh_real real[4];
     wh_real held;
@@ -224,7 +222,7 @@ typedef struct reached {
 static reached reached_now(void) {
     const unsigned held = hand_now.system.held;
     reached r;
-    memset(&r, 0, sizeof r); /* padding is compared, too */
+    memset(&r, 0, sizeof r); /* padding is compared too */
     r.held = held > 0 ? hand_state.held[0] : WH_R(0.0);
     r.events = hand_state.contacts->events;
     for (unsigned i = 0; i < 2 * hand_now.n; i++) {
@@ -241,14 +239,14 @@ static void levels_now(wh_real *level) {
                       hand_state.input, level);
 }
 
-/* Some of the places and rates, or all where carries tell runs apart; the books keep the change by itself. */
+/* Corrects some of the places and rates, or all if carries distinguish runs; the books record the change. */
 static void correct(uint64_t *seed) {
     wh_real before[3];
     wh_real after[3];
     wh_real level[3];
     wh_real had[3];
     const bool all = hand_now.system.compensated;
-    double size = 1.0; /* of what the accounts round */
+    double size = 1.0; /* the accounts' round-off */
     for (unsigned a = 0; a <= hand_now.n; a++) {
         had[a] = wh_ledger_error(&hand_books, &hand_state, a, level);
         size += (double)WH_ABS(level[a]);
@@ -279,7 +277,7 @@ static wh_real gap_of(unsigned k) {
            hand_now.law[k].row[1] * hand_state.real[hand_now.n - 1] - hand_now.law[k].offset;
 }
 
-/* Stops in a mode, and those that are passed by more than `by`. */
+/* Stops in a mode, and those passed by more than `by`. */
 static unsigned stops_that(bool rest, wh_real by) {
     unsigned count = 0;
     for (unsigned k = 0; k < hand_now.system.forced; k++) {
@@ -289,7 +287,7 @@ static unsigned stops_that(bool rest, wh_real by) {
     return count;
 }
 
-/* A corrected run and one that starts where the correction leaves it: bit by bit. Nothing stays beyond a stop. */
+/* A corrected run equals, bit by bit, one that starts from the corrected state. No stop stays passed. */
 static void test_a_corrected_run_is_one_that_starts_there(void) {
     uint64_t seed = 4600;
     unsigned beyond = 0;
@@ -298,7 +296,7 @@ static void test_a_corrected_run_is_one_that_starts_there(void) {
         draw(&seed, 2, draw_one_in(&seed, 4), draw_one_in(&seed, 2) ? 128 : 1);
         hand_start(true);
         if (stops_that(false, WH_R(0.0)) > 0) {
-            continue; /* stops that exclude each other */
+            continue; /* contradictory stops */
         }
         i++;
         hand_steps(1 + draw_one_of(&seed, STEPS));
@@ -327,7 +325,7 @@ static void test_a_corrected_run_is_one_that_starts_there(void) {
     TEST_ASSERT_TRUE_MESSAGE(resting >= CORRECTED / 10, "too few rest when they are corrected");
 }
 
-/* Nothing of a refused correction stays. */
+/* A refused correction changes nothing. */
 static void test_no_number_is_no_correction(void) {
     static const wh_real bad[] = {WH_R(1e16), WH_R(-1e16), WH_R(0.0), WH_R(0.0)};
     volatile wh_real zero = WH_R(0.0);

@@ -1,5 +1,5 @@
-/* test_contact_flat.c: where holds lose their say (core/contact/contact_rank.h): where the rows are asked, what stands for a contact
- * that holds nothing, and at which of the places that a step leads to it is lost. */
+/* test_contact_flat.c: the places where holds become redundant (core/contact/contact_rank.h). Checks where rows are evaluated,
+ * the row of a contact without a hold, and the place of the loss. */
 #include "bench.h"
 
 #include "unity.h"
@@ -8,7 +8,7 @@ void suite_contact_flat(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Stops and holds on lines and angles, or holds alone; held: how many can slip. */
+/* Stops and holds on lines and angles, or holds alone; held: the number that can slip. */
 static void draw(uint64_t *seed, unsigned angles, wh_contact_work *w) {
     const unsigned stops = draw_one_in(seed, 2) ? WH_KIND_BIT(WH_STOP) : 0U;
     bench_build(seed, BENCH_COORDS, angles);
@@ -27,7 +27,7 @@ static bool holds(const wh_contact_work *w, unsigned k) {
     return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
 }
 
-/* Who holds nothing has a row of zeros, whatever stood there; who holds, what is not the others'. */
+/* A contact that holds nothing has a row of zeros; a hold has the row's part independent of the others. */
 static void test_rows_are_those_of_the_place(void) {
     uint64_t seed = 241;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -74,15 +74,14 @@ static void test_rows_are_those_of_the_place(void) {
     }
 }
 
-/* Rows that lean over with the first line's place. A step is looked at where it ends, and where its rates alone would
- * have led, which comes first; one that could not be made, there only; and only where a hold can slip that is no
- * straight one. */
+/* Rows that lean with the first line's place. A step is checked at its end and at the place that its rates alone lead to,
+ * whichever comes first. A refused step is checked only at the latter. The check needs a curved hold that can slip. */
 static void test_a_say_is_lost_at_either_place(void) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
-        wh_contact_state place[3]; /* from, where the rates lead, to */
+        wh_contact_state place[3]; /* from, rates' place, to */
         wh_contact_rows rows[3];
         bool any = false;
         draw(&seed, 0, &w);
@@ -117,7 +116,7 @@ static void test_a_say_is_lost_at_either_place(void) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 64 && seen[1] > ROUNDS / 64 && seen[2] > ROUNDS / 64);
 }
 
-/* Where the rates lead: of angles by their turn, of lines by their way. */
+/* The place that the rates lead to: angles by their turn, lines by their motion. */
 static void test_rates_lead_ahead(void) {
     uint64_t seed = 243;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

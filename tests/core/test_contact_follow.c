@@ -1,5 +1,5 @@
-/* test_contact_follow.c: what an input moves between steps: a stop that a body rests on, and what a hold holds; and the
- * accelerations that records show, with the contacts' forces. On mechanisms with closed forms (hand.h). */
+/* test_contact_follow.c: contacts moved by an input between steps (a stop with a resting body, a hold), and recorded
+ * accelerations with contact forces. Mechanisms with closed forms (hand.h). */
 #include "hand.h"
 
 #include "unity.h"
@@ -7,7 +7,7 @@
 void suite_contact_follow(void);
 
 #define STEP_S WH_R(0.001)
-#define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S) /* what a body falls in a step */
+#define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S) /* a body's fall in a step */
 
 /* A ball of 1 kg at rest on a stop that the input moves. */
 static void rest_on_a_stop(bool books) {
@@ -20,8 +20,8 @@ static void rest_on_a_stop(bool books) {
     TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE && hand_state.real[0] == WH_R(0.0));
 }
 
-/* Raised, or lowered by no more than the ball falls in a step, the stop takes the ball along: it rests where the stop is,
- * and the energy m g s is the stop's. */
+/* Raised, or lowered by no more than the ball's fall in a step, the stop takes the ball along. The energy m g s is the
+ * stop's. */
 static void test_a_stop_takes_along_what_rests_on_it(void) {
     const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
                              WH_R(-0.9) * REACH_M};
@@ -39,7 +39,7 @@ static void test_a_stop_takes_along_what_rests_on_it(void) {
     }
 }
 
-/* Lowered by more, it leaves the ball behind, which falls freely from where it was. */
+/* Lowered by more, it leaves the ball to free fall. */
 static void test_a_stop_that_drops_away_leaves_the_ball(void) {
     const wh_real moves[] = {WH_R(-1.2) * REACH_M, WH_R(-2.0) * REACH_M, WH_R(-1e-3), WH_R(-2.0)};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
@@ -50,15 +50,14 @@ static void test_a_stop_that_drops_away_leaves_the_ball(void) {
         TEST_ASSERT_TRUE(hand_near(hand_state.real[0], -REACH_M, 1e-18, 1e-12));
         TEST_ASSERT_TRUE(hand_near(hand_state.real[1], -HAND_G * STEP_S, 1e-16, 1e-9));
         TEST_ASSERT_TRUE(hand_state.ledger[wh_ledger_of_contact(&hand_books, 0)] == WH_R(0.0));
-        hand_steps(
-            40); /* it comes down onto the stop, if that is near: loses its height, bounces by half */
+        hand_steps(40); /* onto the stop, if that is near: loses its height, bounces by half */
         TEST_ASSERT_TRUE(i == 3 || hand_state.contacts->events > 0);
         TEST_ASSERT_TRUE(hand_state.real[0] >= moves[i] - WH_R(1e-9));
     }
 }
 
-/* One that no input moves (direction 0) is looked at as well: nothing is off. And of two on two stops only the one whose
- * stop was moved is taken along. */
+/* A stop that no input moves (direction 0) is checked too: no error. Of two bodies on two stops only the one on the moved stop
+ * is taken along. */
 static void test_others_stay_where_they_are(void) {
     for (unsigned moved = 0; moved < 2; moved++) {
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));
@@ -83,8 +82,8 @@ static void test_others_stay_where_they_are(void) {
 
 /* --- holds ------------------------------------------------------------------------------------------------ */
 
-/* Two bodies of 1 and 3 kg held at a distance from an input with a rate, drawn by a load. What the input jumps by is put
- * right at once, by both bodies, as their masses say; both go on as one body of 4 kg. */
+/* Two bodies of 1 and 3 kg held at a distance from an input with a rate, drawn by a load. A jump of the input is corrected at
+ * once by both bodies in the ratio of their masses; both continue as one body of 4 kg. */
 static void test_a_hold_takes_along_what_it_holds(void) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(3.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
@@ -107,7 +106,7 @@ static void test_a_hold_takes_along_what_it_holds(void) {
     hand_pushed = WH_R(0.0);
 }
 
-/* --- what records show --------------------------------------------------------------------------------------- */
+/* --- recorded accelerations ---------------------------------------------------------------------------------- */
 
 static wh_real shown(unsigned i) {
     wh_real accel[WH_COORDS];
@@ -117,8 +116,8 @@ static wh_real shown(unsigned i) {
     return accel[i];
 }
 
-/* Before the first step as after it: at rest on a stop nothing accelerates, above it all falls; friction holds what it can
- * and slows what slides by what it has. */
+/* Before and after the first step: at rest on a stop the acceleration is zero, above it all falls. Friction holds up to its
+ * limit and slows a slide by its kinetic value. */
 static void test_accelerations_with_their_contacts(void) {
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));

@@ -1,5 +1,5 @@
-/* test_contact_forces.c: the forces and impulses of core/contact/contact_forces.h, and the elimination that they stand on: against
- * dense solves, and, where contacts repeat each other, the sharing that test_contact_pivot.c tests. */
+/* test_contact_forces.c: the forces and impulses of core/contact/contact_forces.h and their elimination, against dense solves.
+ * For redundant contacts the reference is the sharing that test_contact_pivot.c tests. */
 #include "bench.h"
 
 #include "unity.h"
@@ -13,7 +13,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_work(seed, some, w);
 }
 
-/* What the others make of each other's accelerations; who repeats them, or is at a limit, does nothing. */
+/* The others' effect on each other's accelerations. A redundant contact, or one at a limit, has none. */
 static void test_a_load_is_what_a_dense_solve_says(void) {
     uint64_t seed = 101;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -53,8 +53,8 @@ static void test_a_load_is_what_a_dense_solve_says(void) {
 
 /* --- forces -------------------------------------------------------------------------------------------------- */
 
-/* What slides pushes against its way, by its second law; the others keep J q'' + J' q' at zero. Returns those that do,
- * how many, and what is wanted of them. */
+/* A sliding contact pushes against its motion by its second law; the others keep J q'' + J' q' at zero. Returns the number of
+ * members, and their targets. */
 static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *member,
                             wh_real *wanted, wh_real *force) {
     unsigned count = 0;
@@ -145,7 +145,7 @@ static void test_forces_keep_what_is_kept(void) {
     TEST_ASSERT_TRUE(regular > ROUNDS / 32);
 }
 
-/* Do those that repeat others get from these what is wanted of them? */
+/* Do the redundant contacts get their targets from these? */
 static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, const wh_real *wanted,
                    wh_real *lambda) {
     bool good = true;
@@ -160,8 +160,8 @@ static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, cons
     return good;
 }
 
-/* Where some repeat others: if all agree and none has too much, they have nothing to do; else the load is shared, and
- * who cannot take its share says so by a force beyond its limit. The motion changes only where they contradict. */
+/* Redundant contacts: if all agree and no limit is exceeded, they carry nothing. Otherwise the load is shared, and a contact
+ * that cannot take its share reports a force beyond its limit. The motion changes only for contradictory contacts. */
 static void test_what_repeats_others_shares_their_load(void) {
     uint64_t seed = 222;
     unsigned seen[2][2] = {{0}};
@@ -200,7 +200,7 @@ static void test_what_repeats_others_shares_their_load(void) {
         if (repeats == 0) {
             continue;
         }
-        for (unsigned i = 0; i < count; i++) { /* of what bends their paths by itself, and of all */
+        for (unsigned i = 0; i < count; i++) { /* of its own path's curvature, and of all */
             bend[i] = -bench_now.bias[member[i]];
         }
         contradicts = !agrees(member, count, repeats, bend, lambda);
@@ -210,7 +210,7 @@ static void test_what_repeats_others_shares_their_load(void) {
             exceeds = exceeds || wh_contact_exceeds(of, &w, member[i], lambda[i]);
             open = open || (stop && (repeats >> i & 1U) == 0 && bench_near(lambda[i], WH_R(0.0)));
         }
-        if (open) { /* a force of zero, but for rounding: beyond its limit, or not? */
+        if (open) { /* a force of zero up to round-off: beyond its limit? */
             continue;
         }
         wh_contact_accel(&model, at.phase, at.linear, at.rate, NULL, accel);
@@ -223,8 +223,7 @@ static void test_what_repeats_others_shares_their_load(void) {
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = member[i];
             wh_real force_of = lambda[i];
-            if ((giving >> k & 1U) !=
-                0) { /* what it would have to take on top, and a thousandth at least */
+            if ((giving >> k & 1U) != 0) { /* its additional force, at least a thousandth */
                 force_of -= left[i] / bench_delassus(k, k);
                 if (!wh_contact_exceeds(of, &w, k, force_of)) {
                     force_of +=
@@ -233,7 +232,7 @@ static void test_what_repeats_others_shares_their_load(void) {
             }
             TEST_ASSERT_TRUE(bench_near(w.force[k], force_of));
         }
-        if (!contradicts) { /* to the bit what it would be if nothing were shared */
+        if (!contradicts) { /* to the bit as without sharing */
             (void)wh_delassus_solve(of, &w, member, count, NULL, w.wanted, plain);
             for (unsigned i = 0; i < count; i++) {
                 wh_contact_apply(of, &w, member[i], plain[i], unshared);
@@ -259,7 +258,7 @@ static void test_what_repeats_others_shares_their_load(void) {
     TEST_ASSERT_TRUE(seen[0][1] > ROUNDS / 32 && seen[1][1] > ROUNDS / 32);
 }
 
-/* What is pinned and held has no acceleration at all; but what is held back must be a number. */
+/* A pinned and held coordinate has zero acceleration, but its unconstrained acceleration must be a number. */
 static void test_no_number_stays_none_where_it_is_pinned(void) {
     uint64_t seed = 223;
     for (unsigned round = 0; round < ROUNDS / 8; round++) {
@@ -283,8 +282,8 @@ static void test_no_number_stays_none_where_it_is_pinned(void) {
 
 /* --- impulses ------------------------------------------------------------------------------------------------- */
 
-/* Each in the set to its target, what holds and those beside it to zero, by no more than they push; who is pinned and
- * comes to zero is there exactly. Impulses come on top of what there was; the books get the work of the mean speed. */
+/* Each contact in the set reaches its target; holds and neighbouring stops reach zero, stops by pushing only. A pinned contact
+ * that comes to zero is there exactly. Impulses add to the earlier ones; the books get the work at the mean speed. */
 static void test_impulses_lead_to_their_targets(void) {
     uint64_t seed = 224;
     unsigned given = 0;

@@ -1,5 +1,5 @@
-/* test_contact_impact.c: what an impact asks before it acts (core/contact/contact_impact.h), function by function: who is
- * pressed, who rests, who merely touches, who is hit along with it. Numbers just on either side of each limit. */
+/* test_contact_impact.c: the decisions before an impact (core/contact/contact_impact.h), function by function: pressed,
+ * resting, touching, hit along. Numbers lie just on either side of each limit. */
 #include "bench.h"
 
 #include "unity.h"
@@ -26,7 +26,7 @@ static bool is_stop(unsigned k) { return bench_now.contact[k].kind == WH_STOP; }
 
 /* --- one stop ------------------------------------------------------------------------------------------------ */
 
-/* What presses by no more than rounding of its terms presses not at all, but a stop that is alone takes it as it is. */
+/* A press within its terms' round-off does not count, except for a lone stop, which takes it as it is. */
 static void test_who_is_pressed(void) {
     uint64_t seed = 301;
     unsigned pressed = 0;
@@ -56,8 +56,8 @@ static void test_who_is_pressed(void) {
     TEST_ASSERT_TRUE(pressed > ROUNDS / 3 && pressed < ROUNDS);
 }
 
-/* A flight that would be shorter than its share of the step is none; where nothing presses, only what stands still (as
- * far as its rate is known) rests. */
+/* A flight shorter than its share of the step does not count. Without a press, a stop rests only if it stands still, as far as
+ * its rate is known. */
 static void test_who_rests(void) {
     uint64_t seed = 302;
     unsigned resting = 0;
@@ -86,7 +86,7 @@ static void test_who_rests(void) {
                                                    : false;
         TEST_ASSERT_TRUE(wh_contact_rests(&bench_now.system, &w, k, &m, speed, accel, rate) ==
                          wanted);
-        TEST_ASSERT_TRUE(pressing != WH_R(0.0) || /* one alone: not even a little */
+        TEST_ASSERT_TRUE(pressing != WH_R(0.0) || /* a lone stop: not even a little */
                          !wh_contact_rests(&bench_now.system, &w, k, &m, 64, accel, rate));
         resting += wanted;
     }
@@ -95,7 +95,7 @@ static void test_who_rests(void) {
 
 /* --- several ------------------------------------------------------------------------------------------------- */
 
-/* Resting stops with restitution whose force is none beside what the accelerations and the other forces amount to. */
+/* Resting stops with restitution whose force is zero relative to the accelerations and the other forces. */
 static void test_who_merely_touches(void) {
     uint64_t seed = 303;
     unsigned loose = 0;
@@ -128,7 +128,7 @@ static void test_who_merely_touches(void) {
     TEST_ASSERT_TRUE(loose > ROUNDS / 32);
 }
 
-/* Free stops that close and have come within what they close by in the finest share of the step. */
+/* Closing free stops whose gap is within the motion of the step's finest share. */
 static void test_who_is_hit_in_the_same_moment(void) {
     uint64_t seed = 304;
     unsigned tied = 0;
@@ -165,7 +165,7 @@ static void test_who_is_hit_in_the_same_moment(void) {
     TEST_ASSERT_TRUE(tied > ROUNDS / 32);
 }
 
-/* Free stops that were not hit and have been made to close, or to close more than twice as fast, while touched. */
+/* Free stops in touch that a hit made close, or close more than twice as fast. */
 static void test_to_whom_an_impact_is_passed_on(void) {
     uint64_t seed = 305;
     unsigned passed = 0;
@@ -173,7 +173,7 @@ static void test_to_whom_an_impact_is_passed_on(void) {
         wh_contact_work w;
         wh_real before[2 * BENCH_CONTACTS];
         wh_real after[2 * BENCH_CONTACTS];
-        unsigned wanted = draw_one_in(&seed, 2) ? 1U : 0U; /* who was before */
+        unsigned wanted = draw_one_in(&seed, 2) ? 1U : 0U; /* the earlier ones */
         bench_draw(&seed, true);
         bench_work(&seed, true, &w);
         w.hit_next = wanted;
@@ -198,7 +198,7 @@ static void test_to_whom_an_impact_is_passed_on(void) {
     TEST_ASSERT_TRUE(passed > ROUNDS / 64);
 }
 
-/* Free stops without restitution that are touched, and at rest beside what a hit passes on to them. */
+/* Free stops without restitution, in touch and at rest relative to the hit's effect on them. */
 static void test_who_is_beside_an_impact(void) {
     uint64_t seed = 306;
     unsigned beside = 0;
@@ -221,7 +221,7 @@ static void test_who_is_beside_an_impact(void) {
         for (unsigned i = 0; i < BENCH_CONTACTS; i++) {
             was[i] = draw_whole(&seed, -4, 0);
             target[i] = draw_whole(&seed, 0, 4);
-            signal[2 * i] = signal[2 * i + 1] = BENCH_SENTINEL; /* nobody else is touched */
+            signal[2 * i] = signal[2 * i + 1] = BENCH_SENTINEL; /* no other is in touch */
         }
         const wh_real passed_on =
             WH_ABS(bench_delassus(l, k) * (target[k] - was[k])) / bench_delassus(k, k);
@@ -229,7 +229,7 @@ static void test_who_is_beside_an_impact(void) {
         signal[2 * l] = passed_on * (h * WH_BRACKET) * beside_one(&seed, &touched);
         const wh_real share = beside_one(&seed, &still);
         bench_vector(&seed, rate);
-        for (unsigned i = 0; i < n; i++) { /* along its row: so fast */
+        for (unsigned i = 0; i < n; i++) { /* its speed along the row */
             const wh_real size = bench_delassus(l, l);
             rate[i] = bench_way(l, i) / size * (WH_CONTACT_STILL * passed_on * share);
         }
@@ -243,7 +243,6 @@ static void test_who_is_beside_an_impact(void) {
     TEST_ASSERT_TRUE(beside > ROUNDS / 128);
 }
 
-/* A restitution counts from 0 to 1, and must be a number. */
 static void test_a_restitution(void) {
     uint64_t seed = 307;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -266,7 +265,7 @@ static void test_a_restitution(void) {
 
 /* --- after too many events ------------------------------------------------------------------------------------ */
 
-/* A bent surface is met by Newton's steps, but so many at most: after the last look nothing moves. */
+/* A curved surface is met by a limited number of Newton steps; after the last evaluation nothing moves. */
 static void test_a_squeeze_ends(void) {
     uint64_t seed = 308;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -279,7 +278,7 @@ static void test_a_squeeze_ends(void) {
         bench_state(&seed, &s);
         s.real[0] = x;
         bench_now.row[0][0] = WH_R(0.0);
-        bench_now.signal[0] = h; /* the gap: h - x^2/2, whose root is never met exactly */
+        bench_now.signal[0] = h; /* the gap: h - x^2/2, whose root is never exact */
         bench_work(&seed, false, &w);
         w.mode[0] = WH_FREE;
         bench_now.moves = true;
@@ -298,8 +297,8 @@ static void test_a_squeeze_ends(void) {
     }
 }
 
-/* A correction has put the body behind a surface that curves away from it: the first push goes too far, and the others take
- * it back, on the side on which it was. */
+/* A correction has put the body beyond a surface that curves away from it. The first push overshoots, and the others bring it
+ * back to the original side. */
 static void test_what_is_pushed_too_far_comes_back(void) {
     uint64_t seed = 309;
     for (unsigned round = 0; round < ROUNDS; round++) {

@@ -1,4 +1,5 @@
-/* test_contact_holds.c: the parts of core/contact/contact_lcp.h, each by itself: against a dense solve, sums written out, and what their comments say, with limits met exactly. */
+/* test_contact_load.c: the parts of core/contact/contact_lcp.h one by one, against a dense solve, explicit sums and their
+ * comments; limits are met exactly. */
 #include "bench.h"
 
 #include "unity.h"
@@ -18,7 +19,7 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     }
 }
 
-/* A stop from nothing on, friction as far as it goes, a hold whatever it takes: to the limit, and no further. */
+/* A stop pushes from zero on, friction up to its limit, a hold without limit: up to the limit, and no further. */
 static void test_who_takes_how_much(void) {
     uint64_t seed = 102;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -40,7 +41,7 @@ static void test_who_takes_how_much(void) {
     }
 }
 
-/* Its own terms: the bias, and what each coordinate gets of the accelerations there are and of every force. */
+/* Its own terms: the bias, and each coordinate's share of the accelerations and of every force. */
 static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *accel) {
     wh_real size = WH_ABS(bench_now.bias[k]);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
@@ -52,7 +53,7 @@ static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *acc
     return size;
 }
 
-/* And the most that comes to it from another along any chain in which nobody stands twice. */
+/* And the largest effect of another contact along any chain without repetition. */
 static wh_real size_of(const wh_contact_work *w, const uint8_t *member, unsigned count, unsigned i,
                        unsigned passed, const wh_real *accel) {
     wh_real most = terms_of(w, member[i], accel);
@@ -87,7 +88,7 @@ static void test_sizes_beside_which_is_rounding(void) {
         for (unsigned i = 0; i < count; i++) {
             w.rough[member[i]] = BENCH_SENTINEL;
         }
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* of nobody else */
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* of no other */
             TEST_ASSERT_TRUE(w.rough[k] == BENCH_SENTINEL);
         }
     }
@@ -96,7 +97,7 @@ static void test_sizes_beside_which_is_rounding(void) {
     TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
 }
 
-/* Which way is pushed where something is missing, or, beside it, in the bend alone; `impulse`: of rates, no bend. */
+/* The direction of a missing force, or of the curvature's alone; `impulse`: of rates, without curvature. */
 static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
                      wh_real bends_by) {
     const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));
@@ -111,7 +112,7 @@ static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, 
     return 0;
 }
 
-/* At the threshold, below it and above it, of every term by itself. */
+/* At the threshold, below it and above it, for every term alone. */
 static void test_what_contradicts_is_told_from_rounding(void) {
     uint64_t seed = 104;
     unsigned seen[3] = {0};
@@ -133,7 +134,8 @@ static void test_what_contradicts_is_told_from_rounding(void) {
                                   WH_R(1.0) / WH_CONTACT_CREEP};
         const wh_real big = scale[draw_bits(&seed) % (rates ? 2U : 3U)];
         const wh_real small = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(0.0);
-        const wh_real more = big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* the bend is not exact */
+        const wh_real more =
+            big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* the curvature is not exact */
         draw_places(&seed, count, at);
         bench_vector(&seed, way);
         for (unsigned i = 0; i < count; i++) {
@@ -142,7 +144,8 @@ static void test_what_contradicts_is_told_from_rounding(void) {
             w.rough[k] = (draw_whole(&seed, 0, 4) + more) * big;
             impulse[i] = draw_whole(&seed, -4, 4) * (rates ? big : WH_R(1.0));
             wanted[i] = bench_along(k, way) + draw_whole(&seed, -8, 8);
-            if (rates && draw_one_in(&seed, 2)) { /* of its own size only rounding, or just more */
+            if (rates &&
+                draw_one_in(&seed, 2)) { /* relative to its size round-off only, or just more */
                 const wh_real made = bench_along(k, way);
                 const wh_real part = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
                 wanted[i] = made + part * WH_CONTACT_ROUNDING * made;
@@ -151,7 +154,7 @@ static void test_what_contradicts_is_told_from_rounding(void) {
         }
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         const unsigned repeats = bench_repeats(member, count, at);
-        /* whoever does not repeat others has no bend of his own left */
+        /* an independent contact has no curvature of its own left */
         const unsigned any = small == WH_R(0.0) || rates ? (1U << count) - 1U : repeats;
         const unsigned asked = any & (unsigned)draw_bits(&seed);
         out = repeats;
@@ -189,8 +192,8 @@ static void test_what_contradicts_is_told_from_rounding(void) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 8 && seen[1] > ROUNDS / 8 && seen[2] > ROUNDS / 8);
 }
 
-/* Two of one row whose paths bend by nearly the same: the difference counts beside both bends and what makes
- * the one of them. */
+/* Two contacts of one row with nearly equal curvature: the difference counts relative to both curvatures and the terms of one
+ * of them. */
 static void test_a_small_difference_of_bends_is_none(void) {
     uint64_t seed = 107;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -220,7 +223,7 @@ static void test_a_small_difference_of_bends_is_none(void) {
     }
 }
 
-/* Who reaches a limit first, if contact i, which repeats the others, is pushed on and nothing is to move. */
+/* The contact that reaches a limit first if redundant contact i is pushed and nothing moves. */
 static unsigned first_of(const uint8_t *member, unsigned count, const int8_t *at,
                          const wh_real *lambda, unsigned i, int8_t push, int8_t *limit, bool *tie) {
     int8_t fixed[BENCH_CONTACTS];
@@ -306,7 +309,7 @@ static void test_who_is_at_a_limit_first_gives_way(void) {
     TEST_ASSERT_TRUE(asked > ROUNDS / 10 && others > ROUNDS / 40);
 }
 
-/* One round: who is at a limit pushes as far, the others bear what is left of what is wanted. */
+/* One round: contacts at a limit push with it, and the others take the remainder. */
 static void test_a_round_bears_what_limits_leave(void) {
     uint64_t seed = 106;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -341,7 +344,7 @@ static void test_a_round_bears_what_limits_leave(void) {
             right[i] = at[i] != 0 ? right[i] : lambda[i];
             lambda[i] = BENCH_SENTINEL;
         }
-        if (count > 1) { /* of one, contact_lcp_one() makes it */
+        if (count > 1) { /* of one contact: contact_lcp_one() solves it */
             TEST_ASSERT_EQUAL_UINT(repeats, wh_contact_lcp_round(&bench_now.system, &w, member,
                                                                  count, at, wanted, lambda, way));
             for (unsigned c = 0; c < bench_now.system.coordinates; c++) {

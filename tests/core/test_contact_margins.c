@@ -1,5 +1,5 @@
-/* test_contact_margins.c: what the search of core/contact/contact_locate.h knows of each contact, the way it searches on, and who
- * is told to be no number, of several. */
+/* test_contact_margins.c: the contact margins of the search in core/contact/contact_locate.h, its path, and the contact
+ * reported for NaN among several. */
 #include "bench.h"
 
 #include "unity.h"
@@ -8,7 +8,7 @@ void suite_contact_margins(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Contacts of some kinds in some modes, and a crossing or two if there is room. */
+/* Contacts of some kinds in some modes, with room permitting a crossing or two. */
 static void draw(uint64_t *seed, wh_contact_work *w) {
     bench_draw(seed, true);
     while (bench_now.system.contacts < BENCH_FORCED && draw_one_in(seed, 2)) {
@@ -30,7 +30,7 @@ static void draw(uint64_t *seed, wh_contact_work *w) {
 
 /* --- margins ------------------------------------------------------------------------------------------------ */
 
-/* What may be the rounding of the others' forces, as far as they act along k. */
+/* Bound on the round-off of the others' forces along k. */
 static wh_real others_of(const wh_contact_work *w, unsigned k) {
     wh_real others = WH_R(0.0);
     for (unsigned l = 0; l < bench_now.system.forced; l++) {
@@ -82,8 +82,8 @@ static wh_real margin_of(const wh_contact_work *w, unsigned k) {
     return BENCH_SENTINEL;
 }
 
-/* What a step builds on: both signals of a stop and a hold, a crossing's and a friction's one, and a friction's limit
- * while it sticks. */
+/* The signals that a step depends on: both of a stop and a hold, one of a crossing and a friction, and a sticking friction's
+ * limit. */
 static wh_real sum_of(const wh_contact_work *w) {
     wh_real all = WH_R(0.0);
     for (unsigned k = 0; k < bench_now.system.contacts; k++) {
@@ -136,9 +136,8 @@ static void test_margins_are_those_of_their_kinds(void) {
     }
 }
 
-/* --- no numbers --------------------------------------------------------------------------------------------- */
+/* --- NaN and infinity ----------------------------------------------------------------------------------------- */
 
-/* Neither of these is a number: */
 static wh_real draw_none(uint64_t *seed) {
     const wh_real zero = WH_R(0.0) * bench_now.free[0];
     return draw_one_in(seed, 3)   ? zero / zero
@@ -148,7 +147,7 @@ static wh_real draw_none(uint64_t *seed) {
 
 static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
 
-/* A contact's law, that of the mode it is in, as far as a step builds on it: none of a stop. */
+/* The law in the contact's current mode, if a step depends on it: none for a stop. */
 static bool law_is_number(const wh_contact_work *w, unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
     const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && bench_keeps(w, k));
@@ -156,8 +155,8 @@ static bool law_is_number(const wh_contact_work *w, unsigned k) {
     return !asked || is_number(second ? bench_now.second[k] : bench_now.first[k]);
 }
 
-/* Of several, none or some of them no numbers: signals are asked first, then laws if any contact acts, then margins; of
- * each of these the first is told, and whoever was told before stays. */
+/* Among several contacts, some of them NaN, signals are checked first, then laws if any contact acts, then margins. The first
+ * NaN of each is reported, and an earlier report stays. */
 static void test_the_first_that_is_no_number_is_told(void) {
     uint64_t seed = 183;
     unsigned told[BENCH_FORCED] = {0};
@@ -209,7 +208,7 @@ static void test_the_first_that_is_no_number_is_told(void) {
     }
 }
 
-/* Calm is who is at zero or above, and all of it a number; nobody behind the last is asked. */
+/* Calm: all margins zero or above, and no NaN. Nothing after the last contact is read. */
 static void test_calm_is_told(void) {
     uint64_t seed = 184;
     for (unsigned round = 0; round < ROUNDS / 2; round++) {
@@ -234,9 +233,9 @@ static void test_calm_is_told(void) {
     }
 }
 
-/* --- the way ------------------------------------------------------------------------------------------------- */
+/* --- the path ------------------------------------------------------------------------------------------------ */
 
-/* Bezier's form of the cubic with these values and slopes (for the whole way) at its ends, by de Casteljau. */
+/* Bezier's form of the cubic with these end values and slopes (for the whole path), by de Casteljau. */
 static double cubic(double s, double from, double slope0, double to, double slope1) {
     double point[4] = {from, from + slope0 / 3.0, to - slope1 / 3.0, to};
     for (unsigned left = 3; left > 0; left--) {

@@ -1,5 +1,4 @@
-/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, its parts by themselves and the whole against the trial of
- * all cases. */
+/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, in parts and whole, against a trial of all cases. */
 #include "bench.h"
 
 #include "unity.h"
@@ -22,19 +21,19 @@ static wh_real high_of(unsigned k) {
     return bench_now.contact[k].kind == WH_FRICTION ? bench_now.first[k] : WH_LIMITLESS;
 }
 
-/* What may be rounding of a residual, and, of forces, of what they are the rest of. */
+/* Bound on a residual's round-off, and on that of forces relative to their terms. */
 static wh_real noise_of(const wh_contact_work *w, unsigned k, bool forces, wh_real wanted,
                         wh_real made, wh_real lambda) {
     const wh_real sum = WH_ABS(wanted) + WH_ABS(made) + WH_ABS(lambda * bench_delassus(k, k));
     return WH_CONTACT_ROUNDING * sum + (forces ? WH_CONTACT_QUIET * w->rough[k] : WH_R(0.0));
 }
 
-/* 0, or so much that what is rounding beside it is of the size of the numbers drawn. */
+/* 0, or so large that its round-off is of the size of the drawn numbers. */
 static wh_real draw_rough(uint64_t *seed) {
     return draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 8) / WH_CONTACT_QUIET;
 }
 
-/* One contact, with as much as it may take, less, more, and more by what is rounding or just is not. */
+/* One contact with its limit, less, more, and more by round-off or just above. */
 static void test_one_contact_takes_what_it_can(void) {
     uint64_t seed = 121;
     unsigned gave = 0;
@@ -76,7 +75,8 @@ static void test_one_contact_takes_what_it_can(void) {
     TEST_ASSERT_TRUE(gave > ROUNDS / 8);
 }
 
-/* Who goes to a limit stays in its place; who leaves it goes to the end, and is asked anew whether it contradicts. */
+/* A contact that goes to a limit stays in its place. One that leaves it goes to the end of the list, and its contradiction is
+ * tested again. */
 static void test_who_leaves_a_limit_is_eliminated_last(void) {
     uint64_t seed = 122;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -108,7 +108,7 @@ static void test_who_leaves_a_limit_is_eliminated_last(void) {
     }
 }
 
-/* Of those that are beyond a limit, or at one that pulls them on, the one of the least number, wherever it stands. */
+/* Among contacts beyond a limit, or pulled on at one, the lowest number is chosen, wherever it stands. */
 static void test_the_least_number_that_is_wrong_is_told(void) {
     uint64_t seed = 123;
     unsigned none = 0;
@@ -171,11 +171,9 @@ static void test_the_least_number_that_is_wrong_is_told(void) {
     TEST_ASSERT_TRUE(none > ROUNDS / 10);
 }
 
-/* --- the whole ---------------------------------------------------------------------------------------------- */
-
 #define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
 
-/* Case `number` in base three: who is at its low limit, at none, at its high one. Does it solve the problem? */
+/* Case `number` in base three: each contact at its low limit, free, or at its high limit. Does it solve the problem? */
 static bool solves(unsigned number, const uint8_t *member, unsigned count, const wh_real *wanted,
                    wh_real *lambda, wh_real *left) {
     int8_t at[BENCH_CONTACTS];
@@ -212,7 +210,7 @@ static bool solves(unsigned number, const uint8_t *member, unsigned count, const
     return true;
 }
 
-/* Accelerations are those of any case that solves it; forces, where no rows repeat each other, too. */
+/* Accelerations are those of any case that solves it, and so are forces if no rows are dependent. */
 static void test_no_case_solves_it_otherwise(void) {
     uint64_t seed = 124;
     unsigned solved = 0;
@@ -239,7 +237,7 @@ static void test_no_case_solves_it_otherwise(void) {
         const bool was_capped = w.capped;
         const unsigned giving =
             wh_contact_lcp(&bench_now.system, &w, member, count, wanted, true, lambda, left);
-        if (number == cases) { /* holds that contradict each other */
+        if (number == cases) { /* contradictory holds */
             continue;
         }
         solved++;
@@ -256,8 +254,8 @@ static void test_no_case_solves_it_otherwise(void) {
     TEST_ASSERT_TRUE(solved > ROUNDS / 2);
 }
 
-/* Made to go to and fro for ever: let go where it is pressed, as nothing here ever counts as small. It ends after
- * 4 n + 1 rounds, of which the last lets go again, and that is counted. */
+/* A forced endless cycle: released while pressed, as nothing here counts as small. It ends after 4 n + 1 rounds. The last round
+ * releases again and is counted. */
 static void test_what_does_not_end_is_ended(void) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {
@@ -275,7 +273,7 @@ static void test_what_does_not_end_is_ended(void) {
         bench_work(&seed, false, &w);
         for (unsigned i = 0; i < count; i++) {
             wanted[i] =
-                bench_delassus(i, 0) * 2 * bench_now.first[0]; /* all of it the first one's */
+                bench_delassus(i, 0) * 2 * bench_now.first[0]; /* all of it belongs to the first */
             w.rough[i] = -BENCH_SENTINEL / WH_CONTACT_QUIET;
         }
         (void)wh_contact_lcp(&bench_now.system, &w, member, count, wanted, true, lambda, left);

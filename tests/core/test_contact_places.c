@@ -1,5 +1,5 @@
-/* test_contact_places.c: the functions of core/contact/contact_project.h, each by itself: what has moved, who keeps what, and
- * the way back to it, against dense solves in the metric of the masses. */
+/* test_contact_places.c: the functions of core/contact/contact_project.h one by one, against dense solves in the mass metric:
+ * motion, constraint errors, projection. */
 #include "bench.h"
 
 #include "unity.h"
@@ -8,7 +8,7 @@ void suite_contact_places(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Contacts of some kinds in some modes; holds straight or curved, each with a place for what it holds. */
+/* Contacts of some kinds in some modes; straight or curved holds, each with its held place. */
 static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_draw(seed, true);
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
@@ -24,7 +24,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     }
 }
 
-/* --- what has moved ----------------------------------------------------------------------------------------- */
+/* --- motion --------------------------------------------------------------------------------------------------- */
 
 static void test_a_coordinate_moves_and_no_other(void) {
     uint64_t seed = 141;
@@ -49,7 +49,7 @@ static void test_a_coordinate_moves_and_no_other(void) {
     }
 }
 
-/* A product of as many bits as an integer of 64 holds, of which a sum alone cannot keep the last. */
+/* A product of as many bits as a 64-bit integer holds; a plain sum loses the last ones. */
 static void test_no_bit_of_a_product_is_lost(void) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
@@ -67,8 +67,8 @@ static void test_no_bit_of_a_product_is_lost(void) {
     }
 }
 
-/* J times the way, of lines and of angles, however far: of two that turn against each other, far, by the same factor,
- * what is left is exact. */
+/* J times the motion, of lines and angles at any distance. For two far turns in opposite directions by the same factor the
+ * difference is exact. */
 static void test_a_straight_way_is_summed_without_rounding(void) {
     uint64_t seed = 143;
     const uint64_t most = WH_DOUBLE ? 0x3fffffff : 0x7ffff;
@@ -86,7 +86,7 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
         const unsigned k = draw_one_of(&seed, 2U);
         const int64_t way = (int64_t)(draw_bits(&seed) & most);
         const wh_real factor = (wh_real)(draw_bits(&seed) & most);
-        int64_t sums[2] = {0, 0}; /* of turns, of ways */
+        int64_t sums[2] = {0, 0}; /* of turns, of metres */
         bench_state(&seed, &from);
         for (unsigned i = 0; far && i < n; i++) {
             bench_now.row[k][i] = factor;
@@ -107,7 +107,7 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
         bench_work(&seed, false, &w);
         const double turns = (double)sums[0] / (double)WH_PHASE_PER_RAD;
         const double ways = (double)sums[1];
-        /* float: of each angle, the last eight bits of its way are a product that is rounded */
+        /* float: the last eight bits of each angle's motion are a rounded product */
         const double last = far ? 512.0 * (double)factor / (double)WH_PHASE_PER_RAD : 0.0;
         const double size = last + (turns < 0.0 ? -turns : turns) + (ways < 0.0 ? -ways : ways);
         const double off =
@@ -116,14 +116,14 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
     }
 }
 
-/* --- who keeps what ----------------------------------------------------------------------------------------- */
+/* --- constraint errors ---------------------------------------------------------------------------------------- */
 
 static bool slips(const wh_contact_work *w, unsigned k) {
     const wh_contact *c = &bench_now.contact[k];
     return c->kind == WH_HOLD && c->pin < 0 && w->mode[k] == WH_ACTIVE;
 }
 
-/* By how much k is off its place. */
+/* The constraint error of contact k. */
 static wh_real drift_of(const wh_contact_work *w, unsigned k, const wh_contact_state *from,
                         const wh_contact_state *to) {
     const wh_contact *c = &bench_now.contact[k];
@@ -184,7 +184,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
         was = w;
         const unsigned one = draw_one_of(&seed, of->forced);
         wh_contact_capture(of, &w, one);
-        for (unsigned place = 0; place < BENCH_CONTACTS; place++) { /* the one that is captured */
+        for (unsigned place = 0; place < BENCH_CONTACTS; place++) { /* the captured one */
             const wh_contact *c = &bench_now.contact[one];
             const bool its = slips(&w, one) && c->first_set == place;
             const wh_real kept = c->direction > 0 ? WH_R(0.0) : bench_now.first[one];
@@ -194,7 +194,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
         wh_contact_keep(of, &w, &from, &to);
         for (unsigned k = 0; k < of->forced; k++) {
             const wh_contact *c = &bench_now.contact[k];
-            if (slips(&w, k)) { /* what it has slipped, in all */
+            if (slips(&w, k)) { /* its total slip */
                 const wh_real kept =
                     c->direction > 0 ? drift_of(&was, k, &from, &to) : was.held[c->first_set];
                 TEST_ASSERT_TRUE(bench_near(w.held[c->first_set], kept));
@@ -205,7 +205,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 16 && seen[1] > ROUNDS / 16 && seen[2] > ROUNDS / 16);
 }
 
-/* Far is what is off by more than its share of the gap's terms: of a line its place, of an angle one radian. */
+/* Far: an error above the gap terms' share, for a line its place, for an angle one radian. */
 static void test_how_far_a_stop_is_passed(void) {
     uint64_t seed = 145;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -236,7 +236,7 @@ static void test_how_far_a_stop_is_passed(void) {
 
 /* --- into the state and out of it ---------------------------------------------------------------------------- */
 
-/* What a step leaves is written into the state, all of it and nothing behind it, and read back from there. */
+/* The step's end is written into the state completely, nothing after it is touched, and it reads back the same. */
 static void test_a_step_is_written_down_and_read_back(void) {
     uint64_t seed = 146;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

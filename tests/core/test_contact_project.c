@@ -1,5 +1,5 @@
-/* test_contact_project.c: the way back to where contacts are to be, and their rates to zero (core/contact/contact_project.h):
- * against a dense solve in the metric of the masses, with limits met exactly, and what the books get of it. */
+/* test_contact_project.c: projection of places onto the constraints, and of rates to zero (core/contact/contact_project.h). The
+ * reference is a dense solve in the mass metric. Limits are met exactly, and the books get the energy. */
 #include "bench.h"
 
 #include "unity.h"
@@ -8,7 +8,7 @@ void suite_contact_project(void);
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Contacts of some kinds in some modes; holds that keep nothing but their curve's value. */
+/* Contacts of some kinds in some modes; holds that hold only their curve's value. */
 static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *books) {
     bench_draw(seed, true);
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
@@ -27,7 +27,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *
     }
 }
 
-/* By how much k, which keeps something, is off its place: a stop's gap, what a curved hold has slipped. */
+/* The constraint error of contact k, if it has one: a stop's gap, a curved hold's slip. */
 static wh_real off_of(const wh_contact_work *w, unsigned k) {
     const wh_contact *c = &bench_now.contact[k];
     const wh_real slipped = c->pin < 0 ? bench_now.first[k] - w->held[c->first_set] : WH_R(0.0);
@@ -44,7 +44,7 @@ static unsigned members_of(const wh_contact_work *w, unsigned but, uint8_t *memb
     return count;
 }
 
-/* x += M^-1 J^T lambda of the members' solve for `wanted`; what is pinned gets nothing. */
+/* x += M^-1 J^T lambda from the members' solve for `wanted`; a pinned contact gets nothing. */
 static void add_least(const uint8_t *member, unsigned count, const wh_real *wanted, wh_real *lambda,
                       wh_real *x) {
     bench_solve(member, count, bench_repeats(member, count, NULL), wanted, lambda);
@@ -59,7 +59,7 @@ static void add_least(const uint8_t *member, unsigned count, const wh_real *want
     }
 }
 
-/* What is pinned goes straight back: the first of a coordinate, and whatever that leaves beyond its place. */
+/* A pinned contact goes straight back: the first of a coordinate, and any other that is still beyond its place. */
 static void go_back(const uint8_t *member, unsigned count, const wh_real *off, wh_real *way) {
     bool first[BENCH_COORDS];
     for (unsigned c = 0; c < BENCH_COORDS; c++) {
@@ -77,8 +77,8 @@ static void go_back(const uint8_t *member, unsigned count, const wh_real *off, w
     }
 }
 
-/* What is pinned goes straight back; the others together, by the way of the least masses, and by what keeps them to what
- * is pinned. It is coarse where what was off is more than its share of the way. */
+/* Pinned contacts go straight back. The others move together along the least-mass path, and constraints keep them with the
+ * pinned ones. The result is coarse if the error exceeds its share of the motion. */
 static void test_places_are_put_right_by_the_least_way(void) {
     uint64_t seed = 161;
     unsigned coarse = 0;
@@ -104,7 +104,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
         spot.mover = draw_one_in(&seed, 3) ? draw_one_of(&seed, of->forced) : spot.mover;
         const unsigned count = members_of(&w, spot.but, member);
         const unsigned asked =
-            (unsigned)draw_bits(&seed) % (count + 1U); /* of whom it is just not or just so */
+            (unsigned)draw_bits(&seed) % (count + 1U); /* just below or just at its limit */
         spot.h = draw_whole(&seed, 0, 4) / WH_SLIP_COARSE;
         for (unsigned i = 0; i < count; i++) {
             const wh_real size = WH_ABS(off_of(&w, member[i]));
@@ -145,7 +145,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
         }
         TEST_ASSERT_TRUE(w.undefined == -1);
         for (unsigned e = 0; e < of->ledger->entries;
-             e++) { /* the energy is its whose place was off */
+             e++) { /* the energy is booked to the contact that was off */
             const bool its = w.books != NULL && e == wh_ledger_of_contact(of->ledger, mover);
             const bool line = of->angles < n;
             TEST_ASSERT_TRUE(bench_near(books.step[e], its && line && mover < WH_CONTACTS_MAX
@@ -158,7 +158,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
     TEST_ASSERT_TRUE(coarse > ROUNDS / 8 && moves > ROUNDS / 8);
 }
 
-/* One whose place is no number is told, the first of them, and the others are put right without it. */
+/* The first contact whose place is not a number is reported; the others are corrected without it. */
 static void test_a_place_that_is_no_number_is_told(void) {
     uint64_t seed = 162;
     unsigned told = 0;
@@ -213,8 +213,8 @@ static void test_a_place_that_is_no_number_is_told(void) {
     TEST_ASSERT_TRUE(told > ROUNDS / 8);
 }
 
-/* Rates along what is kept are taken away, to nothing at all where one coordinate is pinned; the books get each
- * contact's impulse and its work, that of the mean speed. */
+/* Rates along constraints become zero, exactly zero if one coordinate is pinned. The books get each contact's impulse and its
+ * work at the mean speed. */
 static void test_rates_are_taken_away_by_the_least(void) {
     uint64_t seed = 163;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -266,8 +266,8 @@ static void test_rates_are_taken_away_by_the_least(void) {
     }
 }
 
-/* A stop and a friction on one body of two that hang together, the stop passed a little, or far: then friction does not
- * keep its body there. A place that was put right is looked at again, and a second time at most. */
+/* A stop and a friction on one of two coupled bodies, the stop passed a little, or far. Friction then does not hold its body. A
+ * corrected place is checked again, at most twice. */
 static void test_what_slipped_is_put_back(void) {
     uint64_t seed = 164;
     unsigned far = 0;
@@ -287,7 +287,7 @@ static void test_what_slipped_is_put_back(void) {
         }
         bench_state(&seed, &from);
         for (unsigned i = 0; i < 2; i++) {
-            bench_now.free[i] = WH_R(0.0); /* nothing loads the friction */
+            bench_now.free[i] = WH_R(0.0); /* the friction is not loaded */
             bench_now.row[0][i] = i == 0 ? WH_R(1.0) : pinned ? WH_R(0.0) : WH_R(2.0);
             from.real[i] = WH_R(1.0);
             bench_now.bias[i] = WH_R(0.0);
@@ -299,7 +299,7 @@ static void test_what_slipped_is_put_back(void) {
         w.mode[1] = WH_FREE;
         w.mode[2] = slides ? 1 : WH_STUCK;
         const wh_real size =
-            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* far is from half of it on */
+            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* far begins at half of it */
         const wh_real off =
             draw_whole(&seed, -3, 3) * size * (draw_one_in(&seed, 2) ? 1 : WH_R(0.125));
         for (unsigned k = 0; k < 2; k++) {
@@ -315,7 +315,7 @@ static void test_what_slipped_is_put_back(void) {
         const wh_real h = draw_one_in(&seed, 2) ? WH_R(0.0) : WH_R(1.0);
         const bool still = h * (WH_ABS(from.real[2]) + WH_ABS(from.real[3])) == WH_R(0.0);
         wh_contact_stabilise(&bench_now.system, &w, h, &input, &from, &s);
-        if (pinned) { /* it cannot slip, and is not looked at */
+        if (pinned) { /* it cannot slip and is not checked */
             TEST_ASSERT_TRUE(bench_now.looks == looks && s.real[0] == from.real[0]);
             continue;
         }
@@ -330,7 +330,7 @@ static void test_what_slipped_is_put_back(void) {
         TEST_ASSERT_TRUE(!sticks || (s.real[1] == from.real[1] && s.real[3] == WH_R(0.0)));
         const wh_real speed = bench_along(0, from.real + 2);
         for (unsigned i = 0; i < 2;
-             i++) { /* and so are the rates; what breaks loose keeps its own */
+             i++) { /* and so are the rates; a contact that breaks loose keeps its rate */
             const wh_real free = from.real[2 + i] - bench_way(0, i) / yield * speed;
             const wh_real right = sticks ? WH_R(0.0) : free;
             TEST_ASSERT_TRUE(WH_ABS(s.real[2 + i] - right) <=
@@ -343,8 +343,8 @@ static void test_what_slipped_is_put_back(void) {
     TEST_ASSERT_TRUE(far > ROUNDS / 40);
 }
 
-/* A stop whose surface is bent is put right along its row where it is, and from there once more if that was far for the
- * way it came: never a third time. */
+/* A stop with a curved surface is corrected along its row, and once more if the distance was large for its motion. There is no
+ * third correction. */
 static void test_what_is_bent_is_put_back_twice(void) {
     uint64_t seed = 165;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -369,7 +369,7 @@ static void test_what_is_bent_is_put_back_twice(void) {
         bench_work(&seed, false, &w);
         bench_now.moves = true;
         bench_now.lean[0] = draw_one_in(&seed, 2) ? WH_R(0.5) : WH_R(-0.5);
-        const bool slow = draw_one_in(&seed, 2); /* has come no way */
+        const bool slow = draw_one_in(&seed, 2); /* has not moved */
         const unsigned passes = slow ? 2U : 1U;
         const unsigned looks = bench_now.looks;
         s = from;
@@ -385,7 +385,7 @@ static void test_what_is_bent_is_put_back_twice(void) {
             bench_now.row[0][0] = straight;
         }
         TEST_ASSERT_TRUE(bench_near(s.real[0], x[0]) && bench_near(s.real[1], x[1]));
-        /* it need not be bent the way it goes */
+        /* it need not be curved along its motion */
         TEST_ASSERT_EQUAL_UINT(!slow ? 1U : x[0] != WH_R(0.0) ? 3U : 2U, bench_now.looks - looks);
     }
 }

@@ -1,8 +1,7 @@
-/* test_contact_random.c: random mechanisms of one or two coordinates with up to three contacts of any kinds, under
- * constant loads: what must hold after every step, whatever happened in it. A stop is not passed, pushes only, and at
- * rest closes; friction that sticks is at rest, that slides goes its way, and takes no more than it can; what is held
- * stays where it was; no contact but an assignment gives energy; the books balance; and what is drawn the other way
- * round moves the other way round. */
+/* test_contact_random.c: invariants after every step, for random mechanisms of one or two coordinates with up to three contacts
+ * under constant loads. A stop is not passed, only pushes, and closes at rest. Sticking friction is at rest, sliding friction
+ * opposes its motion, and both stay within their limits. Held places stay. Only assignments give energy, and the books balance.
+ * A mirrored mechanism moves mirrored. */
 #include "draw.h"
 #include "hand.h"
 
@@ -16,7 +15,7 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
 #define STEP_S WH_R(0.001)
 
-/* What rounding may leave of numbers of the size of one. */
+/* Round-off of numbers of size one. */
 #define SLACK (WH_DOUBLE ? WH_R(2e-12) : WH_R(2e-3))
 
 /* --- drawing ------------------------------------------------------------------------------------------------ */
@@ -89,7 +88,7 @@ static void draw(uint64_t *seed) {
     }
 }
 
-/* All that has a side, on the other one. */
+/* Everything with a side, on the other one. */
 static void mirror(void) {
     for (unsigned i = 0; i < 2; i++) {
         hand_now.load[i] = -hand_now.load[i];
@@ -102,14 +101,14 @@ static void mirror(void) {
         for (unsigned i = 0; i < 2 && kind != WH_FRICTION && kind != WH_WHEN; i++) {
             hand_now.law[k].row[i] = -hand_now.law[k].row[i];
         }
-        if (kind == WH_WHEN) { /* the same place, the other way */
+        if (kind == WH_WHEN) { /* the same place, mirrored */
             hand_now.law[k].offset = -hand_now.law[k].offset;
             hand_now.contact[k].direction = (int8_t)-hand_now.contact[k].direction;
         }
     }
 }
 
-/* --- what must hold ------------------------------------------------------------------------------------------ */
+/* --- invariants ---------------------------------------------------------------------------------------------- */
 
 static wh_real along(unsigned k, const wh_real *x) {
     wh_real sum = WH_R(0.0);
@@ -119,7 +118,7 @@ static wh_real along(unsigned k, const wh_real *x) {
     return sum;
 }
 
-/* What contact k has given so far: the energy, or, of its force along its own row, the impulse. */
+/* The energy given by contact k so far, or the impulse along its row. */
 static wh_real energy_of(unsigned k) {
     return hand_state.ledger[wh_ledger_of_contact(&hand_books, k)];
 }
@@ -148,7 +147,7 @@ static bool friction_holds(unsigned k) {
     return way && energy_of(k) <= SLACK && WH_ABS(impulse_of(k)) <= most + SLACK;
 }
 
-/* `was`: where it was when it was captured; a crossing of this step may have put it elsewhere. */
+/* `was`: its place at capture; a crossing of this step may have moved it. */
 static bool hold_holds(unsigned k, wh_real was) {
     for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
         if (hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN) {
@@ -179,7 +178,7 @@ static bool all_hold(const wh_real *was) {
     return good;
 }
 
-/* A run; false where something did not hold. Where what it does within a step is cut off, it has no such promise. */
+/* A run; false if an invariant fails. A step whose events are cut off has no such promise. */
 static bool run(wh_real *end, uint64_t *overruns) {
     wh_real was[HAND_CONTACTS] = {WH_R(0.0)};
     bool good = true;
@@ -198,7 +197,7 @@ static bool run(wh_real *end, uint64_t *overruns) {
             assigned =
                 assigned || hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN;
         }
-        if (step % 8U == 7U) { /* what is held is let go, and the other way round */
+        if (step % 8U == 7U) { /* toggles the hold */
             hand_state.input[0] = -hand_state.input[0];
             hand_pushed = -hand_pushed;
         }
@@ -247,7 +246,7 @@ static void test_the_other_way_round_is_the_same(void) {
     TEST_ASSERT_EQUAL_UINT(0, wrong);
 }
 
-/* After each step: the state, what the books hold, and what is told of events. */
+/* After each step: the state, the books, and the reported events. */
 static uint64_t trace(uint64_t *hashes) {
     hand_start(true);
     for (unsigned step = 0; step < STEPS; step++) {

@@ -1,5 +1,5 @@
-/* test_contact_rank.c: which of several holds still say something (core/contact/contact_rank.h): rows made independent in the
- * metric of M^-1, and which of them was lost between two places. */
+/* test_contact_rank.c: independent holds (core/contact/contact_rank.h): rows orthogonalized in the metric of M^-1, and the row
+ * lost between two places. */
 #include "draw.h"
 #include "hand.h"
 
@@ -11,7 +11,7 @@ enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 200 };
 
 #define SLACK (WH_DOUBLE ? WH_R(1e-12) : WH_R(1e-4))
 
-/* Up to three holds (and stops between them, which have no say) with rows of whole numbers; returns how many. */
+/* Up to three holds, with ignored stops between them, and rows of whole numbers; returns their number. */
 static unsigned draw(uint64_t *seed, wh_contact_work *w) {
     hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
     const unsigned count = 1U + (unsigned)draw_bits(seed) % HAND_CONTACTS;
@@ -45,7 +45,7 @@ static wh_real across(const wh_real *a, const wh_real *b) {
     return sum;
 }
 
-/* Is row k in the span of the rows of the earlier ones that say something? In whole numbers. */
+/* Is row k in the span of the earlier independent rows? In whole numbers. */
 static bool repeats(const wh_contact_work *w, unsigned k) {
     const wh_real *row = hand_now.law[k].row;
     const wh_real *one = NULL;
@@ -66,7 +66,7 @@ static bool repeats(const wh_contact_work *w, unsigned k) {
     return false;
 }
 
-/* What is left of a row is at right angles to what is left of the others, and as long as its distance from them. */
+/* A row's remainder is orthogonal to the other remainders, and as long as its distance from them. */
 static void test_rows_are_made_independent(void) {
     uint64_t seed = 31;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -100,8 +100,8 @@ static void test_rows_are_made_independent(void) {
     }
 }
 
-/* From one place to another: nothing is lost where nothing changes, nor where rows change a little; what has come to repeat
- * the others is lost, and what points back, the first of them. A hold that had no say before has none to lose. */
+/* From one place to another: no loss without a change or with a small one. A row that has become dependent is lost, and so is
+ * the first that points back. A redundant hold cannot be lost. */
 static void test_the_first_that_is_lost_is_told(void) {
     uint64_t seed = 37;
     unsigned lost = 0;
@@ -129,13 +129,13 @@ static void test_the_first_that_is_lost_is_told(void) {
     TEST_ASSERT_TRUE(lost > ROUNDS / 4);
 }
 
-/* One hold alone must point right back; of two, what is left of the second is lost with a right angle passed. */
+/* A lone hold must point right back; the second of two loses its remainder after a right angle. */
 static void test_how_far_a_row_may_turn(void) {
     static const struct {
         unsigned count;
         wh_real row[2][2];
         wh_real turned[2];
-        unsigned lost; /* counted from 0; count: none */
+        unsigned lost; /* from 0; count: none */
     } rows[] = {
         {1, {{1, 0}}, {WH_R(0.1), 1}, 1},           {1, {{1, 0}}, {-1, 1}, 1},
         {1, {{1, 0}}, {-1, WH_R(0.3)}, 0},          {1, {{1, 0}}, {-1, WH_R(0.4)}, 1},

@@ -1,7 +1,6 @@
-/* test_contact_revise.c: what a crossing's assignments do to other contacts (contact_resolve.h), on two coupled bodies with a
- * stop and a hold, in closed form: a stop that was passed is put back by the least mass-weighted way and rests no longer, a
- * hold that still keeps begins anew where it is and takes its rate away, one that does not lets go; and whatever was
- * not moved stays as it was. */
+/* test_contact_revise.c: effects of a crossing's assignments on other contacts (contact_resolve.h), on two coupled bodies with
+ * a stop and a hold, in closed form. A passed stop is put back by the least move in the mass metric and no longer rests. A hold
+ * that is still on captures its new place and stops its rate; one that is off lets go. Anything that did not move stays. */
 #include "draw.h"
 #include "hand.h"
 
@@ -12,15 +11,15 @@ void suite_contact_revise(void);
 typedef struct revised {
     bool stop_moved, hold_moved, keeps;
     int8_t stop_mode;
-    int stop_pin;     /* 0, or -1: it is put back as a row that may have any entries is */
-    int pin;          /* of the hold; -1: it slips, and is of */
+    int stop_pin;     /* 0, or -1: put back like a general row */
+    int pin;          /* of the hold; -1: it slips */
     int8_t direction; /* this kind */
     wh_real gap;      /* of the stop, x0 >= 0.25 */
     wh_real rate[2];
     wh_real kept_before;
 } revised;
 
-#define OFFSET WH_R(0.125) /* the hold's expression is x1 less this, where an input moves it */
+#define OFFSET WH_R(0.125) /* offset of the hold's expression from x1, moved by an input */
 #define PLACE WH_R(0.5)    /* x1 */
 
 static wh_contact_work w;
@@ -57,8 +56,7 @@ static void expect_near(wh_real wanted, wh_real got) {
     TEST_ASSERT_TRUE(hand_near(got, wanted, 1e-12, 3e-4));
 }
 
-/* What the hold is to keep: of a curved one its expression, of one that inputs move likewise, of a straight one what it
- * has moved, which is nothing yet. */
+/* The hold's place: for a curved or moved one its expression, for a straight one its motion, which is zero at first. */
 static wh_real captured(const revised *r) {
     return r->direction > 0 ? WH_R(0.0) : r->direction < 0 ? PLACE - OFFSET : PLACE;
 }
@@ -70,14 +68,14 @@ static void expect_hold(const revised *r) {
         const bool anew = r->hold_moved && r->keeps;
         TEST_ASSERT_TRUE(w.held[0] == (anew ? captured(r) : r->kept_before));
     }
-    /* M (v+ - v) = (0, lambda), v1+ = 0: v0 gains what (1/M)_01/(1/M)_11 of v1 is, -1/4 */
+    /* M (v+ - v) = (0, lambda), v1+ = 0: v0 gains (1/M)_01/(1/M)_11 of v1, -1/4 */
     const bool stops = r->hold_moved && r->keeps;
     expect_near(stops ? WH_R(0.0) : r->rate[1], s.real[3]);
     expect_near(stops ? r->rate[0] + WH_R(0.25) * r->rate[1] : r->rate[0], s.real[2]);
 }
 
-/* Passed by g, and put back: x0 by g, alone where it is the stop's pin; else x1 goes along, where nothing holds it, by
- * (1/M)_01/(1/M)_00 = -1/2 of that. */
+/* Passed by g and put back: x0 by g, alone if it is the stop's pin. Otherwise a free x1 moves by (1/M)_01/(1/M)_00 = -1/2 of
+ * that. */
 static void expect_places(const revised *r) {
     const bool passed = r->stop_moved && r->gap < WH_R(0.0);
     const bool held = !(r->hold_moved && !r->keeps);
@@ -94,7 +92,7 @@ static void test_each_way_to_be_moved(void) {
                      .hold_moved = (n & 2U) != 0,
                      .keeps = (n & 4U) != 0,
                      .stop_mode =
-                         (n & 9U) == 9U ? WH_ACTIVE : WH_FREE, /* one that rests, if it is moved */
+                         (n & 9U) == 9U ? WH_ACTIVE : WH_FREE, /* a resting one, if it is moved */
                      .gap = (n & 16U) != 0 ? WH_R(-0.03125) : WH_R(0.0625),
                      .stop_pin = (n & 128U) != 0 ? 0 : -1,
                      .pin = pins[n >> 5 & 3U],
@@ -102,7 +100,7 @@ static void test_each_way_to_be_moved(void) {
         r.rate[0] = (wh_real)draw_broken(&seed, -1000, 1000);
         r.rate[1] = (wh_real)draw_broken(&seed, -1000, 1000);
         const bool passed = r.stop_moved && r.gap < WH_R(0.0);
-        /* what it has kept is where it is, unless nothing looks there */
+        /* its held place is its present one, unless nothing reads it */
         r.kept_before = captured(&r) + (passed ? WH_R(0.0) : WH_R(0.0078125));
         revise(&r);
         TEST_ASSERT_TRUE(w.moved == 0);

@@ -1,5 +1,5 @@
-/* test_contact_search.c: the search of core/contact/contact_locate.h by itself: bodies on parabolas, whose events come at moments
- * that are known in closed form, of every kind, the first first, and with how many looks. */
+/* test_contact_search.c: the search of core/contact/contact_locate.h: bodies on parabolas with events at times in closed form,
+ * of every kind, earliest first, and the number of evaluations. */
 #include "bench.h"
 
 #include "unity.h"
@@ -15,12 +15,12 @@ static wh_real share_of(uint64_t *seed) {
     return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
-/* Line i's way v t + a t^2/2 in one second, its speed of one sign. */
+/* Motion of line i, v t + a t^2/2, in one second; its speed has one sign. */
 static wh_real place_at(const wh_contact_state *from, unsigned i, wh_real t) {
     return t * (from->real[bench_now.system.coordinates + i] + bench_now.free[i] / 2 * t);
 }
 
-/* Up to three lines without inertia between them, each with a way of its own, forward or backward. */
+/* Up to three uncoupled lines, each with its own motion, forward or backward. */
 static void draw_ways(uint64_t *seed, unsigned n, wh_contact_state *from) {
     bench_build(seed, n, 0);
     bench_now.moves = true;
@@ -35,7 +35,7 @@ static void draw_ways(uint64_t *seed, unsigned n, wh_contact_state *from) {
     }
 }
 
-/* A contact that looks at line i alone. */
+/* A contact that depends on line i alone. */
 static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_real factor) {
     const unsigned k = bench_add(seed, kind, -1);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
@@ -46,7 +46,7 @@ static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_r
     return k;
 }
 
-/* A stop that is far away, or none. Returns how many. */
+/* Far stops, or none. Returns their number. */
 static unsigned add_far(uint64_t *seed) {
     if (draw_one_in(seed, 2)) {
         return 0;
@@ -56,7 +56,7 @@ static unsigned add_far(uint64_t *seed) {
     return 1;
 }
 
-/* Where the state is after a second, and what the margins say there. */
+/* The state after a second, and its margins. */
 static void run_out(wh_contact_work *w, const wh_contact_state *from, wh_contact_state *to,
                     wh_margins *m) {
     const unsigned n = bench_now.system.coordinates;
@@ -78,7 +78,7 @@ static wh_real locate(wh_contact_work *w, wh_contact_state *from, wh_real h, uns
     return wh_contact_locate(&bench_now.system, w, from, &to, h, NULL, &m, events);
 }
 
-/* Of searches: how many, how many of them came as near as rounding lets them, and with how many looks. */
+/* Statistics of searches: their number, those accurate to round-off, and their evaluations. */
 typedef struct tally {
     unsigned searches;
     unsigned fine;
@@ -86,7 +86,7 @@ typedef struct tally {
     unsigned most;
 } tally;
 
-/* One that is off by this. None is so by more than it must. */
+/* Counts one with this error, which must be within its bound. */
 static void enter(wh_real off, tally *sum) {
     sum->searches++;
     sum->fine += (double)WH_ABS(off) <= FINE;
@@ -95,17 +95,17 @@ static void enter(wh_real off, tally *sum) {
     TEST_ASSERT_TRUE(WH_ABS(off) <= WH_BRACKET);
 }
 
-/* In the mean not more looks than so many hundredths, and never more than `most`; all but a few are fine. */
+/* The mean is at most so many hundredths of evaluations, the maximum `most`; almost all are accurate. */
 static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, unsigned most) {
     const unsigned mean = 100U * sum->looks / sum->searches;
     const unsigned bound = WH_DOUBLE ? hundredths : hundredths_f;
-    TEST_ASSERT_TRUE(mean <= (__STDC_HOSTED__ ? bound : 2U * bound)); /* of few, a mean is none */
+    TEST_ASSERT_TRUE(mean <= (__STDC_HOSTED__ ? bound : 2U * bound)); /* too few for a mean */
     TEST_ASSERT_TRUE(sum->most <= most && sum->most <= WH_PROBES + 1U);
     TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
 }
 
-/* Stops, holds' conditions and crossings, each with its moment (behind the end: none), several at the very same; some
- * begin at zero and have theirs at once. The first is found, just past it, with those that come with it. */
+/* Stops, holds' conditions and crossings, each with its time (after the end: none), several at once; some begin at zero with an
+ * immediate event. The first is found, just past it, with all simultaneous ones. */
 static void test_the_first_of_several_is_found(void) {
     uint64_t seed = 201;
     tally sum = {0, 0, 0, 0};
@@ -145,7 +145,7 @@ static void test_the_first_of_several_is_found(void) {
         const wh_real found = locate(&w, &from, WH_R(1.0), &events);
         enter(found - first, &sum);
         TEST_ASSERT_TRUE(found > WH_R(0.0));
-        for (unsigned k = 0; k < count; k++) { /* as many as it says, and no other */
+        for (unsigned k = 0; k < count; k++) { /* exactly the reported number */
             const bool its = (events >> k & 1U) != 0;
             TEST_ASSERT_TRUE(its ? (double)(when[k] - first) <= FINE
                                  : (double)(when[k] - first) >= -FINE);
@@ -155,7 +155,7 @@ static void test_the_first_of_several_is_found(void) {
     told(&sum, 870, 645, 14);
 }
 
-/* Who is beyond zero already has its event at once, with all such, and nobody else; who slides begins at rest. */
+/* A contact beyond zero has its event at once, with all such ones and no others; a sliding one begins at rest. */
 static void test_what_is_beyond_already_comes_at_once(void) {
     uint64_t seed = 202;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -185,8 +185,8 @@ static void test_what_is_beyond_already_comes_at_once(void) {
     }
 }
 
-/* A friction that slides against a force comes to rest at v/a, whether it began with a rate or, in a mode that its rate
- * is about to leave, at none. */
+/* A friction that slides against a force comes to rest at v/a. It begins with a rate, or with none in a mode that its rate is
+ * about to leave. */
 static void test_sliding_ends_where_the_rate_does(void) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
@@ -194,14 +194,14 @@ static void test_sliding_ends_where_the_rate_does(void) {
         wh_contact_work w;
         wh_contact_state from = {.real = {WH_R(0.0)}};
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* or first of all */
+        const unsigned behind = add_far(&seed); /* or the first of all */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
         bench_now.moves = true;
         const wh_real when = share_of(&seed);
         const wh_real way = from.real[3] > WH_R(0.0) ? WH_R(1.0) : WH_R(-1.0);
         const bool second = draw_one_in(&seed, 2);
-        if (second) { /* and a place that is crossed behind it, or before */
+        if (second) { /* and a place crossed after it, or before */
             (void)add_along(&seed, WH_WHEN, 0, WH_R(1.0));
             bench_now.signal[2 * behind + 2] =
                 -place_at(&from, 0, when < WH_R(0.5) ? when + WH_R(0.25) : when / 2);
@@ -222,8 +222,8 @@ static void test_sliding_ends_where_the_rate_does(void) {
     told(&sum, 1025, 740, 25);
 }
 
-/* One that slides from rest, bent back in the end: its rate is zero at the begin, which is none of its events, and at
- * the end of the way that the accelerations turn round. */
+/* A contact that slides from rest and is bent back at the end. Its rate is zero at the start, which is no event, and at the
+ * end, where the acceleration has turned it. */
 static void test_who_slides_from_rest_comes_back_to_it(void) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};
@@ -233,10 +233,10 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
         wh_contact_state to;
         wh_margins m;
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* or first of all */
+        const unsigned behind = add_far(&seed); /* or the first of all */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
-        /* a = a0 (1 - 2 t/when), by the place of the first line, which moves evenly: so v = a0 t (1 - t/when) */
+        /* a = a0 (1 - 2 t/when), by the first line's place, which moves evenly: v = a0 t (1 - t/when) */
         const wh_real when = WH_R(0.25) + WH_R(0.74) * share_of(&seed);
         const wh_real a0 = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
         from.real[2] = WH_R(1.0);
@@ -262,8 +262,8 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
     told(&sum, 1340, 1085, 15);
 }
 
-/* A friction that sticks, loaded more and more as another body moves: it breaks loose when its limit is met, and so does
- * a stop that is pulled. A load that is at its limit when the way begins is past it at once. */
+/* A sticking friction with a growing load breaks loose at its limit, and so does a pulled stop. A load at its limit at the
+ * start exceeds it at once. */
 static void test_a_load_meets_its_limit(void) {
     uint64_t seed = 205;
     tally sum = {0, 0, 0, 0};
@@ -278,7 +278,7 @@ static void test_a_load_meets_its_limit(void) {
         const wh_real when = draw_one_in(&seed, 4) ? WH_R(0.0) : share_of(&seed);
         const wh_real row = bench_now.row[0][1];
         const wh_real up = stop || draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
-        /* its force is -free/row: a stop's from above down to zero, friction's up to its limit either way */
+        /* its force is -free/row: a stop's falls to zero, a friction's rises to its limit, either way */
         const wh_real limit = stop ? WH_R(0.0) : up * bench_now.first[0];
         from.real[3] = WH_R(0.0);
         bench_now.bias[0] = WH_R(0.0);

@@ -1,7 +1,7 @@
-/* test_contact_squeeze.c: what is done where a step had too many events: bodies beyond stops are put back by the least
- * move in the metric of the masses, and what closes there is stopped. Random mechanisms against all cases (exact.h). */
+/* test_contact_squeeze.c: steps with too many events. Bodies beyond stops return by the least move in the mass metric, and
+ * closing ones stop. Random mechanisms, against all cases (exact.h). */
 
-/* No rows of longer methods, which an ATmega2560 has no room for beside the cases. */
+/* Without the rows of longer methods: an ATmega2560 has no room for them beside the cases. */
 #define WH_STAGES 4
 
 #include "draw.h"
@@ -15,7 +15,7 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 4000 : 100 };
 
 #define CLOSE (WH_DOUBLE ? 1e-9 : 2e-4)
 
-/* Stops, the last contact perhaps a hold or a friction. A body anywhere; what rests or holds is at rest there. */
+/* Stops; the last contact may be a hold or a friction. A body anywhere; resting and held contacts are at rest. */
 static void draw(uint64_t *seed, wh_contact_work *w, wh_contact_state *s, exact *e) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     const unsigned count = 1 + (unsigned)(draw_bits(seed) % HAND_CONTACTS);
@@ -105,8 +105,8 @@ static void test_the_least_that_lets_nobody_pass(void) {
     TEST_ASSERT_TRUE(compared >= MECHANISMS / 2U);
 }
 
-/* Two stops were passed, and what the first pushes back comes to stand on the other, which has not pushed: it is hit all
- * the same, by a body that slides along the first. */
+/* Two stops are passed. The first pushes a body onto the other, which has not pushed. It is hit too, by a body that slides
+ * along the first. */
 static void test_who_is_met_without_a_push_is_hit(void) {
     for (int slope = -3; slope <= 3; slope++) {
         for (int beyond = 1; beyond <= 3; beyond++) {

@@ -1,12 +1,11 @@
-/* test_contact_undefined.c: each expression of each contact, where it is no finite number: what the step builds on is
- * refused, with the contact's number and the last good state; what it does not build on is no error. */
+/* test_contact_undefined.c: each expression of each contact set to NaN or infinity. If the step depends on it, the step is
+ * refused with the contact's number and the last good state. Otherwise it is no error. */
 #include "hand.h"
 
 #include "unity.h"
 
 void suite_contact_undefined(void);
 
-/* What is no number. */
 typedef enum lost_place { FIRST_SIGNAL, SECOND_SIGNAL, FIRST_LAW, SECOND_LAW } lost_place;
 enum { PLACES = SECOND_LAW + 1 };
 
@@ -17,8 +16,7 @@ static wh_real none(unsigned way) {
     return way == 0 ? zero / zero : (way == 1 ? WH_R(1.0) : WH_R(-1.0)) / zero;
 }
 
-/* Three contacts: all that are in order of their kinds, from the number. False: that number has none. Nothing is near
- * an event. */
+/* Three contacts with ordered kinds, from the number. False: no such case. No contact is near an event. */
 static bool build(unsigned number, bool held, bool pinned, bool straight) {
     wh_contact_kind kind[COUNT];
     for (unsigned k = 0; k < COUNT; k++, number /= 4) {
@@ -51,7 +49,7 @@ static bool build(unsigned number, bool held, bool pinned, bool straight) {
     return true;
 }
 
-/* Does a step build on it? */
+/* Does a step depend on it? */
 static bool needed(unsigned k, lost_place place) {
     const wh_contact_kind kind = (wh_contact_kind)hand_now.contact[k].kind;
     const bool stuck = kind == WH_FRICTION && hand_state.contacts->mode[k] == WH_STUCK;
@@ -75,11 +73,11 @@ static void lose(unsigned k, lost_place place, wh_real nothing) {
     }
 }
 
-/* Steps; then contact k's expression is lost. Is the next step what it should be? */
+/* Steps, then makes contact k's expression undefined. Is the next step as expected? */
 static bool answers(unsigned k, lost_place place, unsigned steps, wh_real nothing) {
     hand_start(true);
     hand_steps(steps);
-    if (steps == 0) { /* the modes of the start, from a run that has begun */
+    if (steps == 0) { /* the modes of the start, in a run that has begun */
         hand_steps(1);
         const bool build_on = needed(k, place);
         hand_start(true);
@@ -119,7 +117,6 @@ static void test_what_a_step_builds_on_must_be_a_number(void) {
     TEST_ASSERT_TRUE(asked > 100);
 }
 
-/* Of two, the first is named. */
 static void test_the_first_of_several_is_named(void) {
     for (unsigned steps = 0; steps < 4; steps += 3) {
         for (unsigned k = 0; k + 1 < COUNT; k++) {
@@ -134,7 +131,7 @@ static void test_the_first_of_several_is_named(void) {
     }
 }
 
-/* A restitution counts where its stop is hit, at a run's start and later. */
+/* A restitution counts at a hit of its stop, at a run's start and later. */
 static void test_a_restitution_counts_at_an_impact(void) {
     for (unsigned k = 0; k < COUNT; k++) {
         for (unsigned later = 0; later < 2; later++) {
@@ -153,7 +150,7 @@ static void test_a_restitution_counts_at_an_impact(void) {
     }
 }
 
-/* A crossing that assigns what no state can hold is refused with the component. */
+/* A crossing that assigns an invalid value is refused with the component. */
 static void test_what_is_assigned_must_be_a_number(void) {
     for (unsigned way = 0; way < 3; way++) {
         for (unsigned others = 0; others < COUNT; others++) {

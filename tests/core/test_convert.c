@@ -1,5 +1,5 @@
-/* test_convert.c: whole numbers of 64 bits become the nearest float, ties to even, whoever converts them: the
- * processor, the compiler's support code or a board's own (boards/shared/convert.c). By the definition, in integers. */
+/* test_convert.c: 64-bit integers convert to the nearest float, ties to even, by the processor, the compiler's support code or
+ * a board's own (boards/shared/convert.c). By the definition, in integers. */
 #include "core/real.h"
 
 #include "unity.h"
@@ -21,7 +21,8 @@ static uint32_t bits_of(float real) {
 }
 
 static float wide_to_float(uint64_t number) {
-    volatile uint64_t hidden = number; /* from the compiler, which would compute it itself */
+    volatile uint64_t hidden =
+        number; /* hides it from the compiler, which would compute it itself */
     return (float)hidden;
 }
 

@@ -1,4 +1,4 @@
-/* test_exchange.c: what controller and plant tell each other: read back as it was written; what is none is refused. */
+/* test_exchange.c: the messages between controller and plant read back as written; invalid ones are refused. */
 #include "core/exchange.h"
 
 #include "draw.h"
@@ -13,7 +13,7 @@ static uint32_t draw_word(void) { return (uint32_t)(draw_bits(&seed) << 16 ^ dra
 
 static float draw_float(void) { return (float)(int32_t)draw_word() * 1e-3f; }
 
-/* Every length but the right one is refused, also when what is missing would be zeros. */
+/* Every wrong length is refused, also if the missing bytes are zeros. */
 static void expect_length(unsigned length, bool (*get)(unsigned length)) {
     TEST_ASSERT_TRUE(get(length));
     for (unsigned wrong = 0; wrong < length; wrong++) {
@@ -101,7 +101,7 @@ static void test_readings(void) {
 
 static wh_reset reset_out;
 
-/* Any number of remembered bytes, also none; a cause that there is. */
+/* Any number of remembered bytes, also none, and an existing cause. */
 static void test_reset(void) {
     seed = 3;
     for (unsigned count = 0; count <= WH_REMEMBER_MAX; count++) {
@@ -159,7 +159,7 @@ static void test_hello(void) {
             0, __builtin_memcmp(&signals[i].low, &signals_out[i].low, 3U * sizeof(float)));
         TEST_ASSERT_EQUAL_UINT32(signals[i].period_ticks, signals_out[i].period_ticks);
     }
-    bytes[22] = WH_SIGNAL_NOTE + 1U; /* what the first signal is: behind 4 + 5 + 12 + 1 bytes */
+    bytes[22] = WH_SIGNAL_NOTE + 1U; /* the first signal's kind: after 4 + 5 + 12 + 1 bytes */
     TEST_ASSERT_FALSE(get_hello(length));
     bytes[22] = WH_SIGNAL_OUTPUT;
     TEST_ASSERT_TRUE(get_hello(length));
@@ -167,7 +167,7 @@ static void test_hello(void) {
     TEST_ASSERT_FALSE(get_hello(length));
 }
 
-/* Whatever bytes come: no count beyond its room, no string beyond the bytes. */
+/* Random bytes: no count beyond its room, no string beyond the bytes. */
 static void test_noise(void) {
     seed = 4;
     for (unsigned round = 0; round < 3000; round++) {

@@ -1,5 +1,5 @@
-/* test_fixed.c: core/fixed.h's integers against 64-bit ones: both ways to a product, rounding, reciprocals, sines against those
- * of the real build, and the ways from and to reals. */
+/* test_fixed.c: core/fixed.h's integers against 64-bit ones: both products, rounding, reciprocals, sines against the real
+ * build's, and conversions from and to reals. */
 #include <math.h>
 
 #include "core/angle.h"
@@ -23,7 +23,7 @@ static uint32_t draw(void) {
     return (uint32_t)(drawn >> 16);
 }
 
-/* Of all sizes, ends among them. */
+/* Of all sizes, including the ends. */
 static int32_t draw_number(void) {
     static const int32_t edges[] = {0,         1,          -1,         0x7fff,     0x8000,
                                     -0x8000,   0x10000,    -0x10000,   0xffff,     -0xffff,
@@ -80,7 +80,7 @@ static void test_rounding(void) {
     TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(-INT32_C(0x3fffffff), 60));
 }
 
-/* Sums modulo 2^32, signs, sizes, shifts beyond all digits, and a product of which the upper digits do. */
+/* Sums modulo 2^32, signs, sizes, shifts beyond all digits, and a product's upper digits. */
 static void test_small_operations(void) {
     for (long i = 0; i < CASES; i++) {
         const int32_t a = draw_number();
@@ -149,7 +149,7 @@ static void check_sine(uint32_t phase) {
     int32_t c_here;
     wh_real sine;
     wh_real cosine;
-    /* its own error, 3.4e-8, and that of the reals */
+    /* its own error, 3.4e-8, and the reals' */
     const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.3e-7));
     wh_fixed_sincos_called(phase, &s, &c);
     wh_fixed_sincos_shared(phase, &s_here, &c_here);
@@ -217,7 +217,7 @@ static const wh_fixed_scene scene = {.name = "none",
                                      .start_input = start_number,
                                      .advance = no_step};
 
-/* Every function that takes a state, with one that was not started: zeroed, or refused. */
+/* Every function that takes a state gets one that was not started: zeroed, or refused. */
 static void must_not_run(wh_fixed_state *state) {
     const uint64_t steps = state->steps;
     const uint32_t saturated = state->saturated;
@@ -299,7 +299,7 @@ static void test_edges(void) {
         for (unsigned places = draw() % 12U; places > 0; places--) {
             limit /= 10.0;
         }
-        double end = limit; /* in units, of which there are few or many */
+        double end = limit; /* in units, large or small */
         const double many = 1U << (14U + draw() % 17U);
         while (end < many) {
             end += end;
@@ -317,8 +317,7 @@ static void test_edges(void) {
         TEST_ASSERT_EQUAL_INT32(format.low, wh_fixed_of(&format, -most - more, &held));
         TEST_ASSERT_EQUAL_UINT32(2, held);
     }
-    for (long i = 0; i < CASES;
-         i++) { /* integers: inside, beyond, and of an input that there is not */
+    for (long i = 0; i < CASES; i++) { /* integers: inside, beyond, and of a nonexistent input */
         const int32_t raw = draw_number() >> (draw() % 31U);
         const wh_fixed_format *format = &formats[1];
         const uint32_t before = state.saturated;
@@ -332,7 +331,7 @@ static void test_edges(void) {
                                 state.input[0]);
         TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_raw_input(&scene, &state, 1, raw));
     }
-    for (long i = 0; i < CASES; i++) { /* there and back: what float holds */
+    for (long i = 0; i < CASES; i++) { /* both ways: float's precision */
         const int32_t x = draw_number() >> 8;
         uint32_t held = 0;
         const wh_fixed_format format = {(int16_t)(draw() % 50U), INT32_MIN / 2, INT32_MAX / 2};

@@ -1,4 +1,4 @@
-/* test_frame.c: framing: what is written is read; what is broken is dropped, and the next is read again. */
+/* test_frame.c: framing: written frames are read, broken ones are dropped, and the next is read again. */
 #include "core/frame.h"
 
 #include "draw.h"
@@ -21,7 +21,7 @@ static uint64_t seed;
 
 void suite_frame(void);
 
-/* Payloads of every kind: random bytes, many zeros, none, long ones without any. */
+/* Payloads: random bytes, many zeros, none, long ones without zeros. */
 static void fill(unsigned length, unsigned kind) {
     for (unsigned i = 0; i < length; i++) {
         const uint8_t byte = (uint8_t)draw_bits(&seed);
@@ -38,7 +38,7 @@ static unsigned code_frame(unsigned length, uint16_t sequence) {
     return wh_frame_write(&frame, line, sizeof line);
 }
 
-/* Frames that come of bytes[count]; the last is in `got`. */
+/* Frames in bytes[count]; the last is in `got`. */
 static unsigned feed(const uint8_t *bytes, unsigned count) {
     unsigned frames = 0;
     for (unsigned i = 0; i < count; i++) {
@@ -58,7 +58,7 @@ static void expect_same(unsigned length, uint16_t sequence) {
     }
 }
 
-/* The check value that every list of CRCs has for this one. */
+/* The standard check value of this CRC. */
 static void test_crc(void) {
     const uint8_t digits[9] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926U, wh_frame_crc(0, digits, 9));
@@ -66,7 +66,7 @@ static void test_crc(void) {
     TEST_ASSERT_EQUAL_HEX32(0U, wh_frame_crc(0, digits, 0));
 }
 
-/* Every length, every kind: whole, without a zero inside, and as short as the header says. */
+/* Every length and kind: whole, without a zero inside, and within the header's size bound. */
 static void test_round_trip(void) {
     seed = 1;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length++) {
@@ -84,7 +84,7 @@ static void test_round_trip(void) {
     }
 }
 
-/* With a byte less than it takes nothing is claimed, and nothing beyond it written. */
+/* With one byte too little nothing is claimed, and nothing is written beyond the buffer. */
 static void test_no_room(void) {
     seed = 2;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length += 13) {
@@ -103,8 +103,8 @@ static void test_no_room(void) {
     }
 }
 
-/* Every single flipped bit, and bursts of up to 32: all are seen, but for one that moves the end of the frame, where
- * what is left of it is no frame either. The next frame is read. */
+/* Every single bit flip, and bursts of up to 32 bits, are detected. One that moves the frame's end leaves no valid frame. The
+ * next frame is read. */
 static void test_flips(void) {
     seed = 3;
     for (unsigned length = 0; length < 64; length += 9) {
@@ -122,8 +122,8 @@ static void test_flips(void) {
     }
 }
 
-/* Cut short anywhere, or with bytes missing in it: not taken for a frame. The one behind it may be lost with it where
- * the zero between them is; the next but one is read. */
+/* Frames cut short, or with missing bytes, are rejected. The next may be lost with it if the zero between them is missing; the
+ * one after that is read. */
 static void test_truncations(void) {
     seed = 4;
     for (unsigned round = 0; round < 300; round++) {
@@ -145,7 +145,7 @@ static void test_truncations(void) {
     }
 }
 
-/* Noise holds no frame (one in 2^32 would pass), overflows nothing, and the first frame behind a zero is read. */
+/* Noise contains no frame (one in 2^32 would pass), overflows nothing, and the first frame after a zero is read. */
 static void test_noise(void) {
     seed = 5;
     for (unsigned size = 1; size <= 64; size *= 4) {
@@ -173,7 +173,7 @@ static void test_noise(void) {
     expect_same(40, 9);
 }
 
-/* What another version wrote is handed out with its version. */
+/* A frame of another version is returned with its version. */
 static void test_version(void) {
     uint8_t raw[WH_FRAME_FIXED_BYTES + 2U] = {1, WH_FRAME_VERSION + 1U, 3, 1, 1, 1, 1, 1, 1};
     const uint32_t crc = wh_frame_crc(0, raw + 1, 8);

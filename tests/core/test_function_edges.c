@@ -1,6 +1,5 @@
-/* test_function_edges.c: where the core's own functions have exact values, in both builds: zeros, infinities,
- * NaN and the ends of the range as C's Annex F has them, powers that are numbers. In double, the bits of all
- * results of a sweep too, which every machine must give. */
+/* test_function_edges.c: exact values of the core's functions in both builds: zeros, infinities, NaN and range ends as in C's
+ * Annex F, and exact powers. In double, also the bits of a sweep's results, equal on every machine. */
 #include "core/function.h"
 #include "core/hash.h"
 
@@ -36,7 +35,7 @@ void suite_function_edges(void);
 #define MOST_POWER 127
 #endif
 
-/* Equal with the sign of zeros, or no number both. */
+/* Equal with the sign of zeros, or both NaN. */
 static bool same(wh_real a, wh_real b) {
     const bool no_number = a != a && b != b;
     return no_number || (a == b && wh_hash_real(0, a) == wh_hash_real(0, b));
@@ -212,8 +211,7 @@ static void test_pow(void) {
     }
 }
 
-/* Whole powers of whole numbers and of their quotients by powers of two, as long as they have room; roots of
- * squares; all powers of two. */
+/* Whole powers of integers and of their quotients by powers of two, within the range; roots of squares; all powers of two. */
 static void test_exact_powers(void) {
     const uint64_t room = UINT64_C(1) << DIGITS;
     for (unsigned base = 3; base < 200; base += 2) {
@@ -244,7 +242,7 @@ static void test_exact_powers(void) {
     }
 }
 
-/* From where on a result is infinite, zero, or an angle its own sine. */
+/* The argument from which a result is infinite, zero, or an angle its own sine. */
 static void test_ends_of_the_range(void) {
 #if WH_DOUBLE
     EXPECT(wh_exp, {0x1.62e42fefa39efp9, 0x1.fffffffffff2ap1023}, {0x1.62e42fefa39fp9, INF},
@@ -253,7 +251,7 @@ static void test_ends_of_the_range(void) {
            {-0x1.633ce8fb9f87dp+9, -0x1.ffffffffffd3bp+1023});
     EXPECT(wh_cosh, {0x1.633ce8fb9f87dp+9, 0x1.ffffffffffd3bp+1023}, {-0x1.633ce8fb9f87ep+9, INF});
     EXPECT(wh_tanh, {0x1.30fc1931f09c9p+4, 0x1.fffffffffffffp-1}, {0x1.30fc1931f09cbp+4, ONE});
-    /* The double that comes nearest to a multiple of a quarter turn. */
+    /* The double nearest to a multiple of a quarter turn. */
     EXPECT(wh_cosine, {0x1.6ac5b262ca1ffp849, -0x1.14ae72e6ba22fp-61});
     EXPECT(wh_sine, {-0x1.6ac5b262ca1ffp849, -1.0});
     EXPECT(wh_tan, {0x1.6ac5b262ca1ffp849, -0x1.d9ba9a7975636p60});
@@ -277,7 +275,7 @@ static void test_ends_of_the_range(void) {
 /* --- the same bits everywhere -------------------------------------------------------------------- */
 #define EACH 20000
 
-/* Any bits every fourth time; otherwise of all sizes from 2^least to below 2^most as often, of both signs. */
+/* Any bits every fourth time; otherwise log-uniform sizes from 2^least to below 2^most, of both signs. */
 static double argument(unsigned i, int least, int most) {
     const uint64_t bits = scattered();
     const uint64_t exponent = (uint64_t)(least + 1023) + bits % (uint64_t)(most - least);

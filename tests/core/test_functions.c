@@ -1,6 +1,5 @@
-/* test_functions.c: the core's own functions: edges, exact results, order, symmetry, and the same bits on every
- * machine. Their errors are measured on this machine (tests/host/test_function_accuracy.c,
- * test_double_functions.c, and make functions-exhaustive). */
+/* test_functions.c: the core's functions: edges, exact results, order, symmetry, and equal bits on every machine.
+ * tests/host/test_function_accuracy.c, test_double_functions.c and make functions-exhaustive measure the errors. */
 #include "edges.h"
 
 void suite_functions(void);
@@ -165,7 +164,7 @@ static void test_exact_powers_of_two(void) {
         wanted *= TWO;
     }
     for (int n = LEAST_POWER - 1; n > LEAST_POWER - 40;
-         n--) { /* half the least: to the even one, none */
+         n--) { /* half the smallest: to even, zero */
         TEST_ASSERT_TRUE(wh_pow(TWO, (wh_real)n) == ZERO);
         TEST_ASSERT_TRUE(wh_pow(HALF, (wh_real)-n) == ZERO);
     }
@@ -224,7 +223,7 @@ static void test_symmetry(void) {
     }
 }
 
-/* Each undoes the other, to what the rounding of what is between them makes. */
+/* Inverse pairs, to the round-off of the intermediate. */
 static void test_inverses(void) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 6;
@@ -260,7 +259,7 @@ static void test_same_bits_everywhere(void) {
         const wh_real y = any();
         const wh_real p = part();
         const wh_real q = part();
-        hash = mixed_of_all(hash, x, y);                                   /* all sizes alike */
+        hash = mixed_of_all(hash, x, y);                                   /* log-uniform sizes */
         hash = mixed_of_all(hash, p, q * WH_R(20.0));                      /* asin, acos */
         hash = mixed_of_all(hash, p * WH_R(90.0), q);                      /* exp, tan */
         hash = mixed_of_all(hash, ONE + p * WH_R(0.01), q * WH_R(5000.0)); /* powers near one */

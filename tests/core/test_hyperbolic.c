@@ -1,5 +1,5 @@
-/* test_hyperbolic.c: the core's hyperbolic functions, as test_functions.c has the others: edges, order, symmetry,
- * identities, and the same bits on every machine. */
+/* test_hyperbolic.c: the core's hyperbolic functions, like the others in test_functions.c: edges, order, symmetry, identities,
+ * and equal bits on every machine. */
 #include "edges.h"
 
 void suite_hyperbolic(void);
@@ -31,7 +31,7 @@ static void test_hyperbolic_edges(void) {
 }
 
 /* --- order and symmetry ------------------------------------------------------------------------------------ */
-/* Where one way of computing takes over from the other: neighbours, a few thousand of them on either side. */
+/* Boundaries between two ways of computing: neighbours, a few thousand on either side. */
 static void test_hyperbolic_never_fall(void) {
     static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
     const wh_real next = ONE + wh_pow(TWO, (wh_real)(1 - DIGITS));
@@ -49,7 +49,7 @@ static void test_hyperbolic_never_fall(void) {
     }
 }
 
-/* cosh + sinh is e^x, cosh - sinh e^-x, sinh/cosh tanh: to what the roundings make. */
+/* cosh + sinh is e^x, cosh - sinh e^-x, sinh/cosh tanh: to the round-off. */
 static void test_hyperbolic_identities(void) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 8;
@@ -75,7 +75,7 @@ static void test_hyperbolic_symmetry(void) {
 }
 
 /* --- the same bits everywhere -------------------------------------------------------------------------------- */
-/* What came later has a hash of its own. */
+/* Later functions have a hash of their own. */
 static uint64_t mixed_of_hyperbolic(uint64_t hash, wh_real x) {
     return mixed(mixed(mixed(hash, wh_sinh(x)), wh_cosh(x)), wh_tanh(x));
 }

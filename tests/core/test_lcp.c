@@ -1,5 +1,5 @@
-/* test_lcp.c: the box LCP of core/contact/contact_lcp.h on random problems, also where rows repeat each other: the solution
- * meets its conditions, and no problem meets the cap of the rounds. */
+/* test_lcp.c: the box LCP of core/contact/contact_lcp.h on random problems, also with dependent rows: the solution meets its
+ * conditions, within the cap on rounds. */
 #include "draw.h"
 #include "hand.h"
 
@@ -9,8 +9,8 @@ void suite_lcp(void);
 
 enum { PROBLEMS = __STDC_HOSTED__ ? 20000 : 500, CONTACTS = 3 };
 
-/* A problem of up to three contacts on two coordinates, so that rows often repeat each other: whole numbers, so that
- * they do so exactly. There is always a solution: stops push, frictions slide, and no two holds contradict each other. */
+/* A problem of up to three contacts on two coordinates, in whole numbers, so that rows are often exactly dependent. A solution
+ * always exists: stops push, frictions slide, and no two holds contradict each other. */
 static void random_problem(uint64_t *seed, bool holds, bool forces, wh_contact_work *w) {
     static const wh_contact_kind kinds[] = {WH_STOP, WH_FRICTION, WH_HOLD};
     hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
@@ -41,11 +41,11 @@ static void turn(wh_contact_work *w, unsigned k) {
     hand_now.system.forces(&hand_now, NULL, NULL, NULL, NULL, w->law);
 }
 
-/* What the conditions allow for rounding. */
+/* The conditions' allowance for round-off. */
 #define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
 
-/* The forces of the contacts in member[] are within their limits, what is at a limit may leave the contact one way only,
- * left[] is what it leaves, and those that give way are told. */
+/* The members' forces are within their limits, and one at a limit may leave the contact one way only. left[] is its residual,
+ * and contacts that give way are reported. */
 static bool meets_its_conditions(const wh_contact_work *w, const uint8_t *member, unsigned count,
                                  const wh_real *wanted, const wh_real *lambda, const wh_real *left,
                                  unsigned giving) {
@@ -71,7 +71,7 @@ static bool meets_its_conditions(const wh_contact_work *w, const uint8_t *member
     return giving == 0;
 }
 
-/* All three contacts, two or one of them, in any order. */
+/* One to three contacts in any order. */
 static unsigned draw_members(uint64_t *seed, uint8_t *member) {
     const unsigned first = (unsigned)draw_bits(seed) % CONTACTS;
     const unsigned step = 1U + (unsigned)draw_bits(seed) % 2U;
@@ -94,7 +94,7 @@ static void check(bool holds, bool forces) {
         wh_real left[CONTACTS];
         random_problem(&seed, holds, forces, &w);
         const unsigned count = draw_members(&seed, member);
-        /* of accelerations that the mechanism may have, or of impacts */
+        /* of possible accelerations, or of impacts */
         accel[0] = draw_whole(&seed, -4, 4);
         accel[1] = draw_whole(&seed, -4, 4);
         for (unsigned m = 0; m < count; m++) {
@@ -102,7 +102,7 @@ static void check(bool holds, bool forces) {
             const wh_real bounce =
                 forces || holds ? WH_R(0.0) : draw_whole(&seed, 0, 2) / WH_R(2.0);
             wanted[m] = -wh_jacobian_times(&hand_now.system, &w, k, accel);
-            if (!forces && wanted[m] < WH_R(0.0)) { /* a stop that opens takes no part */
+            if (!forces && wanted[m] < WH_R(0.0)) { /* an opening stop takes no part */
                 turn(&w, k);
                 wanted[m] = -wanted[m];
             }
@@ -120,7 +120,7 @@ static void check(bool holds, bool forces) {
 
 static void test_forces_meet_their_conditions(void) { check(false, true); }
 static void test_forces_beside_holds_do(void) { check(true, true); }
-/* Stops of the same place may bounce differently: what they want contradicts each other. */
+/* Stops at the same place may bounce differently: their targets contradict each other. */
 static void test_impulses_meet_their_conditions(void) { check(false, false); }
 static void test_impulses_beside_holds_do(void) { check(true, false); }
 

@@ -1,5 +1,5 @@
-/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a
- * spring whose rate is changed. */
+/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a spring with a variable
+ * rate. */
 #include "draw.h"
 #include "hand.h"
 
@@ -12,8 +12,8 @@ static wh_real error_of(unsigned account) {
     return wh_ledger_error(&hand_books, &hand_state, account, level);
 }
 
-/* A body of 1 kg falls 1 m and comes to rest: gravity gave m g h and m g t, the stop took both. Rest is
- * declared up to g (step/8)^2/8 = 2e-8 m above the stop: in energy 2e-7 J. */
+/* A body of 1 kg falls 1 m and comes to rest: gravity gave m g h and m g t, and the stop took both. Rest begins up to g
+ * (step/8)^2/8 = 2e-8 m above the stop: in energy 2e-7 J. */
 static void test_books_of_the_ball(void) {
     hand_build_ball(WH_R(0.5));
     hand_start(true);
@@ -40,8 +40,8 @@ static void test_books_of_the_thrown_block(void) {
     TEST_ASSERT_TRUE(hand_near(error_of(0), WH_R(0.0), 1e-12, 1.5e-5));
 }
 
-/* The coupled impact: loss (1 - e^2) v^2 / (2 (M^-1)_00), impulse on the first coordinate alone. And the
- * crossing above: what it set is its entry. */
+/* The coupled impact: loss (1 - e^2) v^2 / (2 (M^-1)_00), impulse on the first coordinate alone. The crossing's assignment is
+ * its own entry. */
 static void test_books_of_impacts_and_settings(void) {
     hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
@@ -78,7 +78,7 @@ static void test_books_do_not_touch_the_run(void) {
     TEST_ASSERT_TRUE(hash[0] == hash[1]);
 }
 
-/* --- an input that the energy names ----------------------------------------------------------------- */
+/* --- an input in the energy ----------------------------------------------------------------------------- */
 
 /* A body of 1 kg on a spring whose rate is the input. */
 static void spring_accel(const void *model, const wh_phase *phase, const wh_real *linear,
@@ -86,7 +86,7 @@ static void spring_accel(const void *model, const wh_phase *phase, const wh_real
     (void)model;
     (void)phase;
     (void)rate;
-    accel[0] = -input[0] * linear[0]; /* also what goes into the momentum, a second */
+    accel[0] = -input[0] * linear[0]; /* also the momentum per second */
 }
 
 static void spring_levels(const void *model, const wh_angle *angle, const wh_real *linear,
@@ -115,8 +115,8 @@ static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* The spring gets stiffer, then softer: each change gives (k2 - k1) x^2/2. Until the next step it is not
- * entered, and leaves nothing over. */
+/* The spring becomes stiffer, then softer: each change adds (k2 - k1) x^2/2. It is entered in the next step, and the balance is
+ * zero until then. */
 static void test_books_of_a_spring_that_is_changed(void) {
     static uint64_t memory[WH_STATE_WORDS(0, 2, 1) + WH_LEDGER_WORDS(2, 3)];
     static const wh_real start[2] = {WH_R(0.5), WH_R(1.0)};
@@ -152,10 +152,10 @@ static void test_books_of_a_spring_that_is_changed(void) {
     }
 }
 
-/* --- books that name an angle itself ------------------------------------------------------------------- */
+/* --- books with an angle ----------------------------------------------------------------------------------- */
 
-/* A shaft of 1 kg m^2 under a torque of 1/2 N m, whose account names its angle, turns included, and two inputs, of which the
- * energies hold one each: 1/2 r^2 + a th + b. */
+/* A shaft of 1 kg m^2 under a torque of 1/2 N m. Its account contains its angle, turns included, and two inputs, each in one of
+ * the energies: 1/2 r^2 + a th + b. */
 static void shaft_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
@@ -165,7 +165,7 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
     accel[0] = WH_R(0.5) - input[0];
 }
 
-/* What the torque gives to the energy a second, and, so that the angle is named, its multiple less the same again. */
+/* The torque's power, and its multiple less the same again, so that the angle appears. */
 static void shaft_powers(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *power) {
     (void)model;
@@ -203,8 +203,8 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t: counted from the turns that the shaft has, not from its
- * phase. Each input is entered by itself: the first by what it does to the energy, the second by what is left. */
+/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t, from the shaft's turns, not its phase. Each input has its
+ * own entry: the first by its effect on the energy, the second by the remainder. */
 static void test_books_name_angles_with_their_turns(void) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
@@ -240,7 +240,7 @@ static void test_books_name_angles_with_their_turns(void) {
         TEST_ASSERT_TRUE(hand_near(state.ledger[2], which != 1 ? rad / 4 : WH_R(0.0), 1e-13, 1e-6));
         TEST_ASSERT_TRUE(
             hand_near(state.ledger[3], which != 0 ? WH_R(0.75) : WH_R(0.0), 1e-13, 2e-6));
-        /* what is refused enters nothing */
+        /* a refused change enters nothing */
         const wh_real before[4] = {state.ledger[0], state.ledger[1], state.ledger[2],
                                    state.ledger[3]};
         state.input[0] = WH_R(-1e16);
@@ -251,8 +251,8 @@ static void test_books_name_angles_with_their_turns(void) {
     }
 }
 
-/* An angle is set, turns included, or moved without losing digits after many turns. An input that was changed just before
- * is booked by itself. */
+/* An angle is set, turns included, or moved without losing digits after many turns. An input changed just before has its own
+ * entry. */
 static void test_corrected_angles_are_booked(void) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};

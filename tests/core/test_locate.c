@@ -1,5 +1,5 @@
-/* test_locate.c: where events are found within a step: a body under a constant load crosses places at moments that are
- * known in closed form; how near, how many looks that takes, and in which order. */
+/* test_locate.c: event location within a step: a body under a constant load crosses places at times known in closed form.
+ * Checks the accuracy, the number of evaluations, and the order. */
 #include "draw.h"
 #include "hand.h"
 
@@ -16,7 +16,7 @@ static wh_real share_of(uint64_t *seed) {
     return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
-/* x = v t + a t^2/2, monotone over the step: the speed changes by up to nine tenths of what it is. */
+/* x = v t + a t^2/2, monotone over the step: the speed changes by up to nine tenths. */
 typedef struct path {
     wh_real v;
     wh_real a;
@@ -46,7 +46,7 @@ static unsigned add_crossing(wh_real at, int direction) {
     return k;
 }
 
-/* One crossing, which turns the rate round and halves it: found when it is, and from there on the other motion. */
+/* One crossing that reverses and halves the rate: located in time, then the other motion. */
 static void test_a_crossing_is_found_where_it_is(void) {
     uint64_t seed = 411;
     wh_real worst = WH_R(0.0);
@@ -71,8 +71,8 @@ static void test_a_crossing_is_found_where_it_is(void) {
     TEST_ASSERT_TRUE((double)worst <= (WH_DOUBLE ? 1e-14 : 2e-6));
 }
 
-/* As many looks as a search that closes in from both sides takes: far fewer than halving, which is what it falls back
- * on. The rest is what a step looks at anyway. */
+/* The number of evaluations is that of a bracketing search from both sides, far below halving, its fallback. The rest are the
+ * step's own. */
 static void test_a_crossing_is_found_with_few_looks(void) {
     uint64_t seed = 412;
     unsigned all = 0;
@@ -91,7 +91,7 @@ static void test_a_crossing_is_found_with_few_looks(void) {
     TEST_ASSERT_TRUE(most <= (WH_DOUBLE ? 20U : 18U));
 }
 
-/* What is flat or steep where it crosses makes no search run out of looks before it is as near as it must be. */
+/* Flat or steep crossings do not exhaust the evaluations before the accuracy is reached. */
 static void test_flat_and_steep_crossings_are_found(void) {
     uint64_t seed = 415;
     for (unsigned i = 0; i < CASES; i++) {
@@ -100,7 +100,7 @@ static void test_flat_and_steep_crossings_are_found(void) {
         start(p);
         (void)add_crossing(place_at(p, t), 0);
         hand_now.bent =
-            i % (WH_DOUBLE ? 4U : 3U); /* powers 1, 3, 9, 27; no value vanishes but at the place */
+            i % (WH_DOUBLE ? 4U : 3U); /* powers 1, 3, 9, 27; each vanishes at the place only */
         hand_start(false);
         hand_looks = 0;
         hand_steps(1);
@@ -109,13 +109,13 @@ static void test_flat_and_steep_crossings_are_found(void) {
     }
 }
 
-/* Two crossings and one against its direction, declared in any order: each is found when it is, the first first. */
+/* Two crossings and one against its direction, declared in any order: each is located in time, the earliest first. */
 static void test_crossings_of_one_step_come_in_their_order(void) {
     uint64_t seed = 413;
     for (unsigned i = 0; i < CASES; i++) {
         const path p = random_path(&seed);
         const int along = p.v > WH_R(0.0) ? 1 : -1;
-        const unsigned kept = draw_one_of(&seed, 3U); /* by whom nothing happens */
+        const unsigned kept = draw_one_of(&seed, 3U); /* it has no effect */
         wh_real at_s[3];
         start(p);
         for (unsigned k = 0; k < 3; k++) {
@@ -146,7 +146,7 @@ static void test_crossings_of_one_step_come_in_their_order(void) {
     }
 }
 
-/* A stop in the way of the same motion, and one behind it: what bounces is v + a t, and it is where it must be. */
+/* A stop in the way of the same motion, and one beyond it: the body bounces with v + a t and is where it must be. */
 static void test_a_stop_is_hit_where_it_is(void) {
     uint64_t seed = 414;
     for (unsigned i = 0; i < CASES; i++) {
@@ -166,7 +166,7 @@ static void test_a_stop_is_hit_where_it_is(void) {
         const wh_real end = place + rest * (WH_R(0.5) * p.a * rest - e * speed);
         const wh_event event = hand_state.contacts->log[0];
         const bool pressed =
-            p.a * side < WH_R(0.0); /* then it may come back within the step, or rest */
+            p.a * side < WH_R(0.0); /* later it may return within the step, or rest */
         TEST_ASSERT_TRUE(event.contact == 1 && hand_state.contacts->mode[0] == WH_FREE);
         TEST_ASSERT_TRUE(hand_near(event.at_s / STEP_S, t / STEP_S, 1e-13, 5e-6));
         if (!pressed) {

@@ -1,6 +1,6 @@
-/* test_lockin.c: the load's once-per-turn part, turn by turn, of made-up loads whose answer is known.
+/* test_lockin.c: the load's once-per-turn part, turn by turn, for made-up loads with a known answer.
  *
- * tests/host/test_lockin_truth.c holds it against a rotor that swings, and its intervals against noise. */
+ * tests/host/test_lockin_truth.c compares it with a swinging rotor, and its intervals with noise. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
@@ -16,8 +16,8 @@ void suite_lockin(void);
 #define DEG WH_R(0.017453292519943295)
 #define PI WH_R(3.141592653589793)
 
-/* A rotor that turns evenly under a load mean + amplitude cos(order theta + phase), theta = mark_rad at sensor 1's
- * marks; and what goes wrong. Numbers count samples and turns from the begin. */
+/* A rotor that turns evenly under a load mean + amplitude cos(order theta + phase), theta = mark_rad at sensor 1's marks, with
+ * faults. Numbers count samples and turns from the start. */
 typedef struct made_up {
     uint32_t first_ticks; /* of the first sample */
     uint32_t late_ticks;  /* the first mark after it */
@@ -26,12 +26,12 @@ typedef struct made_up {
     wh_real amplitude_N;
     wh_real phase_rad;
     wh_real third_N;       /* amplitude of the third order */
-    unsigned lost_mark[2]; /* of sensor 1 and of sensor 2 this one is lost; 0: none */
+    unsigned lost_mark[2]; /* this mark of sensor 1 and of sensor 2 is lost; 0: none */
     unsigned spoilt;       /* from this sample on, 0: none, */
-    unsigned spoilt_count; /* so many samples */
-    wh_real spoilt_N;      /* show so much more, */
+    unsigned spoilt_count; /* this many samples */
+    wh_real spoilt_N;      /* have this offset, */
     wh_load_status status; /* have this status, */
-    bool frozen;           /* or show the first of them */
+    bool frozen;           /* or repeat the first of them */
     unsigned slower_turn;  /* from this turn on each takes a 40th longer */
     unsigned bumpy_turn;   /* from this turn on each has a bump of 20 N, five samples wide */
 } made_up;
@@ -72,7 +72,7 @@ static wh_real load_of(const made_up *made, wh_real part) {
            made->third_N * cosine_of(WH_R(3.0) * theta);
 }
 
-/* A step has time for one piece of the work: two are never done in one. */
+/* A step does at most one piece of the work. */
 static void check_one_piece(wh_lockin_stage stage) {
     const wh_lockin_stage now = lockin.stage;
     const bool sums = stage == WH_LOCKIN_BEGINS || stage == WH_LOCKIN_SUMS;
@@ -83,11 +83,11 @@ static void check_one_piece(wh_lockin_stage stage) {
     TEST_ASSERT_TRUE(stage != WH_LOCKIN_RESHAPES || lockin.place == WH_LOCKIN_NOWHERE);
 }
 
-/* Run until `wanted` turns are done, or for as many and three more. */
+/* Runs until `wanted` turns are done, or for three more. */
 static void run(const made_up *made, unsigned wanted) {
     wh_lockin_start(&rotor, &lockin);
     turns_done = 0;
-    unsigned turn = 0;                /* the rotor is in the one before mark `turn` */
+    unsigned turn = 0;                /* the rotor is in the turn before mark `turn` */
     unsigned second = 0;              /* next mark of sensor 2 */
     uint32_t mark = made->late_ticks; /* of `turn`, after the first sample */
     uint32_t before = mark - TURN_TICKS;
@@ -170,12 +170,12 @@ static void test_known_phase_and_amplitude_are_found(void) {
     for (unsigned i = 0; i < 5U * 4U; i++) {
         made_up made = plain;
         made.phase_rad = degrees[i % 5U] * DEG;
-        made.late_ticks = 77U + (i / 5U) * 600U; /* where the turn begins between two samples */
+        made.late_ticks = 77U + (i / 5U) * 600U; /* the turn begins between two samples */
         run(&made, 6);
         check_all(&made, 6);
         TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.0f, (float)turns[5].residual_N);
         TEST_ASSERT_TRUE(turns[5].samples >= 90U && turns[5].samples <= 91U);
-        /* the load at the sensors, on the straight line between two samples */
+        /* the load at the sensors, interpolated linearly between two samples */
         for (unsigned sensor = 0; sensor < 2; sensor++) {
             const wh_real at = load_of(&made, (wh_real)sensor * WH_R(0.25));
             TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)at, (float)turns[5].at_mark_N[sensor]);
@@ -183,7 +183,7 @@ static void test_known_phase_and_amplitude_are_found(void) {
     }
 }
 
-/* A mark 5 degrees short of the sensor: the angles count from there. */
+/* A mark 5 degrees before the sensor: the angles count from there. */
 static void test_angle_of_the_mark_counts(void) {
     settings();
     made_up made = plain;
@@ -207,7 +207,7 @@ static void test_other_orders_are_rejected(void) {
         for (unsigned i = 2; i < turns_done; i++) {
             TEST_ASSERT_FLOAT_WITHIN(0.06f, 0.0f, (float)turns[i].force_N.at[1]); /* 0.1 % */
             TEST_ASSERT_FLOAT_WITHIN(0.06f, 0.0f, (float)turns[i].force_N.at[2]);
-            /* orders 0 and 2 are taken off, the others are the rest */
+            /* orders 0 and 2 are removed, the others are the residual */
             TEST_ASSERT_FLOAT_WITHIN(order > 2 ? 0.3f : 0.05f, order > 2 ? 43.65f : 0.0f,
                                      (float)turns[i].residual_N); /* 60/sqrt(2) sqrt(91/86) */
         }
@@ -233,7 +233,7 @@ static void test_timer_may_wrap_within_a_turn(void) {
     }
 }
 
-/* Of sensor 1: two turns are skipped, which are one between marks. Of sensor 2: nothing changes but the load there. */
+/* Lost marks of sensor 1: two turns between marks are skipped. Of sensor 2: only the load there changes. */
 static void test_lost_marks_spoil_no_other_turn(void) {
     settings();
     for (unsigned sensor = 0; sensor < 2; sensor++) {
@@ -251,7 +251,7 @@ static void test_lost_marks_spoil_no_other_turn(void) {
     }
 }
 
-/* After a gap the turn that is under way does not count, the next does. */
+/* After a gap the current turn does not count, the next does. */
 static void test_a_gap_costs_one_turn(void) {
     settings();
     run(&plain, 3);
@@ -266,7 +266,7 @@ static void test_a_gap_costs_one_turn(void) {
     TEST_ASSERT_TRUE(lockin.open && !lockin.split_seen && lockin.begin_ticks == 2000U);
 }
 
-/* Two samples missing are bridged, three leave the turn without a result. */
+/* Two missing samples are bridged, three leave the turn without a result. */
 static void test_missing_samples(void) {
     settings();
     for (unsigned missing = 1; missing <= 5; missing++) {
@@ -290,7 +290,8 @@ static void test_missing_samples(void) {
     }
 }
 
-/* Samples far off are left out and counted; of a turn's 91 eight are a gap, and nine, a tenth of the rest, too many. */
+/* Outliers are left out and counted. Of a turn's 91 samples, eight outliers are a gap; nine, a tenth of the others, are too
+ * many. */
 static void test_outliers_are_left_out(void) {
     static const unsigned counts[] = {1, 8, 9, 14};
     settings();
@@ -316,8 +317,8 @@ static void test_outliers_are_left_out(void) {
     }
 }
 
-/* A load that is another from some turn on, in a few samples running: they are outliers once, a gap, and then what must be
- * expected. */
+/* The load changes permanently at some turn, in a few consecutive samples. They are outliers once, a gap, then the new
+ * expectation. */
 static void test_what_stays_is_expected(void) {
     settings();
     made_up made = plain;
@@ -331,7 +332,7 @@ static void test_what_stays_is_expected(void) {
     }
 }
 
-/* Nine equal samples running are no load of a rotor that turns. */
+/* Nine equal samples in a row cannot come from a turning rotor. */
 static void test_a_frozen_load_does_not_count(void) {
     settings();
     for (unsigned held = 6; held <= 12; held += 3) {
@@ -376,7 +377,7 @@ static void test_samples_out_of_order_are_refused(void) {
     TEST_ASSERT_TRUE(lockin.taken && lockin.taken_ticks == 5000U && lockin.count == 0);
 }
 
-/* A mark that never comes: the samples that wait are the newest, and none stands beside their room. */
+/* A mark that never comes: the newest samples wait, and none is stored outside the buffer. */
 static void test_samples_stay_in_their_room(void) {
     settings();
     wh_lockin_start(&rotor, &lockin);
@@ -395,13 +396,13 @@ static void test_samples_stay_in_their_room(void) {
 
 /* --- the angle within a turn ---------------------------------------------------------------------- */
 
-/* It begins at the mark and ends a turn on; and an inertia off by up to 40 % is found from the split alone, whatever
- * the direction in which gravity pulls, but for the diagonal that the split does not show. */
+/* It begins at the mark and ends a turn on. An inertia off by up to 40 % is found from the split alone, whatever the direction
+ * of gravity, except on the diagonal that the split does not show. */
 static void test_the_inertia_is_found_from_the_split(void) {
     static const wh_real gravities[] = {WH_R(0.0), WH_R(90.0), WH_R(180.0), WH_R(-90.0)};
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(360.0)};
     for (unsigned k = 0; k < 4U * 3U * 2U; k++) {
-        if (k % 12U == 2U) { /* upside down at 170 rpm: two rotors split the turn so */
+        if (k % 12U == 2U) { /* upside down at 170 rpm: two rotors give this split */
             continue;
         }
         settings();
@@ -440,7 +441,7 @@ static void test_the_inertia_is_found_from_the_split(void) {
     }
 }
 
-/* Without gravity in the arms' plane there is no swing, and the split says nothing of the inertia. */
+/* Without gravity in the arms' plane there is no swing, and the split does not depend on the inertia. */
 static void test_level_arms_turn_evenly(void) {
     settings();
     wh_turn_angle angle;

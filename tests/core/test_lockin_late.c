@@ -1,5 +1,5 @@
-/* test_lockin_late.c: what the lock-in finds does not hang on when its samples arrive, nor on where between them a turn begins,
- * nor on what it was told before it was made to forget. */
+/* test_lockin_late.c: the lock-in's result does not depend on its samples' delays, on the turn's start between samples, or on
+ * data from before a reset. */
 #include "core/angle.h"
 #include "core/rig/lockin.h"
 #include "core/rig/rig.h"
@@ -20,17 +20,17 @@ static const wh_cell_config cell = {
 static wh_lockin lockin;
 static wh_lockin fresh;
 
-/* A rotor that turns evenly, and its samples: turn 0 begins `lead` samples behind the first one, or before it (< 0). */
+/* A rotor that turns evenly, and its samples: turn 0 begins `lead` samples after the first one, or before it (< 0). */
 typedef struct stream {
     uint32_t ticks; /* of the first sample */
     int lead;
-    int32_t behind_ticks; /* so much before the sample it begins near */
+    int32_t behind_ticks; /* offset from the sample near the turn's start */
     wh_real mean_N;
     wh_real cosine_N;
     wh_real sine_N;
     wh_real ripple_N;   /* of the third order */
-    unsigned held;      /* so many steps none arrives, and then all that wait */
-    unsigned hold_more; /* one step of so many, 0: none, begins a hold of up to 12 */
+    unsigned held;      /* this many steps without samples, then all that wait */
+    unsigned hold_more; /* one step in so many, 0: none, begins a hold of up to 12 */
 } stream;
 
 static stream draw_stream(void) {
@@ -54,9 +54,9 @@ static wh_real load_of(const stream *from, int32_t since_mark) {
     return from->mean_N + from->cosine_N * cosine + from->sine_N * sine + from->ripple_N * third;
 }
 
-/* So many control steps of it; the turns that come of it, TURNS at most. */
+/* Runs control steps; returns the finished turns, TURNS at most. */
 static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_lockin_turn *turns) {
-    /* as the rig: a step without samples does more */
+    /* as in the rig: a step without samples does more */
     const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
                                                               : WH_LOCKIN_HALVES_AT_ONCE + 1U;
     const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;
@@ -120,7 +120,7 @@ static void begin(uint64_t from) {
     rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI;
 }
 
-/* Samples that come late, single ones, some together, or none until a turn is over: each turn is the same to the bit. */
+/* Samples that come late, single, in groups, or after the turn: each turn is equal to the bit. */
 static void test_late_samples_change_nothing(void) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
@@ -141,8 +141,8 @@ static void test_late_samples_change_nothing(void) {
     }
 }
 
-/* Whatever it was told, and wherever that broke off: what comes then is found as from the start. Only whether the first turn is
- * as long as one before it may be known, and with it what the second one is expected to show. */
+/* After a reset at any point the results are as from the start. Only the first turn's length check, and with it the second
+ * turn's expectation, may remain. */
 static void test_what_was_forgotten_changes_nothing(void) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
@@ -167,7 +167,7 @@ static void test_what_was_forgotten_changes_nothing(void) {
     }
 }
 
-/* A turn that begins, ends or is split at a sample, or so many ticks beside one: it is as right as any other. */
+/* A turn that begins, ends or is split at or near a sample is as right as any other. */
 static void test_marks_may_fall_on_samples(void) {
     static wh_lockin_turn found[TURNS];
     begin(3);

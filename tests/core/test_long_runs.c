@@ -1,4 +1,4 @@
-/* test_long_runs.c: counts and times of runs of years: nothing wraps, and times are right to one rounding. */
+/* test_long_runs.c: counts and times in runs of years: nothing wraps, and times are right to one rounding. */
 #include "core/angle.h"
 #include "core/number/sum.h"
 #include "core/rig/speed.h"
@@ -30,7 +30,7 @@ static wide difference(wide a, wide b) {
     return less(a, b) ? difference(b, a) : (wide){a.high - b.high - (a.low < b.low), a.low - b.low};
 }
 
-/* The quotient's low 64 bits, bit by bit; *rest is what is left. */
+/* The quotient's low 64 bits, bit by bit; *rest is the remainder. */
 static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
     uint64_t result = 0;
     *rest = 0;
@@ -77,7 +77,7 @@ static uint64_t random_bits(void) { /* xorshift64 (Marsaglia, 2003) */
     return random_state;
 }
 
-/* Is the time of step `steps` right? Where it is beyond 2^64 s there is nothing to say. */
+/* Is the time of step `steps` right? Beyond 2^64 s it is undefined. */
 static bool time_is_right(wh_fraction step, uint64_t steps) {
     const wh_scene scene = {.step_s = (wh_real)step.numerator / (wh_real)step.denominator,
                             .step = step};
@@ -89,7 +89,7 @@ static bool time_is_right(wh_fraction step, uint64_t steps) {
     uint64_t rest;
     const uint64_t whole = quotient(all, step.denominator, &rest);
     const wh_time time = wh_scene_time(&scene, &state);
-    if (time.whole_s == whole + 1) { /* nearest to the fraction is one */
+    if (time.whole_s == whole + 1) { /* the nearest real to the fraction is one */
         const wide left = product(step.denominator - rest, UINT64_C(2) << DIGITS);
         return time.fraction_s == WH_R(0.0) && !less((wide){0, step.denominator}, left);
     }
@@ -130,7 +130,7 @@ static void test_times_are_right_to_one_rounding(void) {
     }
 }
 
-/* A fraction that rounds to one is the next second; one that does not stays below it. */
+/* A fraction that rounds to one is the next second; otherwise it stays below it. */
 static void test_a_fraction_stays_below_one(void) {
     const uint64_t in = UINT64_C(1) << 60;
     wh_scene scene = {.step_s = WH_R(1.0), .step = {1, in}};
@@ -145,8 +145,8 @@ static void test_a_fraction_stays_below_one(void) {
     TEST_ASSERT_TRUE(time.whole_s == 0 && time.fraction_s == WH_R(0x1p-60));
 }
 
-/* One that does not say its step exactly has the time of its real step. Steps of 2^k s, so many that their product is
- * exact: whole seconds and fraction are the bits of it above and below the point, at any size below 2^56 s. (From there on there is no more than that.) */
+/* A scene without an exact step has the time of its real step. With steps of 2^k s the product is exact: whole seconds and
+ * fraction are its bits above and below the point, below 2^56 s. (Beyond that there are no further bits.) */
 static void test_time_without_a_fraction(void) {
     random_state = UINT64_C(0x20261123);
     for (int k = -20; k <= 33; k++) {
@@ -201,7 +201,7 @@ static void test_events_and_overruns_do_not_wrap(void) {
 }
 
 #if !WH_DOUBLE
-/* The count of turns wraps at 2^31 of them, in whole turns, and the phase goes on. */
+/* The count of turns wraps at 2^31, in whole turns, and the phase goes on. */
 static void test_turns_wrap_and_the_phase_goes_on(void) {
     wh_angle angle = INT64_MAX - 100;
     wh_real carry = 0.0f;
@@ -214,8 +214,7 @@ static void test_turns_wrap_and_the_phase_goes_on(void) {
 }
 #endif
 
-/* The books' sums at the end of 50 years of 1 ms, 1.6e12 entries of one size: what a hundred thousand more add is not
- * lost in them. */
+/* The books' sums after 50 years of 1 ms, 1.6e12 entries of one size: another hundred thousand entries are not lost. */
 static void test_sums_of_years_do_not_stall(void) {
     static const wh_real each[] = {WH_R(1.0), WH_R(-3e-7), WH_R(0.0123), WH_R(7.7e9), WH_R(-1e-20)};
     const wh_real years = WH_R(1.57788e12);
@@ -231,8 +230,8 @@ static void test_sums_of_years_do_not_stall(void) {
     }
 }
 
-/* Quarter turns and pulses wrap after 2^32 of them, six years at 330 rpm, and capture ticks after 71.6 minutes: the speed
- * goes on, no pulse counts as lost, and no position is another. */
+/* Quarter turns and pulses wrap after 2^32, six years at 330 rpm, and capture ticks after 71.6 minutes. The speed stays right,
+ * no pulse counts as lost, and no position changes. */
 static void test_the_count_of_quarters_wraps(void) {
     static wh_speed speed;
     const uint32_t quarter_ticks = 45454U;
@@ -246,7 +245,7 @@ static void test_the_count_of_quarters_wraps(void) {
             speed.seen_quarter[1] += on;
             speed.taken = UINT32_MAX - 5U;
         }
-        if (k % 4U <= 1U) { /* the slots stand at a quarter of a turn from each other */
+        if (k % 4U <= 1U) { /* the slots are a quarter of a turn apart */
             TEST_ASSERT_TRUE(wh_speed_pulse(&speed, k % 4U, ticks));
             TEST_ASSERT_TRUE(speed.quarter % 4U == k % 4U);
         }

@@ -1,5 +1,5 @@
-/* test_memory.c: what wh_scene_start() takes and refuses: too little memory, memory that is not aligned, nothing at
- * all; for scenes of every shape. A refusal leaves the memory as it was, and a state that no step takes. */
+/* test_memory.c: wh_scene_start() refuses memory that is too small, misaligned or absent, for scenes of every shape. A refusal
+ * leaves the memory unchanged and a state that no step accepts. */
 #include "core/ledger.h"
 #include "core/scene.h"
 
@@ -27,7 +27,7 @@ static void fill(void) {
     }
 }
 
-/* Is the memory as fill() left it, outside room[from] to room[to]? */
+/* Is the memory outside room[from] to room[to] as after fill()? */
 static bool is_filled(size_t from, size_t to) {
     bool all = true;
     for (size_t i = 0; i < sizeof words; i++) {
@@ -48,7 +48,7 @@ static wh_status no_steps(const wh_scene *scene, wh_state *of, uint32_t steps) {
     return no_step(scene, of);
 }
 
-/* The state was not started: every function that takes one refuses it, and leaves it as it is. */
+/* The state was not started: every function that takes one refuses it and leaves it unchanged. */
 static void must_not_run(const wh_scene *scene) {
     wh_scene with_ahead = *scene;
     const wh_state before = state;
@@ -73,7 +73,7 @@ static void must_refuse(const wh_scene *scene, void *memory, size_t bytes, wh_st
     if (scene != NULL) {
         must_not_run(scene);
     }
-    state = (wh_state){.fault = 0}; /* as static memory is */
+    state = (wh_state){.fault = 0}; /* like static memory */
     if (scene != NULL) {
         must_not_run(scene);
     }
@@ -94,7 +94,7 @@ static bool ends_within(const wh_scene *scene, size_t first, size_t bytes) {
            (scene->contacts == 0 || (const unsigned char *)(state.contacts + 1) <= end);
 }
 
-/* By the compiler, not by the core: where a struct has its 64-bit integer behind a byte. */
+/* By the compiler, not the core: a struct with its 64-bit integer after a byte. */
 typedef struct behind {
     char byte;
     uint64_t word;
@@ -128,7 +128,7 @@ static wh_scene shape(unsigned angles, unsigned reals, unsigned inputs, unsigned
     return scene;
 }
 
-/* Scenes of all shapes: so many reals beside those of the state as `more` says. */
+/* Scenes of all shapes: `more` reals beside those of the state. */
 static void every_shape(void (*see)(const wh_scene *scene, size_t need)) {
     static const uint8_t contacts[] = {0, 1, 7, WH_CONTACTS_LIMIT};
     static const wh_ledger_form books[] = {{.entries = 1, .accounts = 1},

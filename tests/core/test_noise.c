@@ -1,5 +1,5 @@
-/* test_noise.c: noise by seed and index: the same integers everywhere, and distributed as promised.
- * WH_TEST_SMALL takes fewer draws. */
+/* test_noise.c: noise by seed and index has the same integers everywhere and the promised distribution. WH_TEST_SMALL takes
+ * fewer draws. */
 #include "core/noise.h"
 
 #include "unity.h"
@@ -39,7 +39,8 @@ static void test_fixed_values(void) {
     }
 }
 
-/* Mean 0, second moment 1, fourth 3: those of a Gaussian, to 0.1 %. Errors of the estimates by the moments of a Gaussian: 1, sqrt 2, sqrt 96. */
+/* Mean 0, second moment 1, fourth moment 3, as for a Gaussian, to 0.1 %. The estimates' errors by a Gaussian's moments: 1, sqrt
+ * 2, sqrt 96. */
 static void test_moments(void) {
     for (uint32_t seed = 1; seed <= 4; seed++) {
         int64_t sum = 0;
@@ -62,8 +63,8 @@ static void test_moments(void) {
     }
 }
 
-/* Parts beyond one to four standard deviations are a Gaussian's. Bounds: four standard errors of a count,
- * sqrt(p (1 - p)/(16 DRAWS)), which tell 0.0027 from the 0.0020 of a sum of twelve. */
+/* The shares beyond one to four standard deviations are a Gaussian's. Bounds: four standard errors of a count, sqrt(p (1 -
+ * p)/(16 DRAWS)). They separate 0.0027 from the 0.0020 of a sum of twelve. */
 static void test_tails(void) {
     enum { SEEDS = 16 };
     static const double part[] = {0.31731, 0.045500, 0.0026998, 6.33e-5};
@@ -82,7 +83,7 @@ static void test_tails(void) {
     }
 }
 
-/* Correlation of two sequences of unit deviates is within 4/sqrt(DRAWS) if they are independent. */
+/* The correlation of two independent sequences of unit deviates is within 4/sqrt(DRAWS). */
 static double correlation(uint32_t a, uint32_t b, unsigned lag) {
     int64_t sum = 0;
     for (unsigned i = 0; i < DRAWS; i++) {

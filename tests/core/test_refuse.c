@@ -1,6 +1,5 @@
-/* test_refuse.c: which component a refused step is blamed with, in all the forms that chips have of it, against the rule as
- * it is written: sizes that sum up to 1e15 or more, or to no number, are no mechanism's; the first that is so large by
- * itself is blamed, or else the last. */
+/* test_refuse.c: the component blamed for a refused step, in all chips' forms, against the written rule. Sizes whose sum is
+ * 1e15 or more, or not a number, are invalid. The first that is so large by itself is blamed, or else the last. */
 #include "core/step/matrix_step.h"
 #include "tests/core/draw.h"
 #include "unity.h"
@@ -15,7 +14,7 @@ enum { MOST = 12, NONE = -1 };
 
 static wh_real size_of(wh_real value) { return value < WH_R(0.0) ? -value : value; }
 
-/* Below 1e15, in comparisons that are false of what is no number. */
+/* Below 1e15, by comparisons that are false for NaN. */
 static bool is_small(wh_real value) { return size_of(value) < WH_R(1e15); }
 
 static int blamed_by_rule(const wh_real *value, unsigned n) {
@@ -33,7 +32,7 @@ static int blamed_by_rule(const wh_real *value, unsigned n) {
     return (int)at;
 }
 
-/* Ordinary numbers, those about a bound, and what no state holds. */
+/* Ordinary numbers, those near a bound, and invalid ones. */
 static wh_real drawn(uint64_t *seed) {
     static const wh_real edge[] = {WH_R(0.0),
                                    WH_R(1e-30),

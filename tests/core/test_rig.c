@@ -1,4 +1,4 @@
-/* test_rig.c: the rig's controller, piece by piece: speed, drive, cell. */
+/* test_rig.c: the rig's controller, part by part: speed, drive, cell. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
@@ -43,7 +43,7 @@ static void test_speed_across_the_timers_wrap(void) {
     TEST_ASSERT_EQUAL_UINT32(0, speed.lost + speed.rejected);
 }
 
-/* Fast through the bottom, slow over the top: the whole turn's mean must not see it. */
+/* Fast through the bottom, slow over the top: the whole turn's mean must not change. */
 static void test_speed_of_a_turn_has_no_ripple(void) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -63,7 +63,8 @@ static void test_one_lost_pulse_is_counted_and_bridged(void) {
         wh_speed_start(&speed, WH_R(800.0) * RPM);
         uint32_t ticks = 123;
         spin(&speed, &ticks, 3);
-        wh_speed_pulse(&speed, 1U - sensor, ticks + (1U - sensor) * QUARTER); /* sensor's is lost */
+        wh_speed_pulse(&speed, 1U - sensor,
+                       ticks + (1U - sensor) * QUARTER); /* this sensor's pulse is lost */
         ticks += 4U * QUARTER;
         spin(&speed, &ticks, 1);
         TEST_ASSERT_EQUAL_UINT32(1, speed.lost);
@@ -71,7 +72,7 @@ static void test_one_lost_pulse_is_counted_and_bridged(void) {
     }
 }
 
-/* A whole turn without pulses looks like a fifth of the speed: it must not pass for one. */
+/* A whole turn without pulses looks like a fifth of the speed: it must not count as one. */
 static void test_a_gap_keeps_the_speed_and_counts(void) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -89,8 +90,8 @@ static void test_a_gap_keeps_the_speed_and_counts(void) {
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, ticks + 3U * QUARTER));
 }
 
-/* Three lost running: the same sensor fires after two turns, which at an even speed is just half of
- * what one turn would need. Whatever the ripple, it must not pass for one turn. */
+/* Three lost pulses in a row: the same sensor fires after two turns, which at an even speed is just half of one turn's speed.
+ * Whatever the ripple, it must not count as one turn. */
 static void test_three_lost_running_are_a_gap(void) {
     for (unsigned late = 0; late < 2; late++) {
         wh_speed speed;
@@ -139,13 +140,13 @@ static void test_ramp_keeps_its_rate_and_arrives(void) {
     wh_drive drive;
     wh_drive_start(&drive, WH_R(20.0), WH_R(0.3));
     TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
-    /* no bump: at the take-over speed the voltage stays */
+    /* no jump: at the take-over speed the voltage stays */
     TEST_ASSERT_FLOAT_WITHIN(
         1e-6f, 0.3f, (float)wh_drive_step(config, &drive, WH_R(20.0), SUPPLY_V, WH_R(0.002)));
     const float rate = (float)config->ramp_radps2;
     drive.target_radps = WH_R(25.0);
     TEST_ASSERT_FLOAT_WITHIN(1.5f, 5.0f / rate / 0.002f, (float)steps_to_target(&drive));
-    /* a quarter of the rate where it is slow */
+    /* a quarter of the rate at slow speed */
     drive.target_radps = config->gentle_radps;
     (void)steps_to_target(&drive);
     drive.target_radps -= WH_R(2.0);
@@ -168,7 +169,7 @@ static void test_loop_leaves_no_steady_error(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 34.0f, (float)speed);
 }
 
-/* A rotor held for a minute must not find a minute of integral when it comes free; whatever the supply has. */
+/* A rotor blocked for a minute must not find a minute of integral on release, whatever the supply. */
 static void test_integral_does_not_wind_up(void) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
@@ -181,8 +182,8 @@ static void test_integral_does_not_wind_up(void) {
             volts = wh_drive_step(config, &drive, config->gentle_radps, supplies_V[i], WH_R(0.002));
         }
         TEST_ASSERT_TRUE(volts == supplies_V[i]);
-        /* On the ramp the error is 6.28 t, the voltage 1.508 t + 3.142 t^2: full at t, and the integral
-         * stands still from then on, at 3.142 t^2. A mere clamp would let it go on to the supply. */
+        /* On the ramp the error is 6.28 t, the voltage 1.508 t + 3.142 t^2: full at t. The integral stands still from then on,
+         * at 3.142 t^2; a mere clamp would let it rise to the supply. */
         const double full_s =
             (root(1.508 * 1.508 + 4.0 * 3.142 * (double)supplies_V[i]) - 1.508) / (2.0 * 3.142);
         const double kept_V = 3.142 * full_s * full_s;
@@ -192,13 +193,13 @@ static void test_integral_does_not_wind_up(void) {
             volts = wh_drive_step(config, &drive, WH_R(66.0), supplies_V[i], WH_R(0.002));
             steps++;
         } while (volts > WH_R(13.8) && steps < 10000U);
-        /* 6 rad/s too fast take 1.44 V at once and 6 V a second */
+        /* 6 rad/s too fast: 1.44 V less at once and 6 V a second */
         const double back_s = (kept_V - 1.44 - 13.8) / 6.0;
         TEST_ASSERT_TRUE((double)steps < (back_s > 0.0 ? back_s * 500.0 : 0.0) + 25.0);
     }
 }
 
-/* A supply that breaks down and comes back takes the integral down with it, and not up again. */
+/* A supply that breaks down and returns takes the integral down, and not up again. */
 static void test_the_integral_comes_back(void) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real out_V[] = {WH_R(-1.0), WH_R(25.0), WH_R(1e6)};
@@ -230,7 +231,7 @@ static void test_voltage_stays_in_range(void) {
     TEST_ASSERT_TRUE(drive.integral_V >= WH_R(0.0));
 }
 
-/* Without a turn known nothing is overdue, however long it takes. */
+/* Without a known turn nothing is overdue, after any time. */
 static void test_only_a_known_turn_can_be_overdue(void) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -246,7 +247,7 @@ static void test_only_a_known_turn_can_be_overdue(void) {
 
 /* --- load cell ---------------------------------------------------------------------------------- */
 
-/* What the converter says of a sample, and what it shows at full scale. */
+/* The converter's status of a sample, and its value at full scale. */
 static void test_the_cells_counts_are_newtons(void) {
     const wh_cell_config cell = {.newton_per_count = WH_R(-0.01),
                                  .offset_N = WH_R(2.0),

@@ -1,5 +1,5 @@
-/* test_rig_bounds.c: what is bounded in the rig's controller: how much of the work a control step does, how long a ramp may
- * take, what of the tare is still known behind it, limits of the tare that are allowed themselves; and a stage in words. */
+/* test_rig_bounds.c: bounds in the rig's controller: work per control step, ramp time, the tare's validity, inclusive limits of
+ * the tare, and the stage's name. */
 #include "build/gen/scenes.h"
 #include "core/rig/observer.h"
 #include "draw.h"
@@ -12,7 +12,7 @@ void suite_rig_bounds(void);
 static even_rig even;
 static uint64_t seed;
 
-/* Armed, with an observer; `trusted`: every mark is a good one to it, or none. */
+/* Armed, with an observer; `trusted`: it calls every mark good, or none. */
 static void arm(bool trusted) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
@@ -26,7 +26,7 @@ static void arm(bool trusted) {
 
 /* --- a step's work --------------------------------------------------------------------------------------- */
 
-/* Marks that wait, as many as there is room for: a step takes one, but a single one only when no pulse came. */
+/* Waiting marks, as many as there is room for: a step takes one, the last one only in a step without a pulse. */
 static void test_a_single_mark_waits_for_a_step_without_a_pulse(void) {
     static even_rig twin;
     even_reach(&even, WH_PHASE_SETTLE);
@@ -51,7 +51,7 @@ static void test_a_single_mark_waits_for_a_step_without_a_pulse(void) {
     }
 }
 
-/* Half nodes of the turn's sums since then; -1 where that cannot be told. */
+/* Half nodes of the turn's sums since then; -1 if unknown. */
 static int halves_since(const wh_lockin *before) {
     const wh_lockin *now = &even.rig.measure.lockin;
     if (before->stage != WH_LOCKIN_SUMS || now->stage != WH_LOCKIN_SUMS || now->count < 4U ||
@@ -65,9 +65,9 @@ static int halves_since(const wh_lockin *before) {
            (before->place != WH_LOCKIN_NOWHERE ? 1 : 0);
 }
 
-/* A controller that is late, by up to three steps, with samples that came meanwhile or none: of a turn's sums four half nodes
- * are worked on where there is no sample, three where there is one (two while a mark is not sure and gravity is fed), one where
- * there are more, or where the observer has come up by two steps. Where a pulse or a mark was work enough: none. */
+/* A controller late by up to three steps, with or without samples meanwhile. A step without a sample works on four half nodes
+ * of a turn's sums. With one sample it is three (two while a mark is unsure and gravity is fed). With more samples, or if the
+ * observer caught up two steps, it is one. After a pulse or a mark it is none. */
 static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
     static wh_lockin before;
     unsigned times[5] = {0};
@@ -85,7 +85,7 @@ static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
                 even.fails = (even_failure){.in = WH_PHASE_RECORD, .lose_samples = 1};
                 samples = 0;
             }
-            for (unsigned k = 0; k < late; k++) { /* what it would have heard */
+            for (unsigned k = 0; k < late; k++) { /* the samples it would have had */
                 even.inputs.now_ticks += EVEN_STEP_TICKS;
                 if (draw_one_in(&seed, 2)) {
                     wh_rig_load(&even.config, &even.rig, even.inputs.now_ticks - 500U,
@@ -118,7 +118,8 @@ static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
 
 /* --- phases ----------------------------------------------------------------------------------------------- */
 
-/* A set-point that needs gravity fed forward, and an observer that never gets there: the ramp takes the time it may, and trips. */
+/* A set-point that needs gravity fed forward, with an observer that never becomes valid: the ramp takes its full time and
+ * trips. */
 static void test_a_ramp_takes_no_longer_than_it_may(void) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);
@@ -134,7 +135,7 @@ static void test_a_ramp_takes_no_longer_than_it_may(void) {
     }
 }
 
-/* Pulses of a rotor that hangs and shivers: behind the tare no turn has begun with them. */
+/* Pulses of a hanging, shivering rotor: after the tare no turn has begun with them. */
 static void test_what_was_seen_at_rest_begins_no_turn(void) {
     seed = 4;
     for (unsigned i = 0; i < 60U; i++) {
@@ -153,7 +154,7 @@ static void test_what_was_seen_at_rest_begins_no_turn(void) {
 
 /* --- limits ------------------------------------------------------------------------------------------------ */
 
-/* Readings that scatter as much as is still: so much is, and the next number beyond it is not; and likewise the mean's error. */
+/* The largest scatter that counts as still is allowed, and the next number above is not; the same for the mean's error. */
 static void test_limits_of_the_tare_are_allowed(void) {
     seed = 3;
     for (unsigned i = 0; i < 200U; i++) {
@@ -180,7 +181,7 @@ static void test_limits_of_the_tare_are_allowed(void) {
 
 /* --- words -------------------------------------------------------------------------------------------------- */
 
-/* A number below the phases' is a state, and any other a phase. */
+/* Numbers below the phases' are states, all others phases. */
 static void test_a_stage_is_a_state_or_a_phase(void) {
     for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
         const bool state = stage < WH_RIG_STAGE_OF_PHASE;

@@ -1,5 +1,5 @@
-/* test_rig_carriage.c: the angle within a turn on a carriage that gives way, against the rotor integrated over its angle;
- * what such a mount makes of the controller's numbers. */
+/* test_rig_carriage.c: the angle within a turn on a compliant carriage against the rotor integrated over its angle, and the
+ * mount's effect on the controller's numbers. */
 #include "core/angle.h"
 #include "core/rig/carriage.h"
 #include "core/rig/datasheet.h"
@@ -13,8 +13,7 @@ void suite_rig_carriage(void);
 #define TURNS 16U
 
 static wh_rotor_config rotor;
-static wh_real
-    part_at[STEPS + 1U]; /* of the turn's time, at angles of STEPS steps from the mark on */
+static wh_real part_at[STEPS + 1U]; /* by the turn's time, at STEPS equal angles from the mark */
 static wh_real turn_s;
 
 static wh_real sine_of(wh_real rad) {
@@ -23,7 +22,7 @@ static wh_real sine_of(wh_real rad) {
     return wave.sine;
 }
 
-/* Of the speed, per rad: (I - D sin^2) w dw/dtheta = D w^2 sin cos + c (omega - w). */
+/* Slope of the speed, per rad: (I - D sin^2) w dw/dtheta = D w^2 sin cos + c (omega - w). */
 static wh_real slope(wh_real theta, wh_real speed, wh_real omega) {
     const wh_real sine = sine_of(theta);
     const wh_real inertia = rotor.inertia_kgm2 - rotor.yields_kgm2 * sine * sine;
@@ -32,7 +31,7 @@ static wh_real slope(wh_real theta, wh_real speed, wh_real omega) {
     return torque / (inertia * speed);
 }
 
-/* Turns it until it repeats itself, and keeps the last turn. */
+/* Turns it until it is periodic and stores the last turn. */
 static void integrate(wh_real omega) {
     const wh_real step = WH_RIG_TWO_PI / (wh_real)STEPS;
     wh_real speed = omega;
@@ -55,7 +54,6 @@ static void integrate(wh_real omega) {
     part_at[STEPS] = WH_R(1.0);
 }
 
-/* The largest distance from the integrated angle. */
 static wh_real off(const wh_rotor_config *config, wh_turn_angle *angle) {
     wh_turn_angle_start(config, angle);
     for (unsigned round = 0; round < 4U; round++) {
@@ -85,7 +83,7 @@ static void test_angle_on_a_carriage(void) {
     for (unsigned r = 0; r < sizeof ratios / sizeof ratios[0]; r++) {
         for (unsigned s = 0; s < sizeof speeds / sizeof speeds[0]; s++) {
             for (unsigned drag = 1; drag <= 4U;
-                 drag *= 2U) { /* a stiffer motor: the wave turns on */
+                 drag *= 2U) { /* a stiffer motor shifts the wave's phase */
                 mount(ratios[r]);
                 rotor.damping_Nms *= (wh_real)drag;
                 integrate(speeds[s]);
@@ -97,7 +95,7 @@ static void test_angle_on_a_carriage(void) {
                 const wh_real wave = angle.twice_rad;
                 TEST_ASSERT_TRUE(unshaped.twice_rad == WH_R(0.0));
                 TEST_ASSERT_TRUE(wave > WH_R(0.0) && wave < WH_R(0.06));
-                /* both are at the mark there: what is left of an even angle is the wave about its value at the mark */
+                /* both are at the mark there: relative to an even angle, the wave less its value at the mark */
                 TEST_ASSERT_TRUE(even_off > WH_R(0.9) * wave && even_off < WH_R(2.1) * wave);
                 TEST_ASSERT_TRUE(left < WH_R(2.5) * wave * wave + WH_R(6e-5));
             }
@@ -105,7 +103,7 @@ static void test_angle_on_a_carriage(void) {
     }
 }
 
-/* A carriage that is too heavy to move is a fixed mount; and what is no rotor at all makes no wave. */
+/* A carriage too heavy to move is a fixed mount; a rotor without masses makes no wave. */
 static void test_no_wave(void) {
     wh_turn_angle angle;
     mount(WH_R(0.0));
@@ -135,7 +133,7 @@ static void test_mount(void) {
     TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_FEED_NEVER &&
                      config.observer.scene == NULL);
 
-    /* arms with no discs turn about themselves alone */
+    /* arms without discs turn about themselves only */
     const wh_carriage bare = {.disc_m = WH_R(0.0), .ratio = WH_R(0.0)};
     wh_carriage_mount(&config, &bare);
     TEST_ASSERT_FLOAT_WITHIN(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f,
@@ -154,11 +152,11 @@ static void test_swing(void) {
             wh_carriage_mount(&config, &carriage);
             const wh_real part = config.measure.result.mount_factor;
             const wh_real moment = config.measure.rotor.mass_moment_kgm;
-            /* the discs, 0.136 kg, are elsewhere: so much less inertia */
+            /* without the discs, 0.136 kg, the inertia is smaller */
             TEST_ASSERT_FLOAT_WITHIN(
                 1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),
                 (float)(config.measure.rotor.inertia_kgm2 - WH_RIG_INERTIA_KGM2));
-            /* a tenth more than is expected, at some <w^2>: the carriage goes a tenth further */
+            /* a tenth above the expectation, at some <w^2>: the carriage moves a tenth further */
             const wh_measured force = {.amplitude_N = WH_R(1.1) * part * moment * WH_R(900.0),
                                        .expected_N = part * moment * WH_R(900.0)};
             const wh_real due = WH_R(1.1) * moment * (WH_R(1.0) - part) / WH_RIG_ECCENTRIC_KG;

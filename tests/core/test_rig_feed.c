@@ -1,5 +1,5 @@
-/* test_rig_feed.c: the feed-forward of gravity: what it says, when it says nothing, and what it does to a rotor's ripple
- * in closed loop (fed_rotor.c), also where controller and rotor disagree. */
+/* test_rig_feed.c: gravity's feed-forward: its voltage, the times without one, and its effect on a rotor's ripple in closed
+ * loop (fed_rotor.c), also with wrong settings. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
@@ -14,7 +14,7 @@ void suite_rig_feed(void);
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
-#define JITTER_S WH_R(104e-6) /* evenly: a standard deviation of 60 us */
+#define JITTER_S WH_R(104e-6) /* uniform: a standard deviation of 60 us */
 
 static fed_rotor fed;
 
@@ -29,9 +29,9 @@ static wh_real sine_of(wh_real rad) {
     return sine;
 }
 
-/* --- what it says ------------------------------------------------------------------------------------- */
+/* --- its voltage -------------------------------------------------------------------------------------- */
 
-/* S g sin(theta - gamma) over the stall torque, the lead ahead, limited, after it has been faded in evenly. */
+/* S g sin(theta - gamma) over the stall torque, with the lead, limited, after an even fade-in. */
 static void test_it_says_gravitys_voltage(void) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
@@ -58,7 +58,7 @@ static void test_it_says_gravitys_voltage(void) {
     }
 }
 
-/* Nothing at once when the observer is not valid, then faded in from nothing; and no number is never said. */
+/* Zero at once if the observer is invalid, then faded in from zero; never NaN. */
 static void test_it_says_nothing_without_an_angle(void) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     fed_rotor_standard(&fed, 1);
@@ -87,7 +87,7 @@ static void test_it_says_nothing_without_an_angle(void) {
     }
 }
 
-/* --- what it does -------------------------------------------------------------------------------------- */
+/* --- its effect ---------------------------------------------------------------------------------------- */
 
 /* From 200 rpm to this speed, and there, with jitter and 0.02 N m of friction. */
 static void run_at(wh_real rpm) {
@@ -99,7 +99,7 @@ static void run_at(wh_real rpm) {
     fed_rotor_count(&fed);
     fed_rotor_run(&fed, rpm, WH_R(3.0));
     TEST_ASSERT_FALSE(fed.stood);
-    /* of a turn that is not whole the ripple is left in the mean */
+    /* an incomplete turn leaves ripple in the mean */
     TEST_ASSERT_FLOAT_WITHIN(2.5f, (float)rpm, (float)fed_rotor_mean_rpm(&fed));
 }
 
@@ -108,8 +108,8 @@ static void begin(fed_by by) {
     fed.by = by;
 }
 
-/* The ripple at 330 rpm from 5 % to a hundredth of that, at 170 from 18 %; at 100, where the rotor would not get over the
- * top by itself, to what a motor leaves that cannot brake more than with its terminals shorted: less with more friction. */
+/* Ripple falls from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170. At 100 the rotor alone would not pass the top;
+ * a motor that cannot brake harder than when shorted leaves a ripple, less with more friction. */
 static void test_the_ripple_goes(void) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
@@ -133,7 +133,7 @@ static void test_the_ripple_goes(void) {
     TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
 }
 
-/* The lead is the voltage's: with none, or twice as much, a tenth of a radian's part is left. */
+/* The lead is the voltage's: without it, or with twice as much, a tenth of a radian's part remains. */
 static void test_the_lead_is_right(void) {
     for (uint32_t lead = 0; lead <= 6000U; lead += 6000U) {
         begin(FED_BY_OBSERVER);
@@ -143,7 +143,6 @@ static void test_the_lead_is_right(void) {
     }
 }
 
-/* Gravity's torque 30 % off leaves 30 % of the ripple. */
 static void test_another_weight_leaves_its_part(void) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
@@ -155,7 +154,7 @@ static void test_another_weight_leaves_its_part(void) {
     }
 }
 
-/* Sensors 3 degrees off, together or against each other: a twentieth of it at most. */
+/* Sensors 3 degrees off, together or opposite: at most a twentieth remains. */
 static void test_sensors_may_stand_wrong(void) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
@@ -168,7 +167,7 @@ static void test_sensors_may_stand_wrong(void) {
     }
 }
 
-/* The wrong sign doubles the ripple, and that is all: the mean is kept, and the shaft's limit. */
+/* The wrong sign doubles the ripple only: the mean and the shaft's limit hold. */
 static void test_the_wrong_sign_is_survived(void) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
@@ -185,7 +184,7 @@ static void test_the_wrong_sign_is_survived(void) {
     }
 }
 
-/* Marks that stay away in the middle: the voltage goes at once, the ripple is gravity's again, and goes when they are back. */
+/* Missing marks: the voltage vanishes at once, the ripple returns, and vanishes when the marks are back. */
 static void test_lost_marks_take_it_away(void) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
@@ -200,10 +199,10 @@ static void test_lost_marks_take_it_away(void) {
     check_between(WH_R(0.00001), WH_R(0.001), fed_rotor_ripple(&fed));
 }
 
-/* --- what the measurement makes of it -------------------------------------------------------------------- */
+/* --- its effect on the measurement ----------------------------------------------------------------------- */
 
-/* What is left of gravity, of either sign, is found from the split alone, the inertia kept; and is forgotten when gravity
- * is fed no longer. */
+/* Gravity's remainder, of either sign, follows from the split alone at the given inertia; it is forgotten when the feed
+ * ends. */
 static void test_what_is_left_is_found_from_the_split(void) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
@@ -228,7 +227,7 @@ static void test_what_is_left_is_found_from_the_split(void) {
             split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
         }
         for (unsigned i = 0; i < 12; i++) {
-            wh_turn_angle_feed(&found, true, WH_R(0.0625)); /* nothing new */
+            wh_turn_angle_feed(&found, true, WH_R(0.0625)); /* no change */
             wh_turn_angle_shape(&rotor, &found, speed);
             wh_turn_angle_split(&rotor, &found, split);
         }
@@ -246,8 +245,8 @@ static void test_what_is_left_is_found_from_the_split(void) {
     }
 }
 
-/* The turn under way when that changes does not count; what a motor that cannot brake leaves is what the drive's voltage
- * lacks to gravity's torque, whatever the speed. */
+/* The turn of the change does not count. A motor that cannot brake leaves the difference between the drive's voltage and
+ * gravity's torque, at any speed. */
 static void test_the_lockin_is_told(void) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -274,7 +273,7 @@ static void test_the_lockin_is_told(void) {
 
 static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
-/* (1/pi) of the integral of (cos y - k) cos 2y over where cos y > k, by the middle rule. */
+/* (1/pi) of the integral of (cos y - k) cos 2y over cos y > k, by the midpoint rule. */
 static double second_of_pulse(double k) {
     double sum = 0.0;
     for (unsigned i = 0; i < 4096U; i++) {
@@ -288,8 +287,8 @@ static double second_of_pulse(double k) {
     return sum * 2.0 / 4096.0;
 }
 
-/* What a motor that cannot brake leaves is a torque that comes twice a turn, and the rotor's answer to it is that of inertia and
- * slope: J theta'' + c theta' = -W cos 2 theta. However steep the slope. */
+/* A motor that cannot brake leaves a torque twice a turn. The rotor's answer is that of inertia and slope: J theta'' + c theta'
+ * = -W cos 2 theta, for any slope. */
 static void test_the_answer_to_a_pulse(void) {
     uint64_t seed = 77;
     for (unsigned i = 0; i < 60U; i++) {
@@ -310,7 +309,7 @@ static void test_the_answer_to_a_pulse(void) {
         const double slope = (double)rotor.damping_Nms;
         const double size = (double)weight_Nm * second_of_pulse(1.0 - (double)cut) /
                             (2.0 * (double)speed * root(turning * turning + slope * slope));
-        /* by components, over the angle without it, so that none of it is lost by where it is looked at */
+        /* by components over the angle without it, so that sampling loses none of it */
         double off[2] = {0.0, 0.0};
         for (unsigned k = 0; k < 64U; k++) {
             const wh_real part = (wh_real)k / WH_R(64.0);

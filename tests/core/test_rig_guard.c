@@ -1,4 +1,4 @@
-/* test_rig_guard.c: what stops the rig, reason by reason. */
+/* test_rig_guard.c: the guard's reasons to stop the rig, one by one. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
@@ -26,7 +26,7 @@ static void test_speed_limit_follows_from_the_shaft(void) {
     const wh_real limit = wh_rig_standard.guard.limit_radps;
     const wh_real at_limit_N = WH_RIG_MASS_MOMENT_KGM / WH_R(2.0) * limit * limit + others_N;
     TEST_ASSERT_TRUE(at_limit_N < carried_N);
-    TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N); /* and no lower than it need be */
+    TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N); /* and not lower than necessary */
     TEST_ASSERT_TRUE(wh_rig_standard.guard.target_max_radps < limit);
     TEST_ASSERT_TRUE(WH_RIG_NOMINAL_RPM * RPM < wh_rig_standard.guard.target_max_radps);
 }
@@ -57,15 +57,16 @@ static wh_trip trip_at(wh_real turn_rpm, unsigned fast) {
 }
 
 static void test_over_speed_trips(void) {
-    TEST_ASSERT_TRUE(trip_at(WH_R(399.0), 1) == WH_TRIP_NONE); /* one interval: a disturbance? */
+    TEST_ASSERT_TRUE(trip_at(WH_R(399.0), 1) ==
+                     WH_TRIP_NONE); /* a single interval may be a disturbance */
     TEST_ASSERT_TRUE(trip_at(wh_rig_standard.guard.limit_radps / RPM, 0) ==
                      WH_TRIP_NONE); /* the limit itself is allowed */
     TEST_ASSERT_TRUE(trip_at(WH_R(401.0), 0) == WH_TRIP_RUNS_ON);
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
-/* Whatever is known of the last pulses: a turn that is too fast trips as soon as nothing takes it back, and so do two fast
- * intervals running. */
+/* Whatever is known of the last pulses: a turn that is too fast trips as soon as nothing contradicts it, and so do two fast
+ * intervals in a row. */
 static void test_over_speed_trips_when_it_is_sure(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     for (unsigned i = 0; i < 96U; i++) {
@@ -90,7 +91,7 @@ static void test_over_speed_trips_when_it_is_sure(void) {
     }
 }
 
-/* Two marks that climb and an interval beyond the bound are a runaway; less than that is none. */
+/* Two climbing marks and an interval beyond the bound are a runaway; less is not. */
 static void test_what_climbs_and_is_fast_trips(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
@@ -123,7 +124,7 @@ static void test_what_climbs_and_is_fast_trips(void) {
     TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(-20.0) * RPM, true) < WH_R(0.0));
 }
 
-/* A rotor without drive that is led round at the bottom and falls from the top has there what its energy gives it. */
+/* A rotor without drive that is led around at the bottom and falls from the top has the speed of its energy there. */
 static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
@@ -180,7 +181,7 @@ static void test_lost_pulses_and_silence_trip(void) {
     TEST_ASSERT_TRUE(guard.trip == WH_TRIP_PULSES);
 }
 
-/* At rest is who gave no pulse for 1.5 s, and who was so stays so until one comes: also behind the timer's wrap. */
+/* A rotor without a pulse for 1.5 s is at rest, and stays so until a pulse comes, also after the timer's wrap. */
 static void test_rest_is_remembered(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     wh_guard guard;
@@ -228,7 +229,7 @@ static void test_a_stuck_load_cell_trips(void) {
                      WH_TRIP_NONE); /* at rest it may stand still */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough - 1U) == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough) == WH_TRIP_LOAD_CELL);
-    /* noise on a dead cell; a tenth of the masses' 42 N is what a load that lives shows at least */
+    /* noise on a dead cell; a live load shows at least a tenth of the masses' 42 N */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.0), true, enough) == WH_TRIP_LOAD_CELL);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
@@ -244,11 +245,11 @@ static void test_an_overloaded_or_disconnected_load_cell_trips(void) {
         TEST_ASSERT_TRUE(guard.trip == (fails ? WH_TRIP_LOAD_CELL : WH_TRIP_NONE));
         wh_guard_start(&guard, 0);
         wh_guard_load(&wh_rig_standard.guard, &guard, &speed, &load, false, false);
-        TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE); /* nobody needs it now */
+        TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE); /* not needed now */
     }
 }
 
-/* load_silence_max_s: ten periods of 2 ms, across the timer's wrap; the same sample again is none. */
+/* load_silence_max_s: ten periods of 2 ms, across the timer's wrap; a repeated sample does not count. */
 static void test_a_silent_load_cell_trips(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;

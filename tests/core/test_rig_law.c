@@ -1,4 +1,4 @@
-/* test_rig_law.c: the rig's speed drive against its law, written down once more; and a gap's speed. */
+/* test_rig_law.c: the rig's speed drive against an independent copy of its law, and a gap's speed. */
 #include <stddef.h>
 
 #include "core/rig/datasheet.h"
@@ -11,7 +11,7 @@ void suite_rig_law(void);
 
 #define TURN_TICKS 181818U /* 330 rpm */
 
-/* Two lost running: no speed of that interval, and the turn's stays until there is a new one. */
+/* Two pulses lost in a row: no interval speed, and the turn's speed stays until there is a new one. */
 static void test_a_gap_has_no_speed_of_its_own(void) {
     wh_speed speed;
     wh_speed_start(&speed, wh_rig_standard.impossible_radps);
@@ -27,8 +27,7 @@ static void test_a_gap_has_no_speed_of_its_own(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)before, (float)speed.turn_radps);
 }
 
-/* Silence is counted from the last pulse, on whichever side of the timer's wrap either lies; a stamp that is later than the
- * step's own time is none. */
+/* Silence counts from the last pulse on either side of the timer's wrap. A stamp later than the step's own time is ignored. */
 static void test_silence_goes_on_over_the_wrap(void) {
     scattered_state = UINT64_C(0x5eed0017);
     for (unsigned i = 0; i < 1000U; i++) {
@@ -45,7 +44,7 @@ static void test_silence_goes_on_over_the_wrap(void) {
 
 /* --- the motor's voltage ------------------------------------------------------------------------------------ */
 
-/* A voltage that is held because no pulse comes is more than a supply has that sags meanwhile. */
+/* A voltage frozen by missing pulses exceeds a supply that sags meanwhile. */
 static void test_no_more_volts_than_the_supply_has(void) {
     scattered_state = UINT64_C(0x5eed0006);
     for (unsigned i = 0; i < 200U; i++) {
@@ -66,7 +65,7 @@ static void test_no_more_volts_than_the_supply_has(void) {
     }
 }
 
-/* --- the drive, against its law written down once more --------------------------------------------------- */
+/* --- the drive against the copy of its law ------------------------------------------------------------ */
 
 static double between(double low, double high) {
     return low + (high - low) * (double)(scattered() >> 11) * 0x1p-53;
@@ -88,7 +87,7 @@ static void test_the_drive_keeps_its_law(void) {
         TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
         double setpoint = (double)drive.setpoint_radps;
         double integral = (double)drive.integral_V;
-        /* less than three steps' way; slow ones take a quarter of it */
+        /* less than three steps' change; slow ones take a quarter of it */
         const double far = setpoint < (double)law->gentle_radps + 0.1 ? 0.009 : 0.03;
         drive.target_radps = (wh_real)(setpoint + between(-far, far));
         const double target = (double)drive.target_radps;

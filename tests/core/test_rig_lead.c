@@ -1,5 +1,5 @@
-/* test_rig_lead.c: rotors that do not get slower as fast as they are led: a drive stage that does not brake, and up to six
- * times the inertia. That is no over-speed; a drive that runs away meanwhile is. */
+/* test_rig_lead.c: rotors that slow down later than their set-point. The drive stage does not brake, or the inertia is up to
+ * six times larger. The guard does not call this over-speed, but it sees a drive that runs away meanwhile. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -13,9 +13,9 @@ static wh_rig rig;
 static wh_rig_config config;
 static rotor_kind kind;
 static rotor_state rotor;
-static wh_real fastest_radps; /* since it was last forgotten */
+static wh_real fastest_radps; /* since the last reset */
 
-/* Of all inertias, mostly without a brake. */
+/* Random inertias, mostly without a brake. */
 static void draw_rotor(uint64_t *seed) {
     kind = rotor_nominal();
     kind.inertia_kgm2 *= draw_broken(seed, 1, 6);
@@ -35,7 +35,7 @@ static void begin(wh_rig_phase phase, wh_real target_radps) {
     rig.run.closed_ticks = rotor.ticks - 5U * WH_RIG_TICKS_PER_S;
 }
 
-/* `drive`: whatever is asked for; below zero: as asked for. */
+/* `drive`: fixed drive, or below zero the ordered one. */
 static void go_on(wh_real drive, unsigned steps) {
     wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
     for (unsigned step = 0; step < steps && rig.state == WH_LIFE_RUNNING; step++) {
@@ -53,7 +53,7 @@ static void go_on(wh_real drive, unsigned steps) {
 
 #define AS_ASKED WH_R(-1.0)
 
-/* It turns at this speed, settled. */
+/* Turns settled at this speed. */
 static void turns_at(wh_real speed_radps) {
     const wh_real torque_Nm = kind.drag_Nms * speed_radps + kind.friction_Nm;
     const wh_real volts =
@@ -81,7 +81,7 @@ static void test_a_rotor_that_cannot_follow_is_not_too_fast(void) {
         leads_to(target_radps);
         go_on(AS_ASKED, 2500);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
-        /* the guard's bound of the set-point alone */
+        /* the guard's bound by the set-point alone */
         left_behind +=
             rig.pulses.speed.turn_radps >
                     wh_guard_bound_radps(&config.guard, rig.run.drive.setpoint_radps, true)
@@ -106,7 +106,7 @@ static void test_one_that_spin_up_took_too_far_is_not_either(void) {
     }
 }
 
-/* As docs/rig.md has it, of a rotor that is led to slow down and follows, or does not. */
+/* The bounds of docs/rig.md for a rotor that is led to slow down, and follows or does not. */
 static void test_a_runaway_on_the_way_down_is_seen(void) {
     uint64_t seed = 13;
     for (unsigned trial = 0; trial < draw_cases(60); trial++) {
@@ -127,7 +127,7 @@ static void test_a_runaway_on_the_way_down_is_seen(void) {
     }
 }
 
-/* What is left of its speed does not rise with the rotor: one that is driven to no more than 390 rpm is seen as well. */
+/* The bound does not rise with the rotor's speed: a rotor driven to no more than 390 rpm is detected too. */
 static void test_a_slow_runaway_on_the_way_down_is_seen(void) {
     uint64_t seed = 14;
     for (unsigned trial = 0; trial < 20U; trial++) {

@@ -1,4 +1,4 @@
-/* test_rig_life.c: the rig's life cycle: every state and event, every refusal by its name, how `arm` ends. */
+/* test_rig_life.c: the rig's life cycle: every state and event, every named refusal, and how `arm` ends. */
 #include <stddef.h>
 
 #include "even_rig.h"
@@ -19,7 +19,7 @@ static void stand_tripped(void) {
     TEST_ASSERT_TRUE(even.rig.rested);
 }
 
-/* With nothing against any order but the state. */
+/* Only the state can refuse an order. */
 static void stand_in(wh_life state) {
     switch (state) {
     case WH_LIFE_IDLE:
@@ -37,11 +37,11 @@ static void stand_in(wh_life state) {
 
 /* --- the table ------------------------------------------------------------------------------------ */
 
-/* What an event does, state by state (idle, armed, running, stopping, tripped): the state it leads to, by its first
- * letter; or why not: - not armed, a armed, r running, s stopping, t tripped, n no trip, x not running. */
+/* An event's effect by state (idle, armed, running, stopping, tripped): the next state's first letter, or the refusal.
+ * Refusals: - not armed, a armed, r running, s stopping, t tripped, n no trip, x not running. */
 typedef struct expectation {
     wh_rig_event event;
-    bool is_order; /* from outside; else refused when posted */
+    bool is_order; /* from outside; otherwise refused when posted */
     const char *becomes;
 } expectation;
 
@@ -105,7 +105,7 @@ static void check_answer(const expectation *of, wh_life state) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES || wh_run_drives(&even.rig.run));
 }
 
-/* Posted, in each state and phase, with nothing else against it. */
+/* Posted in each state and phase; only the state can refuse. */
 static void test_every_event_in_every_state(void) {
     for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
         stand_in(state);
@@ -156,7 +156,7 @@ static void test_what_arm_asks_for(void) {
         even = stood;
         even.inputs.supply_V = supplies_V[i];
         check_refused(arm(), WH_REFUSED_SUPPLY, WH_LIFE_IDLE);
-        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE); /* idle, nobody needs it */
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE); /* idle: not needed */
     }
     even = stood;
     even.fails = (even_failure){.in = WH_PHASE_NONE, .lose_samples = EVEN_ALWAYS};
@@ -172,7 +172,7 @@ static void test_what_arm_asks_for(void) {
         even.fails = (even_failure){.in = WH_PHASE_NONE, .status = status};
         check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
     }
-    even = stood; /* a trip as well, as soon as orders are through */
+    even = stood; /* a trip as well, after the orders */
     even.inputs.watchdog_has_cut = true;
     check_refused(arm(), WH_REFUSED_WATCHDOG, WH_LIFE_TRIPPED);
     even_start(&even); /* rest is not known yet */
@@ -210,7 +210,7 @@ static void test_what_start_and_set_ask_for(void) {
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, 250.0f, (float)(even.rig.run.target_radps / EVEN_RPM));
     }
     stand_in(
-        WH_LIFE_ARMED); /* just enough is enough, and the slowest set-point that needs no feed has none */
+        WH_LIFE_ARMED); /* just enough suffices, and the slowest set-point without feed needs none */
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);
@@ -218,7 +218,7 @@ static void test_what_start_and_set_ask_for(void) {
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, slowest) == WH_ALLOWED);
     TEST_ASSERT_FALSE(even.rig.fed);
     for (unsigned never = 0; never < 2;
-         never++) { /* slower ones need an observer, and that it may feed */
+         never++) { /* slower ones need an observer and a permitted feed-forward */
         stand_in(WH_LIFE_ARMED);
         even.rig.observer.status = WH_OK;
         even.config.feeds = never == 1 ? WH_FEED_NEVER : WH_FEED_SLOW;
@@ -226,13 +226,13 @@ static void test_what_start_and_set_ask_for(void) {
                          (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
         TEST_ASSERT_TRUE(even.rig.fed == (never == 0));
     }
-    stand_in(WH_LIFE_ARMED); /* the stop input disarms before the order is heard */
+    stand_in(WH_LIFE_ARMED); /* the stop input disarms before the order is processed */
     even.inputs.stop_pressed = true;
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
                   WH_LIFE_IDLE);
 }
 
-/* Four orders a step; the fifth is not even taken. All of them are answered, in their order. */
+/* Four orders a step; the fifth is refused at once. All get their answers, in order. */
 static void test_too_many_orders(void) {
     stand_in(WH_LIFE_IDLE);
     for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
@@ -246,7 +246,7 @@ static void test_too_many_orders(void) {
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
 }
 
-/* What the rig finds itself nobody can tell it, nor what there is not. */
+/* Events that the rig detects itself, and unknown ones, cannot be posted. */
 static void test_unknown_and_internal_events_are_refused(void) {
     for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
         stand_in(state);
@@ -268,10 +268,10 @@ static void test_armed_lasts_a_minute(void) {
     even_step(&even);
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
                   WH_LIFE_IDLE);
-    TEST_ASSERT_TRUE(arm() == WH_ALLOWED); /* the rotor rests, nothing tripped */
+    TEST_ASSERT_TRUE(arm() == WH_ALLOWED);
 }
 
-/* Somebody turns the rotor: no trip, and no start. At a hand's speed, or at a fast one's. */
+/* A hand turns the rotor, slowly or fast: no trip, and no start. */
 static void test_armed_ends_when_the_rotor_turns(void) {
     static const wh_real hands_rpm[] = {WH_R(20.0), WH_R(60.0), WH_R(100.0), WH_R(140.0)};
     for (unsigned i = 0; i < 4; i++) {
@@ -283,7 +283,7 @@ static void test_armed_ends_when_the_rotor_turns(void) {
             TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
         }
         TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
-        /* two pulses are a shiver's, and the third comes after a turn */
+        /* two pulses are a shiver; the third comes after a turn */
         TEST_ASSERT_TRUE((float)steps <= 60.0f / (float)hands_rpm[i] * 500.0f + 2.0f);
         even_steps(&even, 2000);
         TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);

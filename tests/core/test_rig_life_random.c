@@ -1,5 +1,5 @@
-/* test_rig_life_random.c: whatever is ordered, whatever the inputs say: what always holds of the rig's controller. And
- * another set-point while it runs, and the result that outlives a trip. */
+/* test_rig_life_random.c: invariants of the rig's controller under random orders and inputs, new set-points during a run, and a
+ * result that survives a trip. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -15,11 +15,11 @@ static uint64_t seed;
 
 /* --- set-points ------------------------------------------------------------------------------------- */
 
-/* In any phase before the result is there: it settles at the new one, and the record begins anew. */
+/* In any phase before the result: it settles at the new one, and the record restarts. */
 static void test_another_set_point_while_it_runs(void) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
-        even_steps(&even, 100); /* what was recorded till then is dropped */
+        even_steps(&even, 100); /* the earlier record is dropped */
         TEST_ASSERT_TRUE(even.rig.run.phase == phase);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
         TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));
@@ -33,7 +33,7 @@ static void test_another_set_point_while_it_runs(void) {
         TEST_ASSERT_TRUE(even_is_done(&even));
         const wh_measured *force = &even.rig.result.force;
         TEST_ASSERT_FLOAT_WITHIN(0.01f, 250.0f, (float)(force->speed_radps / EVEN_RPM));
-        /* whole turns of 2 s at 250 rpm; what the 330 rpm were is not among them */
+        /* whole turns of 2 s at 250 rpm; those at 330 rpm are not among them */
         TEST_ASSERT_TRUE(force->turns == 7U || force->turns == 8U);
         TEST_ASSERT_FLOAT_WITHIN(0.02f, (float)EVEN_LOAD_N, (float)force->amplitude_N);
     }
@@ -41,7 +41,7 @@ static void test_another_set_point_while_it_runs(void) {
 
 /* --- the last result -------------------------------------------------------------------------------- */
 
-/* The next run counts from nothing, whatever the one before had lost or rejected until its loop was closed. */
+/* The next run counts from zero, whatever the last one lost or rejected before its loop was closed. */
 static void test_the_run_before_does_not_count(void) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -54,7 +54,7 @@ static void test_the_run_before_does_not_count(void) {
     TEST_ASSERT_TRUE(even_is_done(&even));
 }
 
-/* A record whose speed leaves it ends in a trip, and brings no result, whether there was one before or not. */
+/* A record whose speed leaves its band ends in a trip without a result, whether there was an earlier one or not. */
 static void test_a_record_that_is_left_brings_no_result(void) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
@@ -77,14 +77,14 @@ static void test_a_record_that_is_left_brings_no_result(void) {
     }
 }
 
-/* A rotor that rests has no speed left to lead anything by. */
+/* A rotor at rest has no speed to lead by. */
 static void test_rest_leaves_no_speed(void) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     even_rest(&even);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.run.off_radps);
 }
 
-/* --- anything --------------------------------------------------------------------------------------- */
+/* --- random orders and inputs ---------------------------------------------------------------------- */
 
 static wh_real any_value(void) {
     const wh_real values[] = {WH_R(330.0) * EVEN_RPM,
@@ -114,7 +114,7 @@ static wh_real any_supply_V(void) {
     return supplies_V[draw_one_of(&seed, sizeof supplies_V / sizeof supplies_V[0])];
 }
 
-/* What a step was given. */
+/* A step's input. */
 typedef struct asked {
     bool arm;
     bool start;
@@ -164,7 +164,7 @@ static void check_what_always_holds(wh_life before, asked of) {
     TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
     TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* NaN is not */
     TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
-    /* who may follow whom */
+    /* allowed sequences */
     TEST_ASSERT_TRUE(rig->state != WH_LIFE_ARMED || before == WH_LIFE_ARMED || of.arm);
     TEST_ASSERT_TRUE(rig->state != WH_LIFE_RUNNING || before == WH_LIFE_RUNNING ||
                      (of.start && (before == WH_LIFE_ARMED || of.arm)));
@@ -195,11 +195,11 @@ static void go_through_anything(void) {
         left += even.rig.run.phase != phase ? 1U : 0U;
     }
     const bool runs = phase > WH_PHASE_NONE && phase < WH_PHASE_OFF;
-    TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U)); /* it was no idle play */
+    TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U)); /* the drawn sequences were not idle */
     TEST_ASSERT_TRUE(!runs || phase == WH_PHASE_TARE || drove > SEQUENCES);
 }
 
-/* A result is the last start's, from its record's end on, and its age grows with the clock. */
+/* A result belongs to the last start, from its record's end on, and its age grows with the clock. */
 static void check_result(const wh_rig *before) {
     const wh_rig *rig = &even.rig;
     const uint32_t now = even.inputs.now_ticks;
@@ -236,7 +236,7 @@ static void test_what_holds_whatever_is_ordered(void) {
     go_through_anything();
 }
 
-/* Long ones, in which runs get as far as they get. */
+/* Long sequences, in which runs get far. */
 static void test_what_holds_for_hours(void) {
     seed = 12;
     even_start(&even);

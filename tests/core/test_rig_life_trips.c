@@ -1,5 +1,5 @@
-/* test_rig_life_trips.c: what stops the rig stays stopped: trips in each phase, their record through a reset, `clear`;
- * `stop`, the stop input and a lost host; a rotor that turns on when the controller begins. */
+/* test_rig_life_trips.c: a tripped or stopped rig stays stopped. Trips in each phase, their record through a reset, `clear`,
+ * `stop`, the stop input, a lost host, a rotor that turns at the controller's start. */
 #include <stddef.h>
 
 #include "even_rig.h"
@@ -22,7 +22,7 @@ static void check_tripped(wh_trip trip) {
     check_off();
 }
 
-/* Each order but `clear` and `stop` meets the trip, and nothing moves. */
+/* Each order but `clear` and `stop` is refused by the trip, and nothing moves. */
 static void check_latched(wh_trip trip) {
     static const wh_rig_event orders[] = {WH_EVENT_ARM, WH_EVENT_START, WH_EVENT_SET};
     for (unsigned i = 0; i < 3; i++) {
@@ -38,7 +38,7 @@ static void check_latched(wh_trip trip) {
 
 static wh_refusal clear(void) { return even_order(&even, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* `clear` waits for rest and leads to idle, never further: the next run takes `arm` and `start`. */
+/* `clear` waits for rest and leads to idle only: the next run needs `arm` and `start`. */
 static void check_clears(void) {
     for (unsigned i = 0; i < 20000U && !even.rig.rested; i++) {
         TEST_ASSERT_TRUE(i % 1000U != 0 || clear() == WH_REFUSED_TURNING);
@@ -56,7 +56,7 @@ static void check_clears(void) {
 
 /* --- trips ------------------------------------------------------------------------------------------ */
 
-/* What makes the rig trip wherever it stands, and what it leaves. */
+/* Trips the rig in any state; returns the reason. */
 static void break_supply(bool broken) {
     even.inputs.supply_V = broken ? WH_R(9.0) : WH_RIG_RATED_V;
 }
@@ -91,7 +91,7 @@ static void check_record(const wh_trip_record *record, wh_trip trip, wh_rig_phas
                      (phase >= WH_PHASE_RAMP && drives));
 }
 
-/* The record goes through a reset, at another time of the timer, and is latched again. */
+/* The record goes through a reset, at another timer value, and is latched again. */
 static void check_reset(wh_trip trip) {
     const wh_trip_record record = even.rig.record;
     const uint32_t now = even.inputs.now_ticks + 12345678U;
@@ -107,10 +107,11 @@ static void check_reset(wh_trip trip) {
     even_step(&even);
     check_tripped(trip);
     check_latched(trip);
-    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* who knows what the rotor does */
+    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* the rotor's motion is unknown */
 }
 
-/* In each phase of a run, and armed: off in that very step, latched, through a reset, until rest and the cause gone. */
+/* In each phase of a run, and armed: off in the same step, latched, through a reset, until the rotor rests and the cause is
+ * gone. */
 static void test_trips_latch(void) {
     for (unsigned i = 0; i < 3; i++) {
         for (wh_rig_phase phase = WH_PHASE_NONE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -134,7 +135,6 @@ static void test_trips_latch(void) {
     }
 }
 
-/* No record, or one of no trip, is none. */
 static void test_a_reset_without_a_trip_is_idle(void) {
     const wh_trip_record none = {.trip = WH_TRIP_NONE, .ticks = 7};
     even_start(&even);
@@ -144,7 +144,7 @@ static void test_a_reset_without_a_trip_is_idle(void) {
     TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
 }
 
-/* Pulses that cannot be believed tell of no rest: that trip waits for its time alone. */
+/* Implausible pulses cannot show rest: that trip waits only for its time. */
 static void test_a_trip_for_its_pulses_waits_longer(void) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
@@ -156,12 +156,12 @@ static void test_a_trip_for_its_pulses_waits_longer(void) {
     even_steps(&even, 20U * 500U - 1U);
     TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING && !even.rig.rested);
     even_step(&even);
-    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING); /* who knows */
+    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING); /* unknown */
     even_steps(&even, 100U * 500U);
     TEST_ASSERT_TRUE(clear() == WH_ALLOWED && even.rig.state == WH_LIFE_IDLE);
 }
 
-/* Nothing more is waited for, but `clear` still is refused to a rotor that turns. */
+/* The wait is over, but `clear` is still refused while the rotor turns. */
 static void test_a_turning_rotor_is_not_cleared(void) {
     even_arm(&even);
     break_supply(true);
@@ -188,8 +188,8 @@ static void stop(stop_way way) {
     }
 }
 
-/* In every phase the motor is off in that very step, and stays so until the rotor rests; then `arm` is allowed again, unless
- * the stop input is still pressed. */
+/* In every phase the motor is off in the same step and stays off until the rotor rests. Then `arm` is allowed again, unless the
+ * stop input is still pressed. */
 static void test_stop_is_at_once(void) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
         even_reach(&even, phase);
@@ -202,7 +202,7 @@ static void test_stop_is_at_once(void) {
                 check_off();
                 TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_STOPPING &&
                                  even.rig.run.phase == WH_PHASE_OFF);
-                /* a stop never puts the enable on */
+                /* a stop never switches the enable on */
                 const bool enabled = phase != WH_PHASE_TARE && phase != WH_PHASE_OFF;
                 TEST_ASSERT_TRUE(even.command.way == (brakes == 1 && enabled && way != STOP_INPUT
                                                           ? WH_MOTOR_BRAKES
@@ -221,7 +221,7 @@ static void test_stop_is_at_once(void) {
             }
         }
     }
-    for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) { /* armed is armed no more */
+    for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) { /* no longer armed */
         even_arm(&even);
         stop(way);
         check_off();
@@ -229,7 +229,7 @@ static void test_stop_is_at_once(void) {
     }
 }
 
-/* As configured: with nobody there to give orders a run goes on to its end. */
+/* As configured: without a host a run goes on to its end. */
 static void test_a_run_may_outlive_its_host(void) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         even_reach(&even, phase);
@@ -241,9 +241,9 @@ static void test_a_run_may_outlive_its_host(void) {
     }
 }
 
-/* --- when the controller begins --------------------------------------------------------------------- */
+/* --- the controller's start -------------------------------------------------------------------------- */
 
-/* The rotor turns on: no trip, nobody may arm; it is watched. */
+/* The rotor still turns: no trip, `arm` is refused, and the rotor is watched. */
 static void test_a_reset_while_the_rotor_turns(void) {
     static const wh_real speeds_rpm[] = {WH_R(60.0), WH_R(170.0), WH_R(330.0), WH_R(390.0)};
     for (unsigned i = 0; i < 4; i++) {
@@ -259,20 +259,20 @@ static void test_a_reset_while_the_rotor_turns(void) {
         even_rest(&even);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
     }
-    even_start(&even); /* faster than the shaft carries */
+    even_start(&even); /* faster than the shaft can take */
     even_turn_by_hand(&even, WH_R(410.0));
     even_steps(&even, 1000);
     check_tripped(WH_TRIP_OVERSPEED);
-    even_start(&even); /* from rest, with the motor off: something drives it */
+    even_start(&even); /* from rest, with the motor off: a stage drives it */
     even_rest(&even);
     even_turn_by_hand(&even, WH_R(300.0));
     even_steps(&even, 1000);
     check_tripped(WH_TRIP_RUNS_ON);
 }
 
-/* --- who turns the rotor ----------------------------------------------------------------------------- */
+/* --- a rotor turned by hand -------------------------------------------------------------------------- */
 
-/* Armed, a rotor may shiver: two pulses. With the third somebody turns it. */
+/* Armed, a rotor may shiver: two pulses. The third is a hand that turns it. */
 static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
     for (unsigned i = 0; i < 8U; i++) { /* of either sensor */
         even_arm(&even);
@@ -284,8 +284,8 @@ static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
     }
 }
 
-/* However long a rotor rests, the pulses of a hand that turns it then are not compared with those before: the timer wraps after
- * 72 minutes, and half of that is a time to come. */
+/* After any rest, a hand's pulses are not compared with earlier ones: the timer wraps after 72 minutes, and more than half of
+ * that reads as a future time. */
 static void test_rest_may_last_any_time(void) {
     for (unsigned i = 0; i < 24U; i++) {
         even_start(&even);

@@ -1,5 +1,5 @@
-/* test_rig_motor.c: motors of any torque line on a made-up rotor. With their settings entered a run ends good; with other
- * settings, or a supply that is measured wrong, it is good as well or the trip names the cause. */
+/* test_rig_motor.c: motors of any torque line on a made-up rotor. With their settings a run ends good. With other settings, or
+ * a wrong supply reading, it is good too or the trip names the cause. */
 #include <string.h>
 
 #include "core/angle.h"
@@ -20,9 +20,9 @@ static wh_conf conf;
 static wh_rig_motor motor; /* the real one */
 static rotor_kind kind;
 static rotor_state rotor;
-static wh_real supply_V;            /* the real one, */
-static wh_real reads;               /* and what its divider makes of it */
-extern const wh_scene rig_observed; /* the firmware's */
+static wh_real supply_V;            /* the real one */
+static wh_real reads;               /* the real one, */
+extern const wh_scene rig_observed; /* and its divider's reading */
 static wh_pulse pulse[4];           /* the last ones */
 static uint64_t seed;
 
@@ -39,7 +39,7 @@ static void own(wh_rig_config *c) {
     c->observer.scene = &rig_observed;
 }
 
-/* Settings as they are typed. False: they are refused. */
+/* Enters the settings. False: refused. */
 static bool is_entered(const wh_rig_motor *typed) {
     bool fine = true;
     const wh_conf_id ids[] = {WH_CONF_no_load_speed, WH_CONF_stall_torque, WH_CONF_rated_voltage};
@@ -79,7 +79,7 @@ static void step(void) {
     (void)wh_rig_step(&config, &rig, &inputs);
 }
 
-/* A whole run; or why it is refused. */
+/* A whole run, or its refusal. */
 static wh_refusal run(wh_real target_rpm) {
     rotor = (rotor_state){.ticks = (uint32_t)draw_bits(&seed) * 2U, .seed = draw_bits(&seed)};
     wh_rig_start(&config, &rig, rotor.ticks, NULL);
@@ -112,8 +112,8 @@ static void draw_motor(void) {
     kind.no_load_radps = motor.no_load_radps;
 }
 
-/* None trips. A rotor whose motor's line counts for more than a third of its inertia, as of a steep line at a low speed, swings in
- * a way that the angle's model has less exactly: there a result may be doubtful. */
+/* None trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model less
+ * well, and the result may be doubtful. */
 static void test_any_motor_with_its_settings(void) {
     seed = 61;
     unsigned good = 0;
@@ -142,8 +142,8 @@ static void test_any_motor_with_its_settings(void) {
     TEST_ASSERT_TRUE(good * 10U > cases * 8U && fed * 10U > cases && refused * 5U < cases);
 }
 
-/* A divider that reads 0.7 to 1.3 times the supply, or a setting that is as far off: the run ends with a result, or the trip names
- * the cause. */
+/* A divider that reads 0.7 to 1.3 times the supply, or a setting that is as wrong: the run ends with a result, or the trip
+ * names the cause. */
 static void test_wrong_settings_are_named(void) {
     seed = 62;
     unsigned named = 0;
@@ -172,13 +172,13 @@ static void test_wrong_settings_are_named(void) {
     TEST_ASSERT_TRUE(named * 20U >= cases && done * 2U > cases);
 }
 
-/* A motor that runs backwards, or sensors that are swapped, whatever the motor. */
+/* A reversed motor, or swapped sensors, for any motor. */
 static void test_a_wrong_order_is_named(void) {
     seed = 63;
     for (unsigned i = 0; i < draw_cases(60); i++) {
         draw_motor();
         enter(&motor);
-        if (i % 2U == 0) { /* in the mirror sensor 2 stands three quarters on */
+        if (i % 2U == 0) { /* mirrored, sensor 2 is at three quarters */
             kind.mark_rad[1] = WH_R(0.75) * WH_RIG_TWO_PI + kind.mark_rad[0];
         } else {
             const wh_real one = kind.mark_rad[0];
@@ -191,8 +191,8 @@ static void test_a_wrong_order_is_named(void) {
     }
 }
 
-/* A rotor that coasts: its speed is known, and that of its last turn, while pulses alternate; when a sensor fires again it swings,
- * and nobody knows it. */
+/* A coasting rotor: its speed, and its last turn's, are known while pulses alternate. When a sensor fires twice it swings, and
+ * the speed is unknown. */
 static void test_the_speed_of_a_rotor_that_coasts(void) {
     seed = 65;
     unsigned known_steps = 0;
@@ -209,7 +209,7 @@ static void test_the_speed_of_a_rotor_that_coasts(void) {
         while (rig.run.phase == WH_PHASE_RAMP_DOWN) {
             step();
         }
-        step(); /* that looks for rest */
+        step(); /* the search for rest */
         while (rig.run.phase == WH_PHASE_OFF && !rig.guard.quiet) {
             step();
             wh_real speed_radps;
@@ -232,7 +232,7 @@ static void test_the_speed_of_a_rotor_that_coasts(void) {
     TEST_ASSERT_TRUE(known_steps > 1000U && unknown_steps > 100U);
 }
 
-/* Settings against each other: refused, and all is as it was. */
+/* Contradictory settings are refused, and nothing changes. */
 static void test_settings_that_cannot_go_together(void) {
     seed = 64;
     unsigned against = 0;
@@ -274,7 +274,7 @@ static void test_settings_that_cannot_go_together(void) {
     TEST_ASSERT_TRUE(against >= 40U);
 }
 
-/* The order in which settings are given does not matter, and one that is given its default keeps it. */
+/* The order of settings does not matter, and a setting given its default keeps it. */
 static void test_any_order_of_settings(void) {
     enum { GIVEN = 8 };
     static const wh_conf_id ids[GIVEN] = {
@@ -296,7 +296,7 @@ static void test_any_order_of_settings(void) {
         }
         for (unsigned round = 0; round < 2U; round++) {
             const unsigned stride =
-                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* any order that is odd */
+                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* any order by an odd step */
             const unsigned from = draw_one_of(&seed, GIVEN);
             wh_conf_start(&conf, own, NULL, &config);
             for (unsigned k = 0; k < GIVEN; k++) {

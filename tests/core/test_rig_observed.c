@@ -1,5 +1,5 @@
-/* test_rig_observed.c: the rig's controller with an observer beside it, on a rotor that turns evenly (even_rig.c): what the
- * observer is told of the pulses, and that each run begins with one that knows nothing. */
+/* test_rig_observed.c: the rig's controller with an observer on a rotor that turns evenly (even_rig.c): the pulses passed to
+ * the observer, and its reset at each run's start. */
 #include <string.h>
 
 #include "build/gen/scenes.h"
@@ -14,7 +14,7 @@ void suite_rig_observed(void);
 static even_rig even;
 static uint64_t seed;
 
-/* Armed, with an observer to which every mark is a good one: good_marks counts those that it is told. */
+/* Armed, with an observer to which every mark is good: good_marks counts the marks it gets. */
 static void arm(void) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
@@ -26,7 +26,7 @@ static void arm(void) {
                      WH_OK);
 }
 
-/* While the loop is closed each pulse that is taken is told once, as it was captured, within two steps; nothing else is. */
+/* While the loop is closed each accepted pulse is passed once, as captured, within two steps, and nothing else is. */
 static void test_each_pulse_is_told_once(void) {
     for (unsigned k = 0; k < 3U; k++) {
         static const wh_real targets_rpm[] = {WH_R(330.0), WH_R(200.0), WH_R(270.0)};
@@ -53,7 +53,7 @@ static void test_each_pulse_is_told_once(void) {
     }
 }
 
-/* Whatever the observer knew when a run ended, and however long ago: the next one begins with none of it. */
+/* After any earlier run the next begins with a reset observer. */
 static void test_each_run_begins_with_an_observer_that_knows_nothing(void) {
     seed = 1;
     for (unsigned i = 0; i < 8U; i++) {
@@ -70,7 +70,7 @@ static void test_each_run_begins_with_an_observer_that_knows_nothing(void) {
     }
 }
 
-/* A result says the voltage that the motor had as the record ended. */
+/* A result has the motor's voltage at the record's end. */
 static void test_a_result_says_the_voltage(void) {
     for (unsigned i = 0; i < 4U; i++) {
         even_arm(&even);
@@ -88,7 +88,7 @@ static void test_a_result_says_the_voltage(void) {
     }
 }
 
-/* A pulse is work enough for one control step: the turn that is worked on waits for the next one. */
+/* A pulse is enough work for a control step: the current turn's work waits for the next one. */
 static void test_a_step_with_a_pulse_works_on_no_turn(void) {
     unsigned pulses = 0;
     unsigned works = 0;
@@ -109,7 +109,7 @@ static void test_a_step_with_a_pulse_works_on_no_turn(void) {
     TEST_ASSERT_TRUE(pulses > 40U && works > 400U);
 }
 
-/* Where gravity is not fed forward nobody pays for an observer. */
+/* Without gravity's feed-forward the observer takes no time. */
 static void test_unfed_nothing_is_observed(void) {
     arm();
     even.config.feeds = WH_FEED_NEVER;
@@ -121,7 +121,8 @@ static void test_unfed_nothing_is_observed(void) {
     TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.marked);
 }
 
-/* Fed no longer, by another set-point: the measurement's reference knows in that very step, and again when it is fed. */
+/* When a new set-point ends the feed-forward, the measurement's reference changes in the same step, and again when it
+ * returns. */
 static void test_the_reference_knows_who_is_fed(void) {
     arm();
     even.config.feeds = WH_FEED_SLOW;
@@ -130,7 +131,7 @@ static void test_the_reference_knows_who_is_fed(void) {
         const wh_turn_angle *angle = &even.rig.measure.lockin.angle;
         for (unsigned k = 0; k < 6000U && !angle->fed; k++) {
             even.rig.feed.part =
-                WH_R(1.0); /* faded in, whatever the observer makes of a rotor that is none */
+                WH_R(1.0); /* faded in, although this is no rotor for the observer */
             even_step(&even);
         }
         TEST_ASSERT_TRUE(angle->fed);
@@ -139,7 +140,7 @@ static void test_the_reference_knows_who_is_fed(void) {
                          WH_ALLOWED);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.feed.part); /* fades in anew */
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.feed.part); /* fades in again */
         even_steps(&even, 300);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==
@@ -147,7 +148,7 @@ static void test_the_reference_knows_who_is_fed(void) {
     }
 }
 
-/* Pulses of sensors that there are not, in any phase: they are counted, and that is all. */
+/* Pulses of nonexistent sensors, in any phase, are counted only. */
 static void test_a_sensor_that_is_none(void) {
     static even_rig twin;
     seed = 77;
@@ -173,7 +174,7 @@ static void test_a_sensor_that_is_none(void) {
     }
 }
 
-/* Marks that nobody took wait, as many as there is room for, and come in their order. */
+/* Pending marks wait in order, up to the buffer's size. */
 static void test_marks_come_in_their_order(void) {
     wh_pulses pulses;
     wh_mark mark;

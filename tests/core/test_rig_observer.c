@@ -1,5 +1,5 @@
-/* test_rig_observer.c: the observer against a rotor that it knows only by its marks (rotor.c), as it should be and as
- * rotors of another inertia, weight, friction, stage and with sensors that stand wrong. */
+/* test_rig_observer.c: the observer on a rotor that it sees only by its marks (rotor.c): the nominal one, and rotors with other
+ * inertia, weight, friction, stage or sensor angles. */
 #include "build/gen/scenes.h"
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
@@ -12,7 +12,7 @@ void suite_rig_observer(void);
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
-#define JITTER_S WH_R(104e-6) /* evenly: a standard deviation of 60 us */
+#define JITTER_S WH_R(104e-6) /* uniform: a standard deviation of 60 us */
 
 static fed_rotor fed;
 
@@ -27,9 +27,9 @@ static wh_real between(uint64_t *seed, wh_real least, wh_real most) {
 
 static void check_below(wh_real bound, wh_real value) { TEST_ASSERT_TRUE(value < bound); }
 
-/* --- the rotor that it knows ------------------------------------------------------------------------ */
+/* --- the nominal rotor ------------------------------------------------------------------------------ */
 
-/* The made-up rotor is the scene's, integrated by other means. */
+/* The made-up rotor equals the scene, integrated by another method. */
 static void test_the_rotor_is_the_scenes(void) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
@@ -54,8 +54,8 @@ static void test_the_rotor_is_the_scenes(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)state.real[0], (float)other.speed_radps);
 }
 
-/* Its angle to 0.02 degrees all around the turn at any speed, swinging freely (by up to 18 %) or fed; its speed; and of
- * friction as much as there is. */
+/* The angle is right to 0.02 degrees around the turn at any speed, freely swinging (by up to 18 %) or fed forward. Speed and
+ * friction are right too. */
 static void test_the_rotor_it_knows_is_followed(void) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {
@@ -76,7 +76,7 @@ static void test_the_rotor_it_knows_is_followed(void) {
     }
 }
 
-/* Marks that come early and late move it by less than twice what they are off by, and hardly less than that. */
+/* Jittering marks move the angle by less than twice their error, and hardly less than their error. */
 static void test_jitter_is_not_amplified(void) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -92,7 +92,7 @@ static void test_jitter_is_not_amplified(void) {
     }
 }
 
-/* Without corrections nothing of this holds. */
+/* Without corrections the test above fails. */
 static void test_without_corrections_it_is_lost(void) {
     fed_rotor_standard(&fed, 7);
     fed.kind.friction_Nm = WH_R(0.02);
@@ -105,11 +105,11 @@ static void test_without_corrections_it_is_lost(void) {
     TEST_ASSERT_TRUE(fed.valid < fed.steps / 2U);
 }
 
-/* --- rotors that it does not know --------------------------------------------------------------------- */
+/* --- other rotors ------------------------------------------------------------------------------------- */
 
-/* Half to six times the inertia, gravity 30 % off, up to 0.2 N m of friction, sensors up to 3 degrees off, jitter, a stage
- * that brakes or freewheels and is known to or not; at 80 to 400 rpm, below 170 with gravity's voltage, as what has set out
- * at 150 or more. Of a hundred nine are followed to 17 degrees, and none is lied about for long. */
+/* Half to six times the inertia, gravity 30 % off, up to 0.2 N m of friction, sensors up to 3 degrees off, and jitter. The
+ * stage brakes or freewheels, known or unknown. Speeds are 80 to 400 rpm, below 170 with gravity's voltage after a start at 150
+ * or more. Of a hundred, nine are followed to 17 degrees only; in none is a wrong angle called valid for long. */
 static void test_drawn_rotors_are_followed(void) {
     uint64_t seed = UINT64_C(0x5eed0b5e);
     unsigned fine = 0;
@@ -150,8 +150,8 @@ static void test_drawn_rotors_are_followed(void) {
 
 /* --- valid or not --------------------------------------------------------------------------------------- */
 
-/* Not before three marks after it has set out at the second; a lost mark of either sensor is bridged; after more than a
- * turn without it is not, and two turns later it is again. */
+/* Valid from three marks after the start at the second mark. A lost mark of either sensor is bridged. After more than a turn
+ * without marks it is invalid, and valid again two turns later. */
 static void test_marks_make_it_valid(void) {
     begin(3, WH_R(330.0));
     unsigned marks = 0;
@@ -179,7 +179,7 @@ static void test_marks_make_it_valid(void) {
     check_below(DEG, fed.worst_rad);
 }
 
-/* A mark somewhere else: not valid any more at once, and within 2 s again. */
+/* A mark at another angle: invalid at once, and valid again within 2 s. */
 static void test_a_false_mark_is_noticed(void) {
     begin(3, WH_R(330.0));
     for (unsigned i = 0; i < 20; i++) {
@@ -198,7 +198,7 @@ static void test_a_false_mark_is_noticed(void) {
     TEST_ASSERT_TRUE(fed.observer.innovation_rad == before);
 }
 
-/* Two marks set it out: from the second, at the mean speed since the first, wherever within a step they were. */
+/* Two marks start it: from the second, at the mean speed since the first, wherever within a step they came. */
 static void test_two_marks_set_it_out(void) {
     static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
     for (unsigned i = 0; i < 8; i++) {
@@ -215,7 +215,7 @@ static void test_two_marks_set_it_out(void) {
             }
         }
         wh_observer_mark(&fed.observing, &fed.observer, second, from + 1300U + took);
-        /* a turn in 1.4 s is 43 rpm, less than that too slow */
+        /* a turn in 1.4 s is 43 rpm; below that it is too slow */
         TEST_ASSERT_TRUE(fed.observer.runs == (!slow || first == second));
         if (!slow) {
             const wh_real speed = turned[first][second] * WH_RIG_TWO_PI / WH_R(0.1013);
@@ -228,7 +228,7 @@ static void test_two_marks_set_it_out(void) {
     }
 }
 
-/* Without marks it is valid for a turn and a little, and no longer when it stops before. */
+/* Without marks it is valid for slightly more than a turn, and not after the rotor stops. */
 static void test_a_missed_turn_is_noticed(void) {
     for (unsigned i = 0; i < 2; i++) {
         begin(3, WH_R(250.0));
@@ -236,7 +236,7 @@ static void test_a_missed_turn_is_noticed(void) {
         while (fed.rotor.marks == 0 || fed.rotor.mark_sensor[0] != 0) {
             fed_rotor_run(&fed, WH_R(250.0), FED_STEP_S);
         }
-        if (i == 1U) { /* it would hang below */
+        if (i == 1U) { /* the rotor would hang at the bottom */
             fed.observer.state.real[0] = WH_R(5.0);
         }
         const wh_real drive = i == 0 ? fed.voltage : WH_R(0.0);
@@ -251,7 +251,7 @@ static void test_a_missed_turn_is_noticed(void) {
     }
 }
 
-/* Control steps that are no multiple of the scene's: what is left over is not lost. */
+/* Control steps that are no multiple of the scene's step: the remainder is not lost. */
 static void test_uneven_steps_lose_no_time(void) {
     begin(3, WH_R(330.0));
     fed_rotor_hold(&fed, WH_R(330.0));
@@ -273,7 +273,7 @@ static void test_uneven_steps_lose_no_time(void) {
     TEST_ASSERT_EQUAL_UINT32(2000, seen);
 }
 
-/* Too late, silent for too long, a drive that is no number: it begins anew, and finds again what there is. */
+/* A late call, long silence or a drive that is not a number restarts it, and it converges again. */
 static void test_it_begins_anew(void) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     for (unsigned i = 0; i < 4; i++) {
@@ -298,7 +298,7 @@ static void test_it_begins_anew(void) {
         TEST_ASSERT_FALSE(fed.observer.valid);
         TEST_ASSERT_FALSE(fed.observer.runs);
         TEST_ASSERT_TRUE(fed.observer.torque_Nm == WH_R(0.0));
-        fed.rotor.ticks = fed.observer.ticks; /* the rotor stood for as long */
+        fed.rotor.ticks = fed.observer.ticks; /* the rotor stood still for as long */
         fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
         TEST_ASSERT_TRUE(fed.observer.valid);
         const wh_real seen = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
@@ -306,7 +306,7 @@ static void test_it_begins_anew(void) {
     }
 }
 
-/* A shiver at a sensor is no speed at which it would set out, nor is a rotor that hardly moves. */
+/* A shiver at a sensor, or a rotor that hardly moves, does not start it. */
 static void test_shivers_set_nothing_going(void) {
     static const uint32_t apart[] = {1, 500, 5000, 60000, 1000000, 1490000, 1600000};
     for (unsigned i = 0; i < 7; i++) {
@@ -339,7 +339,7 @@ static void test_the_wrap_changes_nothing(void) {
     TEST_ASSERT_TRUE(speed[0] == speed[1] && phase[0] == phase[1]);
 }
 
-/* Scenes of another kind are refused, and an observer without a scene says nothing. */
+/* Scenes of another kind are refused; an observer without a scene is never valid. */
 static void test_other_scenes_are_refused(void) {
     fed_rotor_standard(&fed, 1);
     wh_scene other = rig_fixed;

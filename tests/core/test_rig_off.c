@@ -1,5 +1,5 @@
-/* test_rig_off.c: the motor is off: rotors that run out, swing, or are driven all the same, on drawn benches: supply, inertia,
- * friction, stages stuck at a share of the supply, dead sensors, every off state. */
+/* test_rig_off.c: rotors with the motor off run out, swing, or are driven by a fault, on random benches: supply, inertia,
+ * friction, stuck stages, dead sensors, every off state. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
@@ -21,15 +21,15 @@ typedef struct bench {
     wh_rig_inputs inputs;
     wh_rig_command command;
     rotor_kind kind;
-    rotor_kind open; /* the same with the motor's leads open */
+    rotor_kind open; /* the same with open motor leads */
     rotor_state rotor;
     bool stuck; /* the stage ignores its voltage, */
     bool deaf;  /* and its enable */
     wh_real share;
     unsigned dead; /* sensor; 2: neither */
-    /* The rotor's whole turns as they are, while the motor must not drive: */
+    /* The rotor's real turns while the motor must not drive: */
     unsigned step;
-    unsigned begun;   /* step; of the turn under way */
+    unsigned begun;   /* start step of the current turn */
     unsigned turns;   /* since the motor went off, */
     unsigned powered; /* and since the enable last changed */
     wh_real before_s; /* of the last two */
@@ -38,7 +38,7 @@ typedef struct bench {
     wh_real first_s; /* the turn before they rose */
     unsigned
         undriven_at; /* step in which turns with the enable on first showed a drive; 0: none did */
-    unsigned faster_at; /* step in which three turns with the enable off did */
+    unsigned faster_at; /* the same for three turns with the enable off */
 } bench;
 
 static bench b;
@@ -48,7 +48,7 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (wh_real)draw_one_of(&seed, 10001) / WH_R(10000.0);
 }
 
-/* 1 to 12, as evenly in its logarithm as three draws make it. */
+/* 1 to 12, roughly log-uniform by three draws. */
 static wh_real drawn_inertia(void) {
     static const wh_real parts[] = {WH_R(0.5), WH_R(0.7), WH_R(1.0), WH_R(1.4),
                                     WH_R(2.0), WH_R(2.8), WH_R(4.0), WH_R(6.0)};
@@ -126,7 +126,7 @@ static void steps_on(unsigned steps) {
     }
 }
 
-/* At rest, idle: any rotor, any supply that is allowed. */
+/* At rest, idle: any rotor, any allowed supply. */
 static void draw_bench(void) {
     b = (bench){.config = wh_rig_standard, .kind = rotor_nominal(), .dead = 2U};
     b.config.measure.cell = (wh_cell_config){.newton_per_count = WH_R(1.0) / COUNTS_PER_N,
@@ -153,7 +153,7 @@ static void order(wh_rig_event event, wh_real value) {
 
 typedef enum place { IDLE, ARMED, TARE, STOPPED, COMMANDED, TRIPPED, RESET, PLACES } place;
 
-/* On the way to a set-point, for a drawn time. */
+/* On the way to a set-point, for a random time. */
 static void drive(void) {
     const wh_real most_rpm = (b.inputs.supply_V - WH_R(1.0)) / WH_RIG_RATED_V * WH_R(600.0);
     order(WH_EVENT_START, between(170, most_rpm < WH_R(360.0) ? most_rpm : WH_R(360.0)) * RPM);
@@ -163,7 +163,7 @@ static void drive(void) {
     steps_on(draw_one_of(&seed, 9U * STEPS_PER_S));
 }
 
-/* To where the motor is off, or goes off in the next step. */
+/* To a state with the motor off, or off in the next step. */
 static void go_to(place where) {
     steps_on(STEPS_PER_S * 8U / 5U);
     if (where == IDLE) {
@@ -189,15 +189,15 @@ static void go_to(place where) {
     }
 }
 
-/* --- nothing is lost -------------------------------------------------------------------------------------------------- */
+/* --- no false trips ----------------------------------------------------------------------------------------------------- */
 
-/* A board's emulator takes seconds for each. */
+/* An emulated board takes seconds for each. */
 #ifndef OFF_BENCHES
 #define OFF_BENCHES (__STDC_HOSTED__ && !WH_DOUBLE ? 360U : 24U)
 #endif
 #define OFF_ALL (OFF_BENCHES >= 360U) /* enough for some of each kind */
 
-/* Healthy rotors run out, braked and coasting, over the last turn's top and in swings about where they hang: no trip. */
+/* Healthy rotors run out, braked and coasting, over the last turn's top and in swings about the bottom: no trip. */
 static void test_healthy_rotors_run_out(void) {
     unsigned brakes = 0;
     unsigned swings = 0;
@@ -221,7 +221,7 @@ static void test_healthy_rotors_run_out(void) {
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
 }
 
-/* One pulse of nothing, of either sensor, while a rotor coasts: no trip, but of some that are about to turn back at the top. */
+/* One false pulse of either sensor while a rotor coasts: no trip, except for some rotors about to turn back at the top. */
 static void test_one_invented_pulse_is_no_drive(void) {
     unsigned benches = 0;
     unsigned trips = 0;
@@ -247,7 +247,7 @@ static void test_one_invented_pulse_is_no_drive(void) {
     TEST_ASSERT_TRUE(!OFF_ALL || 30U * trips < benches);
 }
 
-/* A hand may turn the rotor, slower than 60 rpm, in jerks, and swing it. */
+/* A hand may turn the rotor below 60 rpm, in jerks, and swing it. */
 static void test_a_hand_may_turn_the_rotor(void) {
     seed = 32;
     for (unsigned i = 0; i < draw_cases(OFF_BENCHES / 6U); i++) {
@@ -269,14 +269,14 @@ static void test_a_hand_may_turn_the_rotor(void) {
     }
 }
 
-/* --- driven all the same ---------------------------------------------------------------------------------------------- */
+/* --- driven although off ---------------------------------------------------------------------------------------------- */
 
-/* Any stuck stage, from any off state: with the enable on it is off within a second of the first turn that is not slower, and
- * that trips; with it off, three turns, each faster than the last, trip. */
+/* Any stuck stage, from any off state. With the enable on, the rig switches it off within a second of the first turn that does
+ * not slow down, and trips. With it off, three turns, each faster than the last, trip. */
 static void test_a_stage_that_drives_is_found(void) {
     unsigned shown[PLACES] = {0};
     unsigned told =
-        0; /* with the enable on: of a stage that ignores both, and one sensor, none is */
+        0; /* with the enable on; a stage that ignores both, with one sensor, has none */
     unsigned untold = 0;
     unsigned on_shown[3] = {0};
     unsigned off_shown[3] = {0};

@@ -1,5 +1,5 @@
-/* test_rig_parts.c: the rig's smaller parts, each by itself against what its header says: angles and polar form, least squares,
- * the turn's angle, what a pulse tells with the motor off, doubts, the first turn of a record, a swing's verdict. */
+/* test_rig_parts.c: the rig's smaller parts against their headers: angles and polar form, least squares, the turn's angle,
+ * pulses with the motor off, doubts, a record's first turn, a swing's verdict. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/expect.h"
@@ -24,7 +24,7 @@ static wh_real drawn_between(wh_real least, wh_real most) {
 
 /* --- angles ------------------------------------------------------------------------------------------- */
 
-/* Into -pi ... pi from less than a turn beyond, and 0 for what is further. */
+/* Into -pi ... pi from less than a turn beyond, and 0 from further away. */
 static void test_free_angles(void) {
     seed = 1;
     for (unsigned i = 0; i < 2000U; i++) {
@@ -39,7 +39,7 @@ static void test_free_angles(void) {
     TEST_ASSERT_TRUE(wh_free_angle((wh_real)__builtin_nanf("")) == WH_R(0.0));
 }
 
-/* Amplitudes of any size have their direction. */
+/* Amplitudes of any size have a direction. */
 static void test_polar_of_every_size(void) {
     seed = 2;
     for (unsigned i = 0; i < 2000U; i++) {
@@ -62,7 +62,7 @@ static void test_polar_of_every_size(void) {
     }
 }
 
-/* What is returned is by how much the mark was off the shape that it corrects, whatever is corrected. */
+/* The return value is the mark's deviation from the shape that it corrects, whatever is corrected. */
 static void test_a_split_says_how_far_the_mark_was_off(void) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
@@ -88,7 +88,7 @@ static void test_a_split_says_how_far_the_mark_was_off(void) {
 
 /* --- least squares ------------------------------------------------------------------------------------- */
 
-/* (1 + sum w r r') x = guess + sum w r off, of so many rows, none among them: put in, what is found is right. */
+/* (1 + sum w r r') x = guess + sum w r off for any number of rows, also zero: the solution satisfies it. */
 static void test_normal_equations_hold(void) {
     seed = 4;
     for (unsigned i = 0; i < 200U; i++) {
@@ -130,7 +130,7 @@ static void test_normal_equations_hold(void) {
     }
 }
 
-/* What a deviation's square is: its unknown, where the right side is that unknown's unit vector. Weak rows and strong ones. */
+/* A deviation's square is its unknown for a right side of that unknown's unit vector. Weak and strong rows. */
 static void test_a_deviation_is_the_inverses_diagonal(void) {
     seed = 14;
     for (unsigned i = 0; i < 100U; i++) {
@@ -160,8 +160,7 @@ static void test_a_deviation_is_the_inverses_diagonal(void) {
 
 /* --- pulses -------------------------------------------------------------------------------------------- */
 
-/* With the motor off a rotor is no faster than over the last interval in which it was not driven: one that began as the motor
- * was switched off, or later. */
+/* With the motor off a rotor is no faster than over the last undriven interval, which begins at the switch-off or later. */
 static void test_the_last_interval_bounds_what_coasts(void) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
@@ -185,7 +184,7 @@ static void test_the_last_interval_bounds_what_coasts(void) {
     }
 }
 
-/* Doubt grows by two with a pulse whose truth was doubtful, and shrinks by one, to nothing, with each that fits. */
+/* Doubt grows by two with a doubtful pulse and shrinks by one, down to zero, with each that fits. */
 static void test_doubt_grows_by_two_and_shrinks_by_one(void) {
     unsigned grown = 0;
     unsigned shrunk = 0;
@@ -219,7 +218,7 @@ static void test_doubt_grows_by_two_and_shrinks_by_one(void) {
     TEST_ASSERT_TRUE(grown > 100U && shrunk > 100U);
 }
 
-/* Before the speed is known a pulse that comes too early is a suspect, and one that does not is none. */
+/* Before the speed is known a pulse that comes too early is a suspect; others are not. */
 static void test_the_second_pulse_is_suspected_where_it_is_fast(void) {
     seed = 9;
     for (unsigned i = 0; i < 500U; i++) {
@@ -243,7 +242,7 @@ static void test_the_second_pulse_is_suspected_where_it_is_fast(void) {
 
 /* --- turns --------------------------------------------------------------------------------------------- */
 
-/* A record's drift is from its first turn that counts to its last, whatever is left out between and around them. */
+/* A record's drift runs from its first counted turn to its last, whatever is left out. */
 static void test_first_and_last_turn_of_those_that_count(void) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -276,17 +275,17 @@ static void test_first_and_last_turn_of_those_that_count(void) {
 
 /* --- verdicts ------------------------------------------------------------------------------------------- */
 
-/* A limit itself is allowed still, and the next number beyond it is not: each limit by itself, all else as it should be. */
+/* Limits are inclusive, and the next number beyond is refused: each limit alone, all else nominal. */
 static void test_limits_of_a_verdict_are_allowed(void) {
     wh_result_config config = wh_rig_standard.measure.result;
-    config.amplitude_wrong = WH_R(0.25); /* so that products with 64 N are no rounded ones */
+    config.amplitude_wrong = WH_R(0.25); /* so that products with 64 N are exact */
     config.amplitude_off = WH_R(0.0625);
     config.residual_large = WH_R(0.25);
     config.mean_off = WH_R(0.125);
     config.inertia_off = WH_R(0.5);
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
     rotor.inertia_kgm2 = WH_R(0.25);
-    const wh_turn_angle level = {.whole_rad = WH_R(0.0)}; /* nothing to see in the second order */
+    const wh_turn_angle level = {.whole_rad = WH_R(0.0)}; /* nothing visible in the second order */
     const wh_merge merge = {.samples = 1000, .swing_rad = WH_R(0.01), .split_turns = 12};
     const wh_measured right = {.turns = 12,
                                .amplitude_N = WH_R(64.0),
@@ -326,8 +325,8 @@ static void test_limits_of_a_verdict_are_allowed(void) {
     }
 }
 
-/* A swing's verdict from what was counted on its last pass: strays up to a quarter of the pulses that fit, enough half swings,
- * sensor 2 passed, an interval that is not too wide. */
+/* A swing's verdict from its last pass: strays up to a quarter of the fitting pulses, enough half swings, sensor 2 passed, a
+ * narrow enough interval. */
 static void test_verdict_of_a_swing(void) {
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     unsigned times[WH_SWING_WHYS] = {0};
@@ -336,8 +335,7 @@ static void test_verdict_of_a_swing(void) {
         wh_swing_config config = wh_rig_standard.swing;
         const wh_real zero[N] = {WH_R(0.0)};
         wh_swing swing = {.result = {.why = WH_SWING_WORKS}, .piece = WH_SWING_ENDS};
-        wh_normal_start(&swing.normal,
-                        zero); /* nothing measured: every deviation is what was guessed */
+        wh_normal_start(&swing.normal, zero); /* no measurement: every deviation is the guess's */
         swing.fits = 8U + draw_one_of(&seed, 20);
         swing.strays = draw_one_of(&seed, 2) * (swing.fits / 4U + draw_one_of(&seed, 2));
         swing.fits_of[1] = draw_one_of(&seed, 3);

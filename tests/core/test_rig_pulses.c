@@ -1,5 +1,5 @@
-/* test_rig_pulses.c: which slot pulses are true: trains of a made-up rotor that gravity swings, with jitter, and what
- * disturbances, losses and bounces make of them. */
+/* test_rig_pulses.c: recognition of true slot pulses: trains of a made-up rotor that gravity swings, with jitter, disturbances,
+ * losses and bounces. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -12,11 +12,11 @@ void suite_rig_pulses(void);
 #define RPM EVEN_RPM
 #define STEP_TICKS EVEN_STEP_TICKS
 #define TRAIN_PULSES 24U
-#define SETTLED 6U    /* from this mark on the speed is to be right */
-#define DISTURBED 12U /* behind this one comes what is none */
+#define SETTLED 6U    /* from this mark on the speed must be right */
+#define DISTURBED 12U /* the false pulse follows this one */
 #define MOST_PULSES (TRAIN_PULSES * 5U)
 #define JITTER_TICKS 60U
-/* A pulse this close to a true one of its sensor may be taken for it: four jitters make what is known of its time. */
+/* A pulse this close to a true one of its sensor may be taken for it: four jitters are the uncertainty of its time. */
 #define TELLING_TICKS (4U * JITTER_TICKS)
 
 static const wh_real speeds_rpm[] = {WH_R(100.0), WH_R(140.0), WH_R(170.0),
@@ -27,15 +27,15 @@ static wh_rig rig;
 static wh_rig_config config;
 static uint64_t seed;
 
-/* True pulses, from one of sensor 0 on; they cross the timer's wrap. */
+/* True pulses, starting with sensor 0; they cross the timer's wrap. */
 static wh_pulse train[TRAIN_PULSES];
 static wh_real mean_radps;
 
-/* What comes, in order of time. */
+/* The input, in order of time. */
 static wh_pulse given[MOST_PULSES];
 static unsigned given_count;
 
-/* Where no set-point is allowed without it, gravity is fed forward, and the rotor turns evenly. */
+/* For set-points that need it, gravity is fed forward, and the rotor turns evenly. */
 static rotor_kind kind_at(wh_real rpm) {
     rotor_kind kind = rotor_nominal();
     kind.jitter_s = WH_R(1e-6) * (wh_real)JITTER_TICKS;
@@ -86,7 +86,7 @@ static void give_train(unsigned lost) {
     }
 }
 
-/* A pulse more; before or behind what comes at the same time. */
+/* Adds a pulse, before or after others of the same time. */
 static void give(unsigned sensor, uint32_t ticks, bool behind) {
     TEST_ASSERT_TRUE(given_count < MOST_PULSES);
     unsigned at = given_count++;
@@ -112,16 +112,16 @@ static void stand_in(wh_rig_phase phase) {
     wh_drive_start(&rig.run.drive, mean_radps, rig.run.volts);
 }
 
-/* What came of the given pulses. */
+/* Results of the given pulses. */
 typedef struct outcome {
     unsigned marks;
     unsigned gaps;
-    unsigned strange;   /* marks that are no true pulse's, or not at its position */
+    unsigned strange;   /* marks of no true pulse, or not at its position */
     uint32_t off_ticks; /* the worst mark */
     wh_real off_rpm;    /* the worst speed */
 } outcome;
 
-/* The train's pulse that a mark is of, after the one before's. */
+/* The train's pulse of a mark, after the previous one's. */
 static unsigned true_pulse(const wh_mark *mark, unsigned from) {
     unsigned best = from;
     for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
@@ -133,14 +133,14 @@ static unsigned true_pulse(const wh_mark *mark, unsigned from) {
     return best;
 }
 
-/* All that was given, at control steps whose time is up to `early` behind the pulses'. */
+/* Runs all input in control steps whose time is up to `early` after the pulses'. */
 static outcome play(uint32_t early) {
     outcome out = {.marks = 0};
     uint32_t now = train[0].ticks - 1000U;
     const uint32_t end = train[TRAIN_PULSES - 1U].ticks + 200000U;
     unsigned next = 0;
     unsigned from = 0;
-    uint32_t base = 0; /* the count of quarters, less the true one */
+    uint32_t base = 0; /* the count of quarters minus the true one */
     while ((int32_t)(end - now) > 0) {
         const uint32_t due = next < given_count ? given[next].ticks - early : end;
         now = early > 0 && (int32_t)(due - now) > 0 && apart(due, now) < STEP_TICKS
@@ -161,7 +161,7 @@ static outcome play(uint32_t early) {
                                ? 1U
                                : 0U;
             out.off_ticks = off > out.off_ticks ? off : out.off_ticks;
-            TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0); /* the next may take it back */
+            TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0); /* the next may revoke it */
             out.marks++;
         }
         wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, 0);
@@ -175,7 +175,7 @@ static outcome play(uint32_t early) {
     return out;
 }
 
-/* All true pulses are marks, where they are; none is another. `off_ticks`: some could not be told from a true one. */
+/* All true pulses are marks at their place, and nothing else is. `off_ticks`: some are indistinguishable from a true one. */
 static void check_marks(const outcome *out, uint32_t off_ticks) {
     TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->marks);
     TEST_ASSERT_EQUAL_UINT(0, out->strange + out->gaps);
@@ -199,9 +199,9 @@ static void test_a_train_is_its_marks(void) {
     }
 }
 
-/* --- one too many --------------------------------------------------------------------------------- */
+/* --- false pulses --------------------------------------------------------------------------------- */
 
-/* How far from the next true pulse of its own sensor. */
+/* Distance from the next true pulse of its sensor. */
 static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     uint32_t least = UINT32_MAX;
     for (unsigned i = sensor; i < TRAIN_PULSES; i += 2U) {
@@ -211,10 +211,9 @@ static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     return least;
 }
 
-#define RAMP_FASTER WH_R(1.14) /* a turn that is early by the ramp's window, 0.12 of it */
+#define RAMP_FASTER WH_R(1.14) /* a turn early by the ramp's window, 0.12 of it */
 
-/* Rejected, or taken back: the marks are the true ones. Closer to its sensor's true one than their jitter tells, either
- * may be it. */
+/* Rejected or revoked: the marks are the true ones. Within the jitter of its sensor's true pulse, either may be chosen. */
 static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool behind) {
     give_train(0);
     give(sensor, ticks, behind);
@@ -223,7 +222,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
     const uint32_t near = apart_from_its_own(sensor, ticks);
     check_marks(&out, near < TELLING_TICKS ? near : 0);
     TEST_ASSERT_EQUAL_UINT32(1, rig.pulses.rejected);
-    /* on the ramp's last stretch a pulse as early as its window allows is over-speed, until the true one comes */
+    /* late on the ramp a pulse as early as its window allows is over-speed, until the true one comes */
     const bool over = phase == WH_PHASE_RAMP && rig.guard.trip == WH_TRIP_OVERSPEED &&
                       RAMP_FASTER * mean_radps > config.guard.limit_radps;
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE || over);
@@ -232,12 +231,12 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 
 #define PLACES 60U
 
-/* In the record a speed that is off stops the run; while it settles a pulse that is early by less than the window
- * shows until the true one comes. */
+/* In the record a wrong speed stops the run. While it settles, a pulse early by less than the window shows until the true one
+ * comes. */
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);
-        /* as far as the window lets it come early */
+        /* as early as the window allows */
         const wh_real most_rpm = phase == WH_PHASE_RECORD ? WH_R(2.0)
                                  : phase == WH_PHASE_SETTLE
                                      ? WH_R(0.035) * mean_radps / RPM
@@ -257,7 +256,7 @@ static void check_places(wh_rig_phase phase) {
                 check_disturbed(phase, sensor,
                                 train[DISTURBED].ticks + (2U * place + 1U) * (turn / PLACES / 2U));
             }
-            for (unsigned k = 0; k < 8; k++) { /* beside the true pulses of either sensor */
+            for (unsigned k = 0; k < 8; k++) { /* near the true pulses of either sensor */
                 for (unsigned at = DISTURBED; at < DISTURBED + 2U; at++) {
                     check_disturbed(phase, sensor, train[at].ticks - near_ticks[k]);
                     check_disturbed(phase, sensor, train[at].ticks + near_ticks[k]);
@@ -273,7 +272,7 @@ static void test_a_pulse_too_many_while_it_settles(void) { check_places(WH_PHASE
 
 static void test_a_pulse_too_many_on_the_ramp(void) { check_places(WH_PHASE_RAMP); }
 
-/* Two that are none, each between two true ones, with so many true ones between them: each is found. */
+/* Two false pulses, each between two true ones, with so many true ones between them: each is found. */
 static void test_two_pulses_too_many(void) {
     seed = 7;
     for (unsigned i = 0; i < draw_cases(240); i++) {
@@ -295,9 +294,9 @@ static void test_two_pulses_too_many(void) {
     }
 }
 
-/* --- some too few --------------------------------------------------------------------------------- */
+/* --- missing pulses ------------------------------------------------------------------------------- */
 
-/* One is bridged, more are a gap: the position begins afresh, the speed stays. */
+/* One is bridged, more are a gap: the position restarts, the speed stays. */
 static void test_lost_pulses(void) {
     seed = 3;
     for (unsigned i = 0; i < SPEEDS; i++) {
@@ -321,7 +320,7 @@ static void test_lost_pulses(void) {
 
 /* --- stamps, bounces, storms ----------------------------------------------------------------------- */
 
-/* A pulse may be captured after the step's own reading of the timer; and the train crosses its wrap. */
+/* A pulse may be captured after the step's own reading of the timer, and the train crosses the timer's wrap. */
 static void test_stamps_from_the_future(void) {
     seed = 4;
     for (unsigned i = 0; i < SPEEDS; i++) {
@@ -339,7 +338,7 @@ static void test_stamps_from_the_future(void) {
     }
 }
 
-/* The edge of a slot that fires again and again: counted, harmless, and too many of them stop the rig. */
+/* A slot's edge fires repeatedly: counted and harmless; too many stop the rig. */
 static void test_bounces(void) {
     seed = 5;
     for (unsigned each = 1; each <= 4; each++) {
@@ -363,7 +362,7 @@ static void test_bounces(void) {
     }
 }
 
-/* Pulses of both sensors at random, some twenty times as many as there should be. */
+/* Random pulses of both sensors, some twenty times the normal rate. */
 static void test_a_storm_stops_the_rig(void) {
     seed = 6;
     for (unsigned i = 0; i < SPEEDS; i++) {

@@ -1,4 +1,4 @@
-/* test_rig_pulses_fast.c: how soon a runaway shows in the pulses. */
+/* test_rig_pulses_fast.c: how soon the pulses show a runaway. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -27,7 +27,7 @@ static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
     wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
 }
 
-/* Full voltage on the rotor, whatever the controller asks for; returns how long until it trips, s. */
+/* Full voltage on the rotor, whatever the order; returns the time until it trips, s. */
 static wh_real run_away(rotor_state *rotor) {
     const rotor_kind kind = rotor_nominal();
     const uint32_t begin = rotor->ticks;
@@ -41,7 +41,7 @@ static wh_real run_away(rotor_state *rotor) {
         wh_rig_load(&config, &rig, rotor->ticks, step % 2U == 0 ? 3000 : -3000, WH_LOAD_OK);
         (void)wh_rig_step(&config, &rig, &inputs);
     }
-    /* from rest nobody can tell it from a motor that is faster than its settings */
+    /* from rest it looks like a motor faster than its settings */
     TEST_ASSERT_TRUE(rig.guard.trip ==
                      (rig.record.phase == WH_PHASE_SPIN_UP ? WH_TRIP_FASTER : WH_TRIP_OVERSPEED));
     return (wh_real)(rotor->ticks - begin) / (wh_real)WH_RIG_TICKS_PER_S;
@@ -70,7 +70,7 @@ static void test_a_runaway_is_seen_at_any_place(void) {
 
 static void test_a_runaway_from_rest_is_seen(void) {
     seed = 8;
-    for (int place = -2; place <= 2; place++) { /* hanging, but for a few degrees of friction */
+    for (int place = -2; place <= 2; place++) { /* hanging, within a few degrees of friction */
         rotor_state rotor = {.ticks = UINT32_MAX - 100000U,
                              .angle_rad = place < 0 ? WH_RIG_TWO_PI + WH_R(0.04) * (wh_real)place
                                                     : WH_R(0.04) * (wh_real)place,
@@ -94,8 +94,8 @@ static void go_on(const rotor_kind *kind, rotor_state *rotor, unsigned steps) {
     }
 }
 
-/* A friction of up to 0.1 N m that goes away at any place lets the rotor climb, of 0.7 times the inertia or more: the
- * loop's business. */
+/* A friction of up to 0.1 N m that vanishes anywhere makes the rotor climb, from 0.7 times the inertia on: the loop handles
+ * that. */
 static void test_a_load_that_goes_away_is_no_runaway(void) {
     seed = 9;
     for (unsigned trial = 0; trial < 60U; trial++) {

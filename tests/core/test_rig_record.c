@@ -1,4 +1,4 @@
-/* test_rig_record.c: a trip's record as bytes: read back as it was written; what is none is refused. */
+/* test_rig_record.c: a trip's record as bytes reads back as written; invalid records are refused. */
 #include "core/rig/record.h"
 
 #include "draw.h"
@@ -16,7 +16,7 @@ static const wh_trip trips[] = {
 };
 #define TRIPS (sizeof trips / sizeof trips[0])
 
-/* As floats have it: that is what the bytes are. */
+/* Rounded to float, as in the bytes. */
 static wh_real any(void) { return (wh_real)((float)(int32_t)draw_bits(&seed) * 1e-4f); }
 
 static wh_trip_record draw_record(unsigned i) {
@@ -39,7 +39,7 @@ static void test_there_and_back(void) {
         wh_trip_record read = {.trip = WH_TRIP_NONE};
         wh_trip_record_put(&record, bytes);
         const bool is = wh_trip_record_get(&read, bytes, WH_TRIP_RECORD_BYTES);
-        TEST_ASSERT_TRUE(is == (record.trip != WH_TRIP_NONE)); /* none leaves none */
+        TEST_ASSERT_TRUE(is == (record.trip != WH_TRIP_NONE)); /* no record leaves none */
         if (is) {
             TEST_ASSERT_TRUE(read.trip == record.trip && read.phase == record.phase);
             TEST_ASSERT_EQUAL_UINT32(record.ticks, read.ticks);

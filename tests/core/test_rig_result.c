@@ -1,4 +1,4 @@
-/* test_rig_result.c: turns merged, against sums done anew; what each reason for doubt needs; the tare. */
+/* test_rig_result.c: merged turns against recomputed sums, the condition of each doubt, and the tare. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
@@ -19,13 +19,13 @@ static wh_measured measured;
 static wh_rotor_config rotor;
 static wh_result_config bench; /* with a calibration */
 
-/* Evenly distributed about 0, of standard deviation 1. */
+/* Uniform about 0, of standard deviation 1. */
 static wh_real scatter(void) {
     return ((wh_real)(scattered() >> 40) / WH_R(16777216.0) - WH_R(0.5)) * WH_R(3.4641016);
 }
 
-/* The second order that a rotor's force has beside this first one when its speed swings by so much, in this direction: by
- * energy, a rotor without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
+/* The second order of a rotor's force relative to the first, for a speed swing of this size and direction. By energy a rotor
+ * without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
 static void put_second(wh_lockin_turn *turn, wh_real swing_rad, wh_real lag_rad) {
     wh_real size_N;
     wh_real phase_rad;
@@ -146,7 +146,7 @@ static void test_the_interval_is_students(void) {
     }
 }
 
-/* Floors alone: each as it is said. Until both are entered they are 0.5 % and 0.5 degrees. */
+/* Floors alone: each as entered. The defaults are 0.5 % and 0.5 degrees. */
 static void test_floors_are_kept(void) {
     begin();
     for (unsigned i = 0; i < 10; i++) {
@@ -169,8 +169,8 @@ static void test_floors_are_kept(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.5f, (float)(measured.phase_half_rad / DEG));
 }
 
-/* Marks that come early and late: their standard deviation is found from the second differences, of both sensors, and
- * across a turn that does not count none is taken. */
+/* Jittering marks: their standard deviation follows from the second differences of both sensors. None is taken across a turn
+ * that does not count. */
 static void test_jitter_is_found(void) {
     scattered_state = UINT64_C(0x5eed0032);
     begin();
@@ -191,7 +191,7 @@ static void test_jitter_is_found(void) {
     conclude(&bench);
     TEST_ASSERT_EQUAL_UINT32(399, measured.turns);
     TEST_ASSERT_EQUAL_UINT32(1, measured.left_out);
-    /* 399 turns in two rows: 397 differences of the one sensor, 395 of the other's marks */
+    /* 399 turns in two rows: 397 differences of one sensor, 395 of the other's marks */
     TEST_ASSERT_EQUAL_UINT32(397 + 395, merge.jitters);
     TEST_ASSERT_FLOAT_WITHIN(5.0f, 60.0f, (float)(measured.jitter_s * WH_R(1e6)));
 }
@@ -244,7 +244,7 @@ static void test_every_reason_has_its_case(void) {
                          WH_WHY_NONE); /* 4 */
     }
     wh_lockin_turn odd = plain;
-    odd.force_N.at[1] = WH_R(20.0); /* up and down, from turn to turn */
+    odd.force_N.at[1] = WH_R(20.0); /* alternating, from turn to turn */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_UNSURE);
     odd.force_N.at[1] = WH_R(5.0);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_WIDE);
@@ -260,17 +260,16 @@ static void test_every_reason_has_its_case(void) {
     odd.mean_N = WH_R(-5.0);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_MEAN);
     odd = plain;
-    odd.split_seen = true; /* that is, not seen */
+    odd.split_seen = true; /* that is, unknown */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_ROTOR);
-    for (unsigned i = 0; i < 4; i++) { /* an inertia that is not the rotor's */
+    for (unsigned i = 0; i < 4; i++) { /* an inertia unlike the rotor's */
         static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         angle.inertia_kgm2 = rotor.inertia_kgm2 * times[i];
         conclude(&bench);
         TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
     }
-    for (int side = -1; side <= 1;
-         side += 2) { /* gravity that is fed forward, and what is left of it */
+    for (int side = -1; side <= 1; side += 2) { /* gravity fed forward, and its remainder */
         for (unsigned i = 0; i < 2; i++) {
             TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
             const wh_real part = WH_ABS(merge.swing_rad) / angle.whole_rad;
@@ -306,7 +305,7 @@ static void test_every_reason_has_its_case(void) {
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
     for (unsigned i = 0; i < 2U;
-         i++) { /* what repeats, and what noise of so many samples lets expect */
+         i++) { /* the repeatable part, and the expected noise of this many samples */
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         merge.repeats.samples = 910;
         merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* of a newton */
@@ -318,12 +317,12 @@ static void test_every_reason_has_its_case(void) {
         TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_REPEATS));
         merge.repeats_N2 = WH_R(0.0);
     }
-    /* what is not a number is refused */
+    /* NaN is refused */
     const wh_real nan = (wh_real)__builtin_nanf("");
     TEST_ASSERT_TRUE(why_of(nan, WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);
 }
 
-/* The part of gravity that is left is told where it is fed forward and pulls, and is 0 else. */
+/* The remaining share of gravity is reported if gravity is fed forward and pulls, and is 0 otherwise. */
 static void test_what_is_left_of_gravity(void) {
     for (unsigned i = 0; i < 4U; i++) {
         begin();
@@ -342,7 +341,7 @@ static void test_what_is_left_of_gravity(void) {
     }
 }
 
-/* Of one turn nothing scatters, and of a load that is none there is no phase: no interval is told, and none is not a number. */
+/* A single turn has no scatter, and a zero load has no phase: no interval is reported, and none is NaN. */
 static void test_without_scatter_or_load_there_is_no_interval(void) {
     for (unsigned turns = 0; turns <= 3U; turns++) {
         for (unsigned loads = 0; loads < 2U; loads++) {
@@ -406,7 +405,7 @@ static void test_every_reason_has_words_of_its_own(void) {
 
 /* --- the tare --------------------------------------------------------------------------------------- */
 
-/* A tare of 250 samples: white noise, the mains' hum, and what moves. */
+/* A tare of 250 samples: white noise, mains hum, and motion. */
 static wh_tare tare_of(wh_real noise_N, wh_real hum_N, wh_real hum_Hz, wh_real swing_N,
                        wh_real swing_Hz, wh_real drift_N) {
     wh_tare tare = {.count = 0};
@@ -429,7 +428,7 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (WH_R(0.5) + scatter() / WH_R(3.4641016));
 }
 
-/* Noise and hum of any size that leaves the mean known are no motion: up to 3 N and 5 N, 45 to 65 Hz. */
+/* Noise and hum of any size are no motion if the mean is known: up to 3 N and 5 N, 45 to 65 Hz. */
 static void test_noise_and_hum_are_no_motion(void) {
     static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
     scattered_state = UINT64_C(0x5eed0033);
@@ -446,7 +445,7 @@ static void test_noise_and_hum_are_no_motion(void) {
     }
 }
 
-/* A drift of 0.4 N or a swing of 0.3 N, of a rotor (1 Hz and more) or a frame (to 8 Hz), is motion, whatever hum; noise hides
+/* A drift of 0.4 N or a swing of 0.3 N is motion, of a rotor (1 Hz and more) or a frame (to 8 Hz), with any hum. Noise hides
  * twice of it. */
 static void test_motion_is_seen_through_noise_and_hum(void) {
     scattered_state = UINT64_C(0x5eed0034);
@@ -463,7 +462,7 @@ static void test_motion_is_seen_through_noise_and_hum(void) {
     }
 }
 
-/* More noise than leaves the mean known to 0.25 N is too much; and of no samples or few nothing is known. */
+/* Noise that leaves the mean uncertain by 0.25 N is too much; few or no samples give no result. */
 static void test_a_tare_that_is_not_known(void) {
     scattered_state = UINT64_C(0x5eed0036);
     wh_tare tare = {.count = 0};

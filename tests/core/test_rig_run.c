@@ -1,4 +1,4 @@
-/* test_rig_run.c: the rig's whole run on a made-up rotor that turns evenly, and what may spoil it. */
+/* test_rig_run.c: the rig's whole run on a made-up rotor that turns evenly, and disturbances of it. */
 #include "draw.h"
 #include "even_rig.h"
 
@@ -21,7 +21,7 @@ static void check_trip(wh_trip trip) {
     TEST_ASSERT_TRUE(trip == WH_TRIP_NONE || even.rig.state == WH_LIFE_TRIPPED);
 }
 
-/* The made-up load, as near as test_lockin.c finds the lock-in to be. The rotor is even to a tick a turn, 6e-6. */
+/* The made-up load, to the lock-in's accuracy in test_lockin.c. The rotor is even to a tick a turn, 6e-6. */
 static void check_measured(unsigned turns_wanted) {
     check_trip(WH_TRIP_NONE);
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -46,15 +46,15 @@ static void test_a_faultless_run_finds_the_load(void) {
 
 /* --- slot pulses -------------------------------------------------------------------------------- */
 
-/* From the middle of the record on, one sensor's pulses or both's, as many as the guard lets pass,
- * but never two running. A turn whose begin or end is not known is left out. */
+/* From the middle of the record on, pulses of one or both sensors are lost: as many as the guard tolerates, but never two in a
+ * row. A turn without a known start or end is left out. */
 static void test_lost_pulses_in_the_record_cost_their_turns(void) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
             even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U};
             failing.lose[sensor] = lost;
             run(WH_R(330.0), failing);
-            if (sensor == 0 && lost > 1) { /* the turns between them are too many, then */
+            if (sensor == 0 && lost > 1) { /* too many turns are then between them */
                 TEST_ASSERT_TRUE(even.rig.result.force.quality == WH_DOUBTFUL);
                 TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
             } else {
@@ -66,7 +66,7 @@ static void test_lost_pulses_in_the_record_cost_their_turns(void) {
     }
 }
 
-/* Two running: the count of turns begins afresh, and what lies between is left out. */
+/* Two in a row: the count of turns restarts, and the turns between are left out. */
 static void test_a_gap_in_the_record_costs_its_turns(void) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose = {1, 1}});
     check_measured(8);
@@ -75,14 +75,13 @@ static void test_a_gap_in_the_record_costs_its_turns(void) {
     check_measured(7);
 }
 
-/* Before the record a gap does no harm. */
 static void test_a_gap_before_the_record_is_bridged(void) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_SETTLE, .after_ticks = 700000U, .lose = {1, 1}});
     check_result();
     TEST_ASSERT_EQUAL_UINT32(2, even.rig.result.lost);
 }
 
-/* A disturbance that looks like a pulse, anywhere in a turn of the record: rejected, or taken back. */
+/* A disturbance like a pulse, anywhere in a turn of the record: rejected or revoked. */
 static void test_a_pulse_too_many_spoils_no_result(void) {
     for (unsigned part = 0; part < 40U; part++) {
         even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U + part / 2U * 9000U};
@@ -93,7 +92,7 @@ static void test_a_pulse_too_many_spoils_no_result(void) {
     }
 }
 
-/* A shiver of the hanging rotor, whose slot stands at sensor 1. */
+/* A shiver of the hanging rotor with its slot at sensor 1. */
 static void test_a_pulse_during_the_tare_is_forgotten(void) {
     for (uint32_t after = 0; after <= 490000U; after += 490000U) {
         run(WH_R(330.0),
@@ -102,7 +101,7 @@ static void test_a_pulse_during_the_tare_is_forgotten(void) {
     }
 }
 
-/* Cables changed over, or a motor that turns backwards: the phase would be wrong. */
+/* Swapped cables or a reversed motor: the phase would be wrong. */
 static void test_sensors_in_the_wrong_order_trip(void) {
     static const wh_real targets_rpm[] = {WH_R(170.0), WH_R(240.0), WH_R(330.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -122,7 +121,7 @@ static void test_a_dead_sensor_trips(void) {
     }
 }
 
-/* A jammed rotor's load stands still too, but it is not the cell that failed. */
+/* A jammed rotor's load stands still too, but the cell has not failed. */
 static void test_a_jammed_rotor_trips_for_its_pulses(void) {
     for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
@@ -138,12 +137,12 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 65535) / WH_R(65535.0);
 }
 
-/* Jitter of up to 150 us (standard deviation; drawn evenly) is no motion: the run settles, records, and its intervals hold;
- * that of the phase holds the middle of the delay, too. */
+/* Jitter of up to 150 us (standard deviation, uniform) is no motion: the run settles, records, and its intervals hold. The
+ * phase's interval covers the middle of the delay too. */
 static void test_jitter_settles(void) {
     seed = 61;
     for (unsigned i = 0; i < 60U; i++) {
-        /* the made-up load is that of 330 rpm */
+        /* the made-up load is for 330 rpm */
         const wh_real target_rpm =
             i % 2U == 0 ? between(WH_R(324.0), WH_R(336.0)) : between(WH_R(170.0), WH_R(360.0));
         const wh_real jitter_s = i < 10U ? WH_R(120e-6) : between(WH_R(0.0), WH_R(150e-6));
@@ -165,7 +164,7 @@ static void test_jitter_settles(void) {
     }
 }
 
-/* A speed that hunts by 1 rpm or more in 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle, whatever jitter. */
+/* A speed that hunts by 1 rpm or more in 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle, with any jitter. */
 static void test_a_speed_that_hunts_or_drifts_does_not_settle(void) {
     unsigned unsettled = 0;
     seed = 62;
@@ -184,12 +183,12 @@ static void test_a_speed_that_hunts_or_drifts_does_not_settle(void) {
         TEST_ASSERT_TRUE(even.rig.guard.trip != WH_TRIP_NONE && !even.rig.has_result);
         unsettled += even.rig.guard.trip == WH_TRIP_UNSETTLED ? 1U : 0U;
     }
-    TEST_ASSERT_TRUE(unsettled >= 20U); /* of the others the drive's voltage ran to its end */
+    TEST_ASSERT_TRUE(unsettled >= 20U); /* in the others the drive's voltage reached its limit */
 }
 
 /* --- load cell ---------------------------------------------------------------------------------- */
 
-/* In whatever state the run needs the cell: it ends within 10 periods and a step. */
+/* In any state that needs the cell the run ends within 10 periods and a step. */
 static void test_a_load_cell_that_falls_silent_trips(void) {
     for (wh_rig_phase in = WH_PHASE_TARE; in <= WH_PHASE_RAMP_DOWN; in++) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
@@ -220,8 +219,7 @@ static void test_samples_missing_in_the_record(void) {
     check_result(); /* outside the record nothing is measured */
 }
 
-/* Samples that the converter itself does not trust: of a disconnected cell they stop the run, of one that has nothing new
- * they are none. */
+/* Samples that the converter flags: from a disconnected cell they stop the run, without new data they do not count. */
 static void test_the_converters_word_counts(void) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
         run(WH_R(330.0),
@@ -229,13 +227,13 @@ static void test_the_converters_word_counts(void) {
         TEST_ASSERT_EQUAL_INT(status == WH_LOAD_LATE ? WH_TRIP_NONE : WH_TRIP_LOAD_CELL,
                               even.rig.guard.trip);
     }
-    /* late ones from 0.7 s on: three whole turns are left, each of the others is a gap */
+    /* late from 0.7 s on: three whole turns remain, each other one is a gap */
     run(WH_R(330.0),
         (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .status = WH_LOAD_LATE});
     TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
 }
 
-/* A cell that feels nothing shows its converter's noise: half a turn must move it by far more. */
+/* A dead cell shows its converter's noise: half a turn must move it by far more. */
 static void test_a_dead_load_cell_trips(void) {
     for (wh_rig_phase in = WH_PHASE_RAMP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* 0.3 N, either way */
@@ -294,8 +292,8 @@ static void test_a_rotor_that_does_not_start_trips(void) {
     TEST_ASSERT_TRUE(even_is_over(&even));
 }
 
-/* What moves slowly is no noise: a load that creeps, or a pulse of the sensor where a hanging rotor is not. Noise is no
- * motion, also where it is a hundred times the converter's. */
+/* Slow changes are not noise: a creeping load, or a pulse of the sensor away from the hanging rotor. Noise is no motion, even
+ * at a hundred times the converter's. */
 static void test_a_moving_rig_gets_no_tare(void) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N in all */
     check_trip(WH_TRIP_MOVING);
@@ -308,16 +306,16 @@ static void test_a_moving_rig_gets_no_tare(void) {
     TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_SPIN_UP);
     /* 0.2 N either way, 250 times */
     TEST_ASSERT_FLOAT_WITHIN(2e-4f, 0.01267f, (float)wh_tare_error_N(&even.rig.measure.tare));
-    run(WH_R(330.0),
-        (even_failure){.in = WH_PHASE_TARE, .shows = 500}); /* a mean that is not known to 0.25 N */
+    run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE,
+                                    .shows = 500}); /* a mean uncertain by more than 0.25 N */
     check_trip(WH_TRIP_MOVING);
 }
 
-/* Healthy, but wrong: the run is done, and what was measured is not called good. */
+/* Healthy but wrong: the run is done, and the result is not good. */
 static void test_what_cannot_be_is_not_called_good(void) {
     begin(WH_R(330.0), (even_failure){.in = EVEN_NEVER});
     even.config.measure.cell.newton_per_count =
-        -even.config.measure.cell.newton_per_count; /* the cell the other way round */
+        -even.config.measure.cell.newton_per_count; /* the reversed cell */
     go_on_until(EVEN_NEVER);
     TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_POLARITY);
     static const wh_real gains[] = {WH_R(0.5),  WH_R(0.9), WH_R(0.96),
@@ -344,7 +342,7 @@ static void test_what_cannot_be_is_not_called_good(void) {
                                                        : i < 3 ? WH_WHY_PHASE_OFF
                                                                : WH_WHY_PHASE));
     }
-    /* a cell that freezes for a tenth of a second, and one that loses its tare */
+    /* a cell that freezes for 0.1 s, and one that loses its tare */
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .creeps = 500});
     TEST_ASSERT_TRUE(even.rig.result.force.quality != WH_GOOD);
 }

@@ -1,5 +1,5 @@
-/* test_rig_slope.c: what the load's second order says of a motor whose torque line nobody knows: rotors with drawn slopes,
- * integrated over their angle, measured by a lock-in that believes in the one configured. */
+/* test_rig_slope.c: the load's second order shows a motor's unknown torque slope. Rotors with random slopes are integrated over
+ * their angle and measured by a lock-in with the configured slope. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
@@ -10,14 +10,14 @@
 
 void suite_rig_slope(void);
 
-#define STEPS 512U /* of the angle, a turn */
+#define STEPS 512U /* angle steps per turn */
 #define PERIOD_TICKS 2000U
-#define BEFORE 14U /* turns, in which the inertia is found */
+#define BEFORE 14U /* turns until the inertia is found */
 #define TURNS 8U
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
 
 static uint64_t seed;
-static wh_rotor_config rotor; /* what the measurement believes */
+static wh_rotor_config rotor; /* the measurement's settings */
 static wh_lockin lockin;
 static wh_measured measured;
 
@@ -31,23 +31,23 @@ static wh_wave wave_of(wh_real rad) {
     return wave;
 }
 
-/* --- the rotor that there is ---------------------------------------------------------------------------- */
+/* --- the real rotor ------------------------------------------------------------------------------------ */
 
 typedef struct plant {
     wh_real speed_radps; /* about its mean */
     wh_real inertia_kgm2;
     wh_real slope_Nms;
     wh_real gravity_rad;
-    uint32_t late_ticks; /* samples are so much older than their stamps say */
+    uint32_t late_ticks; /* age of samples beyond their stamps */
     wh_real gain;        /* of the cell */
 } plant;
 
-/* Its steady turn, at angles of STEPS steps from sensor 1's mark on. */
+/* Its steady turn, at STEPS equal angles from sensor 1's mark. */
 static wh_real part_at[STEPS + 1U]; /* of the turn's time */
 static wh_real force_N[STEPS + 1U];
 static wh_real turn_s;
-static wh_real along_rad; /* of the angle less an even one over the time: its part with the sine, */
-static wh_real across_rad; /* and with the cosine */
+static wh_real along_rad;  /* of the angle's deviation from even motion over time: its sine part, */
+static wh_real across_rad; /* and its cosine part */
 static wh_real truth_N;    /* S <w^2> over the angle: the first order, in line with the masses */
 
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
@@ -61,7 +61,7 @@ static wh_real bend(const plant *p, wh_real theta, wh_real speed) {
     return acceleration(p, theta, speed) / speed;
 }
 
-/* A turn that begins at this speed: the speed at its end. */
+/* The speed at the end of a turn that begins at this speed. */
 static wh_real turn(const plant *p, wh_real speed) {
     const wh_real h = WH_RIG_TWO_PI / (wh_real)STEPS;
     const wh_real from = rotor.mark_rad[0];
@@ -92,7 +92,7 @@ static wh_real turn(const plant *p, wh_real speed) {
     return speed;
 }
 
-/* The turn that ends as it begins, by secants; then the swing of its angle, over the time. */
+/* The periodic turn, by secants; then the swing of its angle over time. */
 static void integrate(const plant *p) {
     wh_real speed = p->speed_radps;
     for (unsigned round = 0; round < 6U; round++) {
@@ -106,7 +106,7 @@ static void integrate(const plant *p) {
         part_at[i] /= turn_s;
     }
     part_at[STEPS] = WH_R(1.0);
-    /* trapezoids; base is what makes the mean of the rest vanish */
+    /* trapezoids; base makes the mean of the rest vanish */
     wh_real base = WH_R(0.0);
     const wh_real from = rotor.mark_rad[0];
     for (unsigned pass = 0; pass < 2U; pass++) {
@@ -129,7 +129,7 @@ static void integrate(const plant *p) {
 
 /* --- its measurement -------------------------------------------------------------------------------------- */
 
-/* The force when this part of the turn's time is over. */
+/* The force at this part of the turn's time. */
 static wh_real force_at(wh_real part) {
     unsigned low = 0;
     unsigned high = STEPS;
@@ -191,7 +191,7 @@ static void believe(wh_real gravity, wh_real gravity_rad) {
     rotor.gravity_rad = gravity_rad;
 }
 
-/* 165 to 360 rpm, the plane of the arms upright or inclined, and `line` times the slope that is believed. */
+/* 165 to 360 rpm, the arms' plane upright or inclined, and `line` times the configured slope. */
 static plant draw_plant(wh_real line) {
     believe(draw_one_in(&seed, 2) ? WH_R(1.0) : drawn_between(WH_R(0.5), WH_R(1.0)),
             drawn_between(WH_R(-0.05), WH_R(0.05)));
@@ -203,7 +203,7 @@ static plant draw_plant(wh_real line) {
                    .gain = WH_R(1.0)};
 }
 
-/* By how much the swing of the lock-in's angle is another than the rotor's, as an arrow. */
+/* The difference between the lock-in's and the rotor's swing, as a vector. */
 static wh_real arrow_off(void) {
     const wh_wave lag = wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
     const wh_real along = lockin.angle.swing_rad * lag.cosine - along_rad;
@@ -211,11 +211,8 @@ static wh_real arrow_off(void) {
     return WH_SQRT(along * along + across * across);
 }
 
-/* --- tests -------------------------------------------------------------------------------------------------- */
-
-/* Slopes of 0.2 to 1.6 times the one believed: what the second order says of the swing is what the integrated rotor says, to
- * the third order of the swing, which the angle within a turn leaves out. What is good is right, and a slope that is right
- * makes no doubt. */
+/* Slopes of 0.2 to 1.6 times the configured one. The second order gives the integrated rotor's swing, to the third order of the
+ * swing, which the angle within a turn omits. Good results are right, and a right slope raises no doubt. */
 static void test_the_load_tells_of_another_slope(void) {
     unsigned good = 0;
     unsigned doubted = 0;
@@ -244,7 +241,7 @@ static void test_the_load_tells_of_another_slope(void) {
     TEST_ASSERT_TRUE(good >= 15U && doubted >= 8U && would_lie >= 4U);
 }
 
-/* A delay and the cell's gain are not mistaken for a slope, and do not hide one. */
+/* A delay and the cell's gain neither look like a slope nor hide one. */
 static void test_calibration_does_not_matter(void) {
     seed = 52;
     for (unsigned run = 0; run < 16U; run++) {
@@ -261,13 +258,13 @@ static void test_calibration_does_not_matter(void) {
             WH_RIG_TWO_PI * (wh_real)p.late_ticks / (wh_real)WH_RIG_TICKS_PER_S / turn_s;
         TEST_ASSERT_FLOAT_WITHIN(1e-3f + 0.06f * (float)late_rad, (float)-late_rad,
                                  (float)(measured.phase_rad - phase_rad));
-        /* a rotor that swings is later by an angle that swings, too: a fault of the angle, that shows with half its weight */
+        /* a swinging rotor is late by a swinging angle: an error of the angle that shows with half its weight */
         const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
         TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.swing_off_rad);
     }
 }
 
-/* Arms that turn in a level plane do not swing, and there is nothing to compare. */
+/* Arms in a level plane do not swing, and there is nothing to compare. */
 static void test_a_level_plane_says_nothing(void) {
     seed = 53;
     for (unsigned run = 0; run < 4U; run++) {

@@ -1,5 +1,5 @@
-/* test_rig_standard.c: the standard rig's settings on record, in the units of docs/rig.md, where their reasons stand. Whoever
- * tunes one renews it here, and says so in CHANGELOG.md. */
+/* test_rig_standard.c: the standard rig's settings in the units of docs/rig.md, which has their reasons. A change needs an
+ * update here and an entry in CHANGELOG.md. */
 #include "core/rig/rig.h"
 
 #include "unity.h"

@@ -1,5 +1,5 @@
-/* test_rig_steps.c: the rig's run, one step at a time: how long each phase lasts and what ends it, to the step, from the
- * numbers that docs/rig.md gives; and what a full record comes to. */
+/* test_rig_steps.c: the rig's run step by step: each phase's duration and end, exact to the step, from the numbers of
+ * docs/rig.md, and the result of a full record. */
 #include <stddef.h>
 
 #include "even_rig.h"
@@ -15,7 +15,6 @@ static wh_rig_config config;
 static wh_rig_inputs inputs;
 static wh_rig_command command;
 
-/* A run to 330 rpm, at its tare. */
 static void begin(void) {
     config = even_config();
     inputs = (wh_rig_inputs){.now_ticks = UINT32_MAX - 3000000U, /* the timer wraps on the way */
@@ -25,7 +24,7 @@ static void begin(void) {
     wh_run_start(&rig.run, WH_R(330.0) * RPM, inputs.now_ticks);
 }
 
-/* In this phase since now, at the target's speed, with all that the guard looks for in order. */
+/* Puts the rig into this phase now, at the target's speed, with all guards satisfied. */
 static void stand_in(wh_rig_phase phase) {
     begin();
     rig.state = phase == WH_PHASE_NONE       ? WH_LIFE_IDLE
@@ -34,7 +33,7 @@ static void stand_in(wh_rig_phase phase) {
     rig.run.phase = phase;
     rig.pulses.speed.known = true;
     rig.pulses.speed.running = true;
-    rig.pulses.alternate = WH_GUARD_COASTS; /* it turns round */
+    rig.pulses.alternate = WH_GUARD_COASTS; /* it turns */
     rig.pulses.speed.turn_radps = WH_R(330.0) * RPM;
     rig.run.drive.setpoint_radps = rig.run.drive.target_radps = rig.run.target_radps;
     rig.run.off_radps = WH_R(330.0) * RPM;
@@ -55,19 +54,19 @@ static void step(void) {
     command = wh_rig_step(&config, &rig, &inputs);
 }
 
-/* A step with the pulse that the guard waits for. */
+/* A step with the pulse that the guard expects. */
 static void step_on(void) {
     rig.pulses.speed.ticks = inputs.now_ticks + STEP_TICKS;
     step();
 }
 
-/* `steps` steps at a speed, whose pulses and loads come as they should, while the phase stays. */
+/* `steps` steps at a speed with regular pulses and loads, while the phase stays. */
 static unsigned stay(wh_real speed_rpm, unsigned steps) {
     const wh_rig_phase phase = rig.run.phase;
     unsigned done = 0;
     while (done < steps && rig.run.phase == phase) {
         rig.pulses.speed.turn_radps = speed_rpm * RPM;
-        rig.pulses.speed.taken += done < WH_RUN_TURNS ? 1U : 0U; /* the mean is this speed, then */
+        rig.pulses.speed.taken += done < WH_RUN_TURNS ? 1U : 0U; /* the mean equals this speed */
         wh_rig_load(&config, &rig, inputs.now_ticks + STEP_TICKS, done % 2U == 0 ? 0 : 450,
                     WH_LOAD_OK);
         step_on();
@@ -93,12 +92,11 @@ static const char *phase_text(int number) { return wh_phase_text((wh_rig_phase)n
 static const char *event_text(int number) { return wh_rig_event_text((wh_rig_event)number); }
 static const char *refusal_text(int number) { return wh_refusal_text((wh_refusal)number); }
 
-/* Number 1 is no trip any more. */
+/* Number 1 is not a trip. */
 static const char *trip_text(int number) {
     return wh_trip_text(number == 0 ? WH_TRIP_NONE : (wh_trip)(number + 1));
 }
 
-/* Of all `count`, and of what there is not. */
 static void check_words(words_of *words, int count) {
     for (int i = 0; i <= count; i++) {
         TEST_ASSERT_NOT_NULL(words(i));
@@ -125,8 +123,8 @@ static void test_the_tare_takes_its_samples(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f,
                              (float)rig.measure.tare.mean_N); /* of 0 and 450 counts */
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 9.6f, (float)command.volts);
-    TEST_ASSERT_FALSE(rig.pulses.speed.running); /* what was seen before is forgotten */
-    begin();                                     /* samples that are none do not count */
+    TEST_ASSERT_FALSE(rig.pulses.speed.running); /* earlier samples are discarded */
+    begin();                                     /* invalid samples do not count */
     for (unsigned i = 0; i < 500; i++) {
         wh_rig_load(&config, &rig, inputs.now_ticks, 9, WH_LOAD_LATE);
     }
@@ -155,17 +153,17 @@ static void test_the_loop_takes_over_at_its_speed(void) {
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_RAMP);
     TEST_ASSERT_EQUAL_UINT32(3, rig.guard.lost_before);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 150.1f, (float)(rig.run.drive.setpoint_radps / RPM));
-    /* no jump of the voltage */
+    /* the voltage does not jump */
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)command.volts, (float)rig.run.drive.integral_V);
     TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(150.1), 1));
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 330.0f, (float)(rig.run.drive.target_radps / RPM));
 
-    stand_in(WH_PHASE_SPIN_UP); /* eight seconds for that, and no longer */
+    stand_in(WH_PHASE_SPIN_UP); /* the limit of eight seconds */
     TEST_ASSERT_EQUAL_UINT(8U * STEPS_PER_S + 1U, stay(WH_R(100.0), 10000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_STALLED);
 }
 
-/* 9.6 V at first and 2 V more a second, to the rated voltage and what the supply has. */
+/* Starts at 9.6 V and rises 2 V a second to the rated voltage and the supply's. */
 static void test_spin_up_asks_for_more_and_more(void) {
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -197,12 +195,12 @@ static void test_the_speed_settles_within_its_band(void) {
         TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S / 2U, stay(inside_rpm[i], 10000));
         TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_RECORD);
     }
-    for (unsigned i = 0; i < 2; i++) { /* a mean outside, and the time begins again */
+    for (unsigned i = 0; i < 2; i++) { /* a mean out of range restarts the time */
         stand_in(WH_PHASE_SETTLE);
         TEST_ASSERT_EQUAL_UINT(1000, stay(WH_R(330.0), 1000));
         TEST_ASSERT_EQUAL_UINT(WH_RUN_TURNS, stay(outside_rpm[i], WH_RUN_TURNS));
         TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S / 2U, stay(WH_R(330.0), 10000));
-        stand_in(WH_PHASE_SETTLE); /* twenty seconds are enough */
+        stand_in(WH_PHASE_SETTLE); /* twenty seconds suffice */
         TEST_ASSERT_EQUAL_UINT(20U * STEPS_PER_S + 1U, stay(outside_rpm[i], 20000));
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_UNSETTLED);
     }
@@ -218,7 +216,7 @@ static void test_the_speed_stays_while_it_is_recorded(void) {
     }
 }
 
-/* 1.5 s without a pulse are rest; after two minutes, or tripped 20 s, it will not come. */
+/* 1.5 s without a pulse are rest. The rig stops waiting after two minutes, or 20 s after a trip. */
 static void test_rest_is_waited_for(void) {
     for (unsigned i = 0; i < 4; i++) {
         const bool trips = i % 2U == 1;
@@ -246,7 +244,7 @@ static void test_rest_is_waited_for(void) {
             TEST_ASSERT_TRUE(trips ? rig.rested : rig.state == WH_LIFE_IDLE);
         }
     }
-    stand_in(WH_PHASE_OFF); /* never a pulse: the phase's own time counts */
+    stand_in(WH_PHASE_OFF); /* no pulse at all: the phase's own time counts */
     rig.pulses.speed.running = false;
     unsigned steps = 0;
     for (; steps < 20000U && rig.state == WH_LIFE_STOPPING; steps++) {
@@ -256,11 +254,10 @@ static void test_rest_is_waited_for(void) {
     TEST_ASSERT_TRUE(rig.state == WH_LIFE_IDLE && rig.run.phase == WH_PHASE_NONE);
 }
 
-/* The times since then wrap after 71.6 minutes, and with them what follows from them; a rig that came to rest after a trip
- * stays at rest through two wraps. */
+/* Times since then wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
 static void test_a_rig_at_rest_stays_so_when_the_timer_wraps(void) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
-                             WH_TRIP_PULSES}; /* the second waits for its time alone */
+                             WH_TRIP_PULSES}; /* the second waits only for its time */
     for (unsigned i = 0; i < 2; i++) {
         stand_tripped(trips[i]);
         const uint32_t begins = inputs.now_ticks;
@@ -269,20 +266,20 @@ static void test_a_rig_at_rest_stays_so_when_the_timer_wraps(void) {
             step();
         }
         TEST_ASSERT_TRUE(waited > STEPS_PER_S && waited < 70000U);
-        for (unsigned k = 0; k < 9000U; k++) { /* a second and a bit each: 2.6 hours */
+        for (unsigned k = 0; k < 9000U; k++) { /* a bit more than a second each: 2.6 hours */
             inputs.now_ticks += 1048573U - STEP_TICKS;
             step();
             TEST_ASSERT_TRUE(rig.rested && rig.guard.quiet);
         }
         inputs.now_ticks = begins - STEP_TICKS;
-        for (unsigned k = 0; k < 3000U; k++) { /* and right behind the next wrap, step by step */
+        for (unsigned k = 0; k < 3000U; k++) { /* and just after the next wrap, step by step */
             step();
             TEST_ASSERT_TRUE(rig.rested && rig.guard.quiet);
         }
     }
 }
 
-/* In any phase a late controller and too high a speed end the run; with the motor off that speed has another reason. */
+/* In any phase a late controller and over-speed end the run; with the motor off over-speed has another reason. */
 static void test_what_trips_in_which_phase(void) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
@@ -293,7 +290,7 @@ static void test_what_trips_in_which_phase(void) {
         TEST_ASSERT_FALSE(rig.rested);
         for (unsigned unknown = 0; unknown < 2; unknown++) {
             stand_in(phase);
-            rig.run.drive.setpoint_radps = WH_R(0.0); /* stay on the ramp */
+            rig.run.drive.setpoint_radps = WH_R(0.0); /* stays on the ramp */
             rig.run.off_radps = unknown == 1 ? config.guard.limit_radps : WH_R(0.0);
             rig.pulses.speed.turn_radps = WH_R(401.0) * RPM;
             step_on();
@@ -307,7 +304,7 @@ static void test_what_trips_in_which_phase(void) {
 
 /* --- the record ------------------------------------------------------------------------------------------ */
 
-/* Turns of a load that is known, given to the run as a lock-in would that finds them; the record ends after its time. */
+/* Turns of a known load, given to the run like a lock-in's results; the record ends after its time. */
 static void test_what_a_record_comes_to(void) {
     stand_in(WH_PHASE_SETTLE);
     rig.measure.tare.mean_N = WH_R(0.4);
@@ -315,7 +312,7 @@ static void test_what_a_record_comes_to(void) {
     rig.guard.lost_before = 3;
     rig.pulses.rejected = 4;
     rig.run.volts = WH_R(12.0);
-    /* 91 samples a turn, of which the load is a triangle: its mean 10.45 N */
+    /* 91 samples a turn of a triangular load: its mean is 10.45 N */
     const uint32_t turn = 91U * STEP_TICKS;
     uint32_t first = inputs.now_ticks + STEP_TICKS;
     unsigned sample = 0;
@@ -350,26 +347,25 @@ static void test_what_a_record_comes_to(void) {
     /* 2 (0 + ... + 45) 0.4 / 91 of them */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 10.0f + 9.0989f, (float)result->force.mean_N);
     TEST_ASSERT_TRUE(result->force.quality ==
-                     WH_REFUSED); /* 8 N, against the masses: not the rig's */
+                     WH_REFUSED); /* 8 N against the masses: not the rig's */
     TEST_ASSERT_EQUAL_UINT32(2, result->lost);
     TEST_ASSERT_EQUAL_UINT32(4, result->rejected);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 200.0f, (float)(rig.run.drive.target_radps / RPM));
     TEST_ASSERT_TRUE(result->volts >= WH_R(0.0) && result->volts <= WH_RIG_RATED_V);
 }
 
-/* Without a turn there is no result. */
 static void test_a_record_without_turns_trips(void) {
     stand_in(WH_PHASE_RECORD);
     TEST_ASSERT_EQUAL_UINT(1009, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
-    stand_in(WH_PHASE_RECORD); /* a lock-in that waits for samples which never come */
+    stand_in(WH_PHASE_RECORD); /* a lock-in that waits for missing samples */
     rig.measure.lockin.stage = WH_LOCKIN_SUMS;
     rig.measure.lockin.next.begin_ticks = inputs.now_ticks + 100000000U;
     TEST_ASSERT_EQUAL_UINT(1259, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
 }
 
-/* A band's edge belongs to it. */
+/* The band includes its edge. */
 static void test_edges_belong_to_the_bands(void) {
     for (int side = -1; side <= 1; side += 2) {
         stand_in(WH_PHASE_SETTLE);

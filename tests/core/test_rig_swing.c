@@ -1,5 +1,5 @@
-/* test_rig_swing.c: where the sensors stand, from the swing of a made-up rotor (rotor.c) that comes to rest; what is refused,
- * by its name; pulses that are none; and its parts, the equation of motion and the regression. */
+/* test_rig_swing.c: sensor angles from the swing of a made-up rotor (rotor.c) that comes to rest. Covers named refusals, false
+ * pulses, the equation of motion and the regression. */
 #include "core/rig/free_swing.h"
 
 #include "core/angle.h"
@@ -24,8 +24,8 @@ static uint64_t seed;
 typedef struct drawn {
     rotor_kind kind;
     wh_real place_rad[2];
-    unsigned lose; /* every so manieth pulse, 0: none */
-    unsigned add;  /* behind every so manieth a pulse that is none */
+    unsigned lose; /* every nth pulse, 0: none */
+    unsigned add;  /* a false pulse after every nth */
 } drawn;
 
 /* Since the rotor began to swing: passages of sensor 1 and their speeds. */
@@ -38,7 +38,6 @@ static wh_real drawn_between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
 }
 
-/* A rotor with its motor's leads open. */
 static drawn draw_rotor(wh_real friction_least_Nm, wh_real friction_most_Nm) {
     drawn rotor = {.kind = rotor_nominal()};
     rotor.kind.stall_Nm = WH_R(0.0);
@@ -81,7 +80,7 @@ static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *s
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
 }
 
-/* From some turns to rest, and what is made of it. */
+/* Swings from some turns to rest; evaluates the swing. */
 static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool rests) {
     rotor_state state = {.ticks = UINT32_MAX - 3000000U,
                          .seed = seed,
@@ -102,7 +101,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     for (uint32_t i = 0; i < 100000U && wh_swing_works(&swing); i++) {
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
         if (swing.piece == WH_SWING_GOES &&
-            swing.pass != pass) { /* pulses count more from pass to pass */
+            swing.pass != pass) { /* pulses gain weight from pass to pass */
             TEST_ASSERT_TRUE(swing.pass == 0 || swing.soft_rad2 <= WH_R(0.5) * soft_rad2);
             pass = swing.pass;
             soft_rad2 = swing.soft_rad2;
@@ -112,7 +111,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     return swing.result;
 }
 
-/* --- what is found -------------------------------------------------------------------------------------- */
+/* --- results ----------------------------------------------------------------------------------------------- */
 
 static void test_places_are_found_of_rotors_that_nobody_knows(void) {
     const wh_rig_config config = standard();
@@ -140,7 +139,8 @@ static void test_places_are_found_of_rotors_that_nobody_knows(void) {
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
 }
 
-/* Pulses that scatter more than was configured say so themselves, and the intervals are as wide as they are few. */
+/* Pulses that scatter more than configured set their own variance, and the intervals are as wide as the number of pulses
+ * requires. */
 static void test_rough_pulses_have_wide_intervals(void) {
     const wh_rig_config config = standard();
     unsigned covered = 0;
@@ -159,8 +159,7 @@ static void test_rough_pulses_have_wide_intervals(void) {
     TEST_ASSERT_TRUE(told * 3U >= runs && covered * 100U >= told * 90U);
 }
 
-/* A pass does not begin with a swing that comes near the top, where times tell all of the amplitude and a guess of them nothing,
- * while there are enough behind it. */
+/* A pass skips swings near the top while enough follow: there the times depend on the amplitude, and the guess is uncertain. */
 static void test_a_pass_begins_behind_swings_near_the_top(void) {
     const wh_rig_config config = standard();
     unsigned near_top = 0;
@@ -170,7 +169,7 @@ static void test_a_pass_begins_behind_swings_near_the_top(void) {
         const drawn rotor = draw_rotor(WH_R(0.004), WH_R(0.012));
         const wh_swung swung = swing_out(&config, &rotor, true);
         const wh_real root = WH_SQRT(rotor.kind.weight_Nm / rotor.kind.inertia_kgm2);
-        const wh_real first = passed_radps[0] / root; /* 2: it would get to the top */
+        const wh_real first = passed_radps[0] / root; /* 2: it would reach the top */
         if (first > WH_R(1.92) && first < WH_R(2.0) && passed > 20U && passed < PASSED_MOST) {
             near_top++; /* 147 degrees and more */
             unsigned at = 0;
@@ -186,7 +185,7 @@ static void test_a_pass_begins_behind_swings_near_the_top(void) {
     TEST_ASSERT_TRUE(near_top * 15U > runs);
 }
 
-/* A lost pulse, or one too many, is left out or makes the swing no swing; it does not move a sensor. */
+/* A lost or false pulse is left out or invalidates the swing; it does not move a sensor. */
 static void test_pulses_that_are_none_move_no_sensor(void) {
     const wh_rig_config config = standard();
     unsigned found = 0;
@@ -205,7 +204,7 @@ static void test_pulses_that_are_none_move_no_sensor(void) {
     TEST_ASSERT_TRUE(found > 0);
 }
 
-/* --- what is refused ------------------------------------------------------------------------------------- */
+/* --- refusals ---------------------------------------------------------------------------------------------- */
 
 static void test_what_is_no_free_swing_is_refused_by_name(void) {
     wh_rig_config config = standard();
@@ -215,7 +214,7 @@ static void test_what_is_no_free_swing_is_refused_by_name(void) {
         TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_FEW);
         rotor = draw_rotor(WH_R(0.01), WH_R(0.02));
         TEST_ASSERT_TRUE(swing_out(&config, &rotor, false).why == WH_SWING_NOT_FREE);
-        rotor.kind.stall_Nm = WH_RIG_STALL_NM; /* leads that are shorted */
+        rotor.kind.stall_Nm = WH_RIG_STALL_NM; /* shorted leads */
         TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_FEW);
     }
     const drawn rotor = draw_rotor(WH_R(0.01), WH_R(0.02));
@@ -223,7 +222,7 @@ static void test_what_is_no_free_swing_is_refused_by_name(void) {
     TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_NOT_FREE);
 }
 
-/* Pulses at any times, of any sensor: no place is found, and the work ends. */
+/* Random pulses of any sensor: no angle is found, and the work ends. */
 static void test_pulses_of_no_rotor_find_nothing(void) {
     const wh_rig_config config = standard();
     uint32_t works = 0;
@@ -258,8 +257,7 @@ static void test_words(void) {
 
 static even_rig even;
 
-/* The end of a run coasts where that is asked for; a `stop` after it leaves
- * the enable off, and the rotor swings on. */
+/* The run's end coasts if requested. A `stop` after it keeps the enable off, and the rotor swings on. */
 static void test_a_run_that_ends_in_a_swing_coasts(void) {
     for (unsigned swings = 0; swings < 2U; swings++) {
         even_arm(&even);
@@ -282,7 +280,7 @@ static void test_a_run_that_ends_in_a_swing_coasts(void) {
     }
 }
 
-/* A sensor that stands off makes good doubtful, and nothing else. */
+/* A misplaced sensor makes a good result doubtful and changes nothing else. */
 static void test_a_good_result_is_doubtful_where_sensor_1_stands_off(void) {
     const wh_rig_config config = standard();
     for (int deg10 = -30; deg10 <= 30; deg10++) {
@@ -317,7 +315,7 @@ static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
     return rotor;
 }
 
-/* Forwards and backwards, through several turning points: what follows from a little more of each cause. */
+/* Forwards and backwards through several turning points: the sensitivity to each cause. */
 static void test_derivatives_are_what_differences_show(void) {
     const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
                                             WH_R(3e-3)};
@@ -345,7 +343,7 @@ static void test_derivatives_are_what_differences_show(void) {
     }
 }
 
-/* Without drag energy falls by friction's work; steps back undo it. */
+/* Without drag, energy falls by friction's work; steps backwards restore it. */
 static void test_steps_back_undo_steps(void) {
     const wh_real cause[WH_FREE_CAUSES] = {WH_R(0.0), WH_R(-11.0), WH_R(60.0), WH_R(5.0),
                                            WH_R(0.1)};
@@ -358,7 +356,7 @@ static void test_steps_back_undo_steps(void) {
     TEST_ASSERT_FLOAT_WITHIN(2e-2f, -11.0f, (float)rotor.rate_radps);
 }
 
-/* Measurements without error: the unknowns, and less than the guess is known by. */
+/* Error-free measurements give the unknowns and variances below the guess's. */
 static void test_the_regression_finds_what_was_measured(void) {
     wh_normal normal;
     wh_real truth[WH_NORMAL_UNKNOWNS];

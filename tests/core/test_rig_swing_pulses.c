@@ -1,6 +1,5 @@
-/* test_rig_swing_pulses.c: what is kept of a swing's pulses, against the story they were made from; the guess that its times
- * give, against the rotor (rotor.c) that made them; how much of the work a step does; steps in which a rotor turns back,
- * against many small ones. */
+/* test_rig_swing_pulses.c: the stored pulses of a swing against the story that made them, the first guess against the rotor
+ * (rotor.c), the work per step, and turning points against many small steps. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
@@ -25,10 +24,10 @@ static bool near(wh_real found, wh_real wanted, wh_real most) {
     return WH_ABS(found - wanted) <= most;
 }
 
-/* --- what is kept ---------------------------------------------------------------------------------------- */
+/* --- stored pulses ------------------------------------------------------------------------------------------- */
 
-/* A rotor that turns and then swings: its pulses in their order, the one with which it first comes back past sensor 1, and
- * how often it passes that from there on. */
+/* A rotor that turns and then swings: its pulses in order, the first one backwards past sensor 1, and the number of later
+ * passages of it. */
 #define STORY_MOST 120U
 typedef struct story {
     uint32_t ticks[STORY_MOST];
@@ -45,7 +44,7 @@ static void tell(story *of, unsigned sensor) {
     of->ticks[of->pulses++] = before + 40000U + draw_one_of(&seed, 60000);
 }
 
-/* So many turns; then half swings, to the right over sensor 2 and back past it while they are wide, else not. */
+/* Full turns; then half swings, over sensor 2 and back past it while they are wide enough. */
 static void draw_story(story *of, unsigned turns) {
     *of = (story){.pulses = 0};
     for (unsigned i = 0; i < turns; i++) {
@@ -76,13 +75,13 @@ static void give(const story *of, unsigned lost) {
         if (i != lost) {
             wh_swing_pulse(&swing, of->sensor[i], of->ticks[i]);
         }
-        if (draw_one_in(&seed, 8)) { /* of a sensor that there is not */
+        if (draw_one_in(&seed, 8)) { /* of a nonexistent sensor */
             wh_swing_pulse(&swing, WH_SWING_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
         }
     }
 }
 
-/* The last pulses before the rotor came back, it, and what follows, for as long as there is room; the last of sensor 1 too. */
+/* The last pulses before the rotor came back, that pulse, and as many later ones as fit; the last of sensor 1 too. */
 static void check_kept(const story *of) {
     const unsigned turning = of->first < WH_SWING_TURNING ? of->first : WH_SWING_TURNING;
     const unsigned from = of->first - turning;
@@ -113,8 +112,8 @@ static void test_what_is_kept_of_a_swing(void) {
     }
 }
 
-/* A pulse that is lost while the rotor still turns looks as if it came back; then it is seen to turn, and what is kept of the
- * swing is what was kept had none been lost. */
+/* A pulse lost while the rotor still turns looks like the first return. Later turns correct that, and the stored swing is as
+ * without the loss. */
 static void test_a_pulse_lost_while_it_turns_changes_nothing(void) {
     static story told;
     seed = 2;
@@ -127,7 +126,7 @@ static void test_a_pulse_lost_while_it_turns_changes_nothing(void) {
 
 /* --- the guess ------------------------------------------------------------------------------------------- */
 
-/* A rotor with open leads, from some turns to rest. Returns its speed as it first came back past sensor 1. */
+/* A rotor with open leads, from some turns to rest. Returns its speed at the first return past sensor 1. */
 static wh_real swing_out(const rotor_kind *kind) {
     const wh_rig_config *config = &wh_rig_standard;
     const wh_real over_radps = WH_R(2.0) * WH_SQRT(kind->weight_Nm / kind->inertia_kgm2);
@@ -152,8 +151,8 @@ static wh_real swing_out(const rotor_kind *kind) {
     return first_radps;
 }
 
-/* How fast the rotor first came back, gravity and friction over its inertia: as near as the guess says of itself, the first
- * two within some 10 %. */
+/* The speed at the first return, gravity and friction over inertia: within the guess's own uncertainty, the first two within
+ * some 10 %. */
 static void test_a_guess_is_as_near_as_it_says(void) {
     unsigned told = 0;
     unsigned near_it = 0;
@@ -188,7 +187,7 @@ static void test_a_guess_is_as_near_as_it_says(void) {
     TEST_ASSERT_TRUE(told * 2U > draw_cases(60) && near_it * 10U > told * 7U);
 }
 
-/* Half a swing's time over that of a small one, 2/pi K(k), by the arithmetic and geometric mean; k2 = k^2. */
+/* Half a swing's time relative to a small one's, 2/pi K(k), by the arithmetic-geometric mean; k2 = k^2. */
 static wh_real longer_by(wh_real k2) {
     wh_real a = WH_R(1.0);
     wh_real b = WH_SQRT(WH_R(1.0) - k2);
@@ -200,15 +199,15 @@ static wh_real longer_by(wh_real k2) {
     return WH_R(1.0) / a;
 }
 
-/* A first swing of any width up to where it all but gets to the top, small ones behind it: how wide it was is guessed by its time
- * alone, as the pendulum's integral has it. */
+/* A first swing of any width almost up to the top, followed by small ones: its width is guessed from its time alone, by the
+ * pendulum's integral. */
 static void test_the_first_swings_width_is_told_by_its_time(void) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
         const wh_real near_top = drawn_between(WH_R(0.03), WH_R(0.2));
         const wh_real sine =
             i % 2U == 0 ? drawn_between(WH_R(0.42), WH_R(0.96)) : WH_R(1.0) - near_top * near_top;
-        /* on straight lines between eight points */
+        /* linear between eight points */
         const wh_real part = sine > WH_R(0.96)   ? WH_R(0.009)
                              : sine > WH_R(0.55) ? WH_R(0.017)
                                                  : WH_R(0.045);
@@ -233,11 +232,11 @@ static void test_the_first_swings_width_is_told_by_its_time(void) {
 
 /* --- the work -------------------------------------------------------------------------------------------- */
 
-/* At most so many steps of the equation are done in one control step, of so many ticks. */
+/* Steps of the equation allowed in one control step of so many ticks. */
 #define EQUATION_STEPS 3
 #define EQUATION_TICKS 8000
 
-/* What may be next in the step after each piece of the work, as bits. */
+/* The pieces that may follow each piece of the work, as bits. */
 static unsigned may_follow(wh_swing_piece piece) {
     switch (piece) {
     case WH_SWING_GOES: return 1U << WH_SWING_GOES | 1U << WH_SWING_FACTORS;
@@ -251,7 +250,7 @@ static unsigned may_follow(wh_swing_piece piece) {
     return 0;
 }
 
-/* A control step has time for one piece of the work: no two are done in one, and of the equation no more steps than three. */
+/* A control step does one piece of the work, and at most three steps of the equation. */
 static void test_a_control_step_does_one_piece_of_the_work(void) {
     const wh_rig_config *config = &wh_rig_standard;
     unsigned times[WH_SWING_ENDS + 1] = {0};
@@ -272,7 +271,7 @@ static void test_a_control_step_does_one_piece_of_the_work(void) {
             times[piece]++;
             TEST_ASSERT_TRUE((may_follow(piece) >> swing.piece & 1U) != 0);
             if (piece ==
-                WH_SWING_PASSES) { /* each pass sets out at the first passage, to the next pulse */
+                WH_SWING_PASSES) { /* each pass starts at the first passage and runs to the next pulse */
                 TEST_ASSERT_TRUE(swing.at == swing.first + 1U);
                 TEST_ASSERT_TRUE(swing.ticks == swing.kept_ticks[swing.first]);
             }
@@ -291,8 +290,8 @@ static void test_a_control_step_does_one_piece_of_the_work(void) {
 
 /* --- turning back ----------------------------------------------------------------------------------------- */
 
-/* A step in which the rotor turns back, or is held by friction where it would, and what follows of it from each cause: as many
- * small steps have it. Forwards and backwards in time. */
+/* A step in which the rotor turns back, or friction holds it there, with its sensitivity to each cause, against many small
+ * steps. Forwards and backwards in time. */
 static void test_a_step_that_turns_back_is_many_small_ones(void) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),
@@ -322,7 +321,7 @@ static void test_a_step_that_turns_back_is_many_small_ones(void) {
         TEST_ASSERT_TRUE(near(one.rate_radps, many.rate_radps, WH_R(1e-3)));
         for (unsigned k = 0; k < WH_FREE_CAUSES; k++) {
             const bool same = near(one.rate_by[k], many.rate_by[k], most[k]);
-            /* what is all but held hangs on the last bit of what holds it */
+            /* near the holding limit the result depends on the last bit */
             TEST_ASSERT_TRUE(same || (holds && WH_ABS(many.rate_radps) < WH_R(1e-3)));
         }
     }

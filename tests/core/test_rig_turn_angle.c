@@ -1,5 +1,5 @@
-/* test_rig_turn_angle.c: how the angle within a turn follows what a turn shows: the derivatives that intervals are made of,
- * against differences between rotors whose inertia, or part of gravity, is found by halving. */
+/* test_rig_turn_angle.c: derivatives of the angle within a turn by the turn's measurements, which set the intervals. The
+ * reference is differences between rotors whose inertia or share of gravity is found by bisection. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "draw.h"
@@ -16,7 +16,7 @@ static wh_real drawn_between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
 }
 
-/* A turn: the rotor as it is told, its speed, and its inertia or the part of gravity that is left. */
+/* A turn: the nominal rotor, its speed, and its inertia or remaining share of gravity. */
 typedef struct turn {
     wh_rotor_config rotor;
     wh_real speed_radps;
@@ -39,13 +39,13 @@ static wh_turn_angle shaped(const turn *of, wh_real found) {
     return angle;
 }
 
-/* By how much the rotor is beyond sensor 2 at that part of the turn's time. */
+/* The rotor's angle beyond sensor 2 at that part of the turn's time. */
 static wh_real beyond(const turn *of, wh_real found, wh_real split) {
     const wh_turn_angle angle = shaped(of, found);
     return wh_turn_angle_at(&angle, split) - of->rotor.mark_rad[1];
 }
 
-/* base_rad where sensor 2's mark comes at that part of the turn's time: by halving, from either side of `about`. */
+/* base_rad with sensor 2's mark at that part of the turn's time: by bisection from either side of `about`. */
 static wh_real base_at(const turn *of, wh_real about, wh_real split) {
     wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
     wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
@@ -69,7 +69,7 @@ static wh_real by_mark(const turn *of, wh_real about, wh_real split) {
     return (base_at(&more, about, split) - base_at(&less, about, split)) / (WH_R(2.0) * LITTLE_RAD);
 }
 
-/* A lag that is larger is gravity that pulls from further back. */
+/* A larger lag is gravity that pulls from further back. */
 static wh_real by_lag(const turn *of, wh_real about, wh_real split) {
     turn more = *of;
     turn less = *of;
@@ -82,8 +82,8 @@ static void check_near(wh_real found, wh_real wanted, wh_real most) {
     TEST_ASSERT_TRUE(WH_ABS(found - wanted) <= most);
 }
 
-/* How the base follows sensor 2's mark, and a lag that is another, where the split says the inertia, or the part of gravity that
- * is left; gravity along an axis, or some degrees off it. */
+/* The base's derivatives by sensor 2's mark and by the lag. The split gives the inertia or the remaining share of gravity.
+ * Gravity acts along an axis, or some degrees off it. */
 static void test_derivatives_are_what_differences_show(void) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
@@ -103,20 +103,19 @@ static void test_derivatives_are_what_differences_show(void) {
         (void)wh_turn_angle_split(&of.rotor, &angle, split);
         const wh_real swing = WH_ABS(angle.swing_rad);
         const wh_real steep = angle.base_per_quadrature * angle.base_per_quadrature;
-        const wh_real bent =
-            swing * (WH_R(1.0) + steep); /* what differences show of the second order */
+        const wh_real bent = swing * (WH_R(1.0) + steep); /* the differences' second-order terms */
         check_near(by_mark(&of, about, split), angle.base_per_split,
                    WH_R(0.003) + WH_R(0.25) * bent);
         const wh_real lag = by_lag(&of, about, split);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
-        if (of.fed) { /* a lag is a swing a quarter turn on, of that part of this one */
+        if (of.fed) { /* a lag is a swing a quarter turn later, times its share */
             check_near(WH_ABS(lag), swing * WH_ABS(angle.base_per_quadrature),
                        swing * (WH_R(0.003) + WH_R(0.5) * bent) + WH_R(2e-5));
         }
     }
 }
 
-/* One call from nothing is nearly there: what a turn is measured by that comes first. */
+/* A single call from zero is nearly converged: the measurements of a turn come before it. */
 static void test_a_shape_is_found_at_once(void) {
     seed = 31;
     wh_real worst = WH_R(0.0);

@@ -1,6 +1,5 @@
-/* test_root.c: the core's square root against the definition, in integers: q is the root of x to the nearest
- * if and only if (q - 1/2)^2 < x < (q + 1/2)^2. No library is asked. Double needs 128 bits for that, which
- * boards do not have; they take the table alone. */
+/* test_root.c: the core's square root by definition, in integers: q is the nearest root of x if and only if (q - 1/2)^2 < x <
+ * (q + 1/2)^2. No library is used. Double needs 128 bits for that; boards lack them and test the table alone. */
 #include "core/root.h"
 
 #include "unity.h"
@@ -40,7 +39,7 @@ static word bits_of(wh_real real) {
     return as.bits;
 }
 
-/* Both ways to the root: the one in integers, and what scenes use. */
+/* Both roots: the one in integers, and the one that scenes use. */
 static word root_bits(word x) {
     const word root = bits_of(wh_sqrt(real_of(x)));
     const word used = bits_of(WH_SQRT(real_of(x)));
@@ -63,7 +62,7 @@ static word scatter(void) {
     return (word)(state >> (64U - sizeof(word) * 8U));
 }
 
-/* Whether root is the root of x > 0 to the nearest; both taken apart into whole numbers. */
+/* Whether root is the nearest root of x > 0; both taken apart into whole numbers. */
 static bool is_root(word x, word root) {
     int exponent = (int)(x >> BITS);
     word fraction = x & (ONE - 1U);
@@ -86,7 +85,7 @@ static bool is_root(word x, word root) {
     return (2U * q - 1U) * (2U * q - 1U) < square && square < (2U * q + 1U) * (2U * q + 1U);
 }
 
-/* Every place of the numbers' line: exponents all, fractions scattered and at both ends. */
+/* All exponents, with random fractions and both ends. */
 static void test_all_exponents(void) {
     const unsigned each = WH_TEST_SMALL ? 8U : 2000U;
     for (word exponent = 0; exponent < 2U * BIAS + 1U; exponent++) {
@@ -99,7 +98,6 @@ static void test_all_exponents(void) {
     }
 }
 
-/* Subnormals of every size. */
 static void test_subnormals(void) {
     for (unsigned bit = 0; bit < BITS; bit++) {
         for (unsigned i = 0; i < 20; i++) {
@@ -110,8 +108,7 @@ static void test_subnormals(void) {
     }
 }
 
-/* Next to halves: numbers whose root is as near as can be to where rounding changes its mind, which are
- * q^2 + q or one more of it, q of all sizes. */
+/* Near halves: numbers whose roots are closest to a rounding boundary, q^2 + q or one more, q of all sizes. */
 static void test_near_halves(void) {
     const unsigned count = WH_TEST_SMALL ? 2000U : 2000000U;
     for (unsigned i = 0; i < count; i++) {
@@ -127,7 +124,7 @@ static void test_near_halves(void) {
 }
 
 #if !WH_DOUBLE
-/* All there is: every fraction with either exponent. Other exponents only shift. */
+/* Every fraction with either exponent. Other exponents only shift. */
 static void test_all_fractions(void) {
     const word step = WH_TEST_SMALL ? 4099U : 1U;
     for (word x = (word)BIAS << BITS; x < (word)(BIAS + 2) << BITS; x += step) {

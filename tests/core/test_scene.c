@@ -1,4 +1,4 @@
-/* test_scene.c: starting and stepping scenes, on hand-written ones: a harmonic oscillator, a shaft. */
+/* test_scene.c: starting and stepping hand-written scenes: a harmonic oscillator and a shaft. */
 #include "core/scene.h"
 #define WH_COORDS 2
 #include "core/step.h"
@@ -6,8 +6,6 @@
 #include "unity.h"
 
 void suite_scene(void);
-
-/* --- the scenes --------------------------------------------------------------------------------- */
 
 /* x'' = -x + u: from x = 1 at rest and u = 0, x = cos t. */
 static void oscillator_accel(const void *model, const wh_phase *phase, const wh_real *linear,
@@ -113,13 +111,13 @@ static void test_compensated_scene_needs_more_memory_within_the_macro(void) {
     scene.compensated = true;
     TEST_ASSERT_TRUE(wh_scene_start(&scene, &state, memory, plain) == WH_E_MEMORY);
     TEST_ASSERT_TRUE(start(&scene));
-    /* The parts lie one behind the other, and the last ends within the memory. */
+    /* The parts follow each other, and the last ends within the memory. */
     TEST_ASSERT_TRUE(state.carry == state.real + 3);
     TEST_ASSERT_TRUE(state.input == state.carry + 4);
     TEST_ASSERT_TRUE((const char *)(state.input + 1) <= (const char *)memory + sizeof memory);
 }
 
-/* Many steps a call are as many steps, and as few as were sound. */
+/* Many steps in one call equal single steps, up to the last sound one. */
 static void test_many_steps_are_steps(void) {
     const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.25));
     TEST_ASSERT_TRUE(start(&scene));
@@ -132,7 +130,7 @@ static void test_many_steps_are_steps(void) {
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 16) == WH_OK && state.steps == 16);
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1) == WH_OK);
     TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
-    /* so strong a push that a few steps lead out of all bounds */
+    /* a push so strong that a few steps exceed all bounds */
     state.input[0] = WH_R(8e14);
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED);
     TEST_ASSERT_TRUE(state.steps > 17 && state.steps < 1000);
@@ -140,7 +138,7 @@ static void test_many_steps_are_steps(void) {
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED && state.steps == last);
 }
 
-/* x' = u, given as first order: no rate to move first. */
+/* x' = u, of first order: no rate to move first. */
 static void constant_slope(const void *model, const wh_phase *phase, const wh_real *real,
                            const wh_real *input, wh_real *slope) {
     (void)model;
@@ -162,7 +160,7 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
         scene.reals = 1;
         scene.advance = first_order_advance;
         TEST_ASSERT_TRUE(start(&scene));
-        scene.method = (wh_method)i; /* even when it slips in behind the start */
+        scene.method = (wh_method)i; /* even if written after the start */
         const bool has = wh_methods[i].takes == WH_ANY_SYSTEM;
         TEST_ASSERT_TRUE(has == (i != WH_SEMI_IMPLICIT_EULER && i != WH_LEAPFROG));
         const uint64_t before = wh_scene_hash(&scene, &state);
@@ -175,7 +173,7 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
     }
 }
 
-/* A number that is no method's, as a board's memory may hold. */
+/* An unknown method, as in corrupted memory. */
 static void test_what_is_no_method_is_refused(void) {
     for (unsigned i = 0; i < 3; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
@@ -246,8 +244,8 @@ static wh_real error_squared_at_2s(wh_method method, unsigned count) {
     return x * x + v * v;
 }
 
-/* Half the step divides the error by 2^order. The steps are as many as leave the method's error far above the
- * rounding, which a higher order reaches with fewer. */
+/* Half the step divides the error by 2^order. The number of steps keeps the method's error far above round-off, so higher
+ * orders take fewer. */
 static void expect_order(wh_method method) {
     const unsigned order = wh_methods[method].order;
     const wh_real drowned = sizeof(wh_real) == 8 ? WH_R(5e-13) : WH_R(2e-6);
@@ -256,7 +254,7 @@ static void expect_order(wh_method method) {
         count /= 2;
     }
     if (error_squared_at_2s(method, 2 * count) < drowned * drowned) {
-        TEST_ASSERT_TRUE(sizeof(wh_real) == 4 && order > 4); /* float's rounding leaves no step */
+        TEST_ASSERT_TRUE(sizeof(wh_real) == 4 && order > 4); /* float's round-off leaves no step */
         return;
     }
     const wh_real ratio =
@@ -273,8 +271,7 @@ static void test_order_of_every_method_is_that_of_its_row(void) {
 }
 
 #if !WH_DOUBLE
-/* Error after 10 s in steps of 2^-10 s (a step that float holds exactly), where rounding far outweighs
- * RK4's own error of 1e-13. */
+/* Error after 10 s in steps of 2^-10 s (exact in float), where round-off far exceeds RK4's own error of 1e-13. */
 static wh_real error_at_10s(bool compensated) {
     const wh_scene scene = oscillator(WH_RK4, compensated, 1.0f / 1024.0f);
     if (!start(&scene) || !steps(&scene, 10240)) {
@@ -288,7 +285,7 @@ static wh_real error_at_10s(bool compensated) {
 static void test_compensated_sums_beat_plain_ones(void) {
     const float plain = error_at_10s(false);
     const float compensated = error_at_10s(true);
-    TEST_ASSERT_TRUE(compensated < 2.4e-7f); /* two units in the last place of 1 */
+    TEST_ASSERT_TRUE(compensated < 2.4e-7f); /* two ulps of 1 */
     TEST_ASSERT_TRUE(20.0f * compensated < plain);
 }
 #endif
@@ -297,7 +294,8 @@ static void test_compensated_sums_beat_plain_ones(void) {
 
 static void expect_refused(const wh_scene *scene, int fault) {
     const uint64_t before = wh_scene_hash(scene, &state);
-    for (int attempt = 0; attempt < 2; attempt++) { /* a second try does not go on from garbage */
+    for (int attempt = 0; attempt < 2;
+         attempt++) { /* a second try does not continue from garbage */
         TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_DIVERGED);
         TEST_ASSERT_TRUE(state.fault == fault);
         TEST_ASSERT_TRUE(wh_scene_hash(scene, &state) == before);
@@ -311,7 +309,7 @@ static void test_absurd_rate_keeps_the_last_good_state(void) {
     state.input[0] = WH_R(1e30);
     expect_refused(&scene, 3); /* angle, x, shaft's rate, carriage's rate */
     state.input[0] = WH_R(0.0);
-    TEST_ASSERT_TRUE(steps(&scene, 1)); /* and it goes on once the cause is gone */
+    TEST_ASSERT_TRUE(steps(&scene, 1)); /* and it continues once the cause is gone */
     TEST_ASSERT_TRUE(state.steps == 4);
 }
 
@@ -335,12 +333,12 @@ static void test_half_a_turn_in_a_step_is_refused(void) {
         TEST_ASSERT_TRUE(steps(&scene, 1));
         state.real[1] = WH_R(-3200.0);
         expect_refused(&scene, 0);
-        state.real[1] = WH_R(7000.0); /* by the middle of the step already */
+        state.real[1] = WH_R(7000.0); /* in the middle of the step already */
         expect_refused(&scene, 0);
     }
 }
 
-/* --- comparing ------------------------------------------------------------------------------------ */
+/* --- comparison ----------------------------------------------------------------------------------- */
 
 static void test_hash_sees_every_part_of_the_state(void) {
     const wh_scene scene = shaft(WH_RK4);

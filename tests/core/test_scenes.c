@@ -1,9 +1,8 @@
-/* test_scenes.c: the generated scenes, as they will run on boards: their end states against the
- * reference, their books, their outputs, and the same bits again in a second run.
+/* test_scenes.c: the generated scenes: end states against the reference, books, outputs, and equal bits in a second run.
  *
- * One source for double and float, on the PC and on the board. Tolerances in double are those of the
- * step (tests/host/test_accuracy.c has them to the digit). In float, rounding comes on top: a sum of N
- * steps walks by sqrt(N/3) U of its power of two, U = 2^-24, at random. */
+ * One source for double and float, on the PC and on boards. Tolerances in double are the step's (tests/host/test_accuracy.c has
+ * them to the digit). In float, round-off adds: a sum of N steps walks by sqrt(N/3) U of its power of two, U = 2^-24, at
+ * random. */
 #include "build/gen/scenes.h"
 #include "core/scene.h"
 
@@ -13,7 +12,7 @@ void suite_scenes(void);
 
 #define U WH_R(0x1p-24)
 
-/* Boards that do float arithmetic in software take a tenth of what takes longest. */
+/* Boards with float arithmetic in software take a tenth of the longest runs. */
 #if !__STDC_HOSTED__ && !defined(__ARM_FP)
 #define SLOW 1
 #else
@@ -61,7 +60,7 @@ static wh_real cosine(wh_angle angle) {
 typedef struct end_state {
     const wh_scene *scene;
     uint32_t steps;
-    wh_real in_double; /* largest error allowed of any state, SI */
+    wh_real in_double; /* largest allowed error of any state, SI */
     wh_real in_float;
     wh_angle angle[2];
     wh_real real[4];
@@ -81,7 +80,7 @@ static const end_state end_states[] = {
      WH_R(5.4e-4),
      {ANGLE(82.9231758223298337)},
      {WH_R(0.0102819576585898491), WH_R(19.3703034162092484), WH_R(5.49807783552139774)}},
-    /* float: rates below 32 rad/s walk 5000 steps; theta2'' = 1e3 rad/s^2 makes lateness count */
+    /* float: rates below 32 rad/s walk 5000 steps; theta2'' = 1e3 rad/s^2 makes time errors count */
     {&driven_hinge_from_rest,
      5000,
      WH_R(3e-5),
@@ -96,7 +95,7 @@ static const end_state end_states[] = {
      {ANGLE(-10.6144740124010441), ANGLE(-17.0959717050394372)},
      {WH_R(0.839285809779478438), WH_R(-5.06295906952996249), WH_R(1.20577040594969357),
       WH_R(-1.06211080436277226)}},
-    /* float: positions (below 0.125 m) and the rates behind them walk 5000 steps */
+    /* float: positions (below 0.125 m) and their rates walk 5000 steps */
     {&two_mass_absolute,
      5000,
      WH_R(2e-11),
@@ -187,9 +186,9 @@ static void expect_centre_of_mass(const wh_scene *scene, wh_real centre, wh_real
     TEST_ASSERT_TRUE_MESSAGE(off <= (WH_DOUBLE ? WH_R(1e-8) : in_float), scene->name);
 }
 
-/* To the end, 10 s (1 s on a slow board), chaos or not. Double: what every scene without outside forces is held to. Float:
- * X' (below 8 m/s, 16 in set B) walks and is integrated. Of set B over 24 torques from 1.5 to 2.35 N m the drifts are
- * 5.3e-4 in the root mean square and 1.2e-3 at most, whichever list solves its equations. */
+/* To the end, 10 s (1 s on a slow board), chaotic or not. Double: the bound of every scene without outside forces. Float: X'
+ * (below 8 m/s, 16 in set B) walks and is integrated. For set B over 24 torques from 1.5 to 2.35 N m the RMS drift is 5.3e-4
+ * and the largest 1.2e-3, for either solver. */
 static void test_centre_of_mass_of_thomson_device(void) {
     expect_centre_of_mass(&thomson_a, WH_R(0.6), WH_R(2e-4));
     expect_centre_of_mass(&thomson_b, WH_R(0.5), WH_R(1.2e-3));
@@ -199,7 +198,7 @@ static void test_centre_of_mass_of_thomson_device(void) {
 
 /* --- outputs ----------------------------------------------------------------------------------------- */
 
-/* A few roundings of numbers about `size`. */
+/* The round-off of a few numbers of about `size`. */
 static wh_real roundings(wh_real size) {
     return size * (WH_DOUBLE ? WH_R(0x1p-51) : WH_R(4.0) * U);
 }
@@ -257,7 +256,7 @@ static void test_outputs_of_the_particle(void) {
 
 /* --- every scene -------------------------------------------------------------------------------------- */
 
-/* So many steps of every scene: enough for a difference to show, few enough for a board. */
+/* Steps of every scene: enough to show a difference, few enough for a board. */
 #define STEPS_COMPARED (SLOW ? 200U : 2500U)
 
 static uint64_t hash_of_run(const wh_scene *scene, wh_real *seen) {
@@ -273,7 +272,7 @@ static uint64_t hash_of_run(const wh_scene *scene, wh_real *seen) {
     return wh_scene_hash(scene, &state);
 }
 
-/* Between the runs the memory is filled with what a forgotten start would trip over. */
+/* Between the runs the memory is filled with bytes that expose a missing initialization. */
 static void test_a_second_run_gives_the_same_bits(void) {
     TEST_ASSERT_TRUE(wh_scene_count > 0);
     for (unsigned i = 0; i < wh_scene_count; i++) {
@@ -298,7 +297,7 @@ static void test_time_of_a_scene_ends_at_its_end(void) {
     TEST_ASSERT_TRUE(WH_ABS(time_s - WH_R(9.0)) <= roundings(WH_R(9.0)));
 }
 
-/* A motor told nonsense must not spoil a generated scene either. */
+/* Invalid motor inputs must not spoil a generated scene either. */
 static void test_a_refused_step_keeps_the_state(void) {
     const wh_scene *scene = &thomson_a;
     start(scene);

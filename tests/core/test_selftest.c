@@ -1,4 +1,4 @@
-/* test_selftest.c: the console's self-test: each part that is bad is told, and no other. */
+/* test_selftest.c: the console's self-test reports each bad part, and no other. */
 #include <string.h>
 
 #include "core/station/station.h"
@@ -38,7 +38,7 @@ static void test_good(void) {
         ask());
 }
 
-/* One thing that is wrong, or several. */
+/* One or several faults. */
 static void test_each_part(void) {
     static const char *const parts[] = {"clock", "watchdog", "supply", "cell",
                                         "cell",  "cell",     "stop",   "rotor"};

@@ -1,8 +1,7 @@
 /* test_sine.c: sine and cosine together.
  *
- * The float build is compared with a reference in integers only, which every board can
- * compute; where there is a libc both builds are compared with its sine, too. WH_TEST_SMALL takes
- * fewer angles. */
+ * The float build is compared with a reference in integers, which every board can compute. With a libc, both builds are
+ * compared with its sine too. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"
@@ -51,7 +50,7 @@ static void test_known_values(void) {
     TEST_ASSERT_TRUE(sine_of(PI / 2.0) == 1.0);
     TEST_ASSERT_TRUE(cosine_of(PI) == -1.0);
     TEST_ASSERT_TRUE(sine_of(-PI / 2.0) == -1.0);
-    TEST_ASSERT_TRUE(near(sine_of(PI), 1.2246467991473532e-16, 1e-27)); /* what is left of pi */
+    TEST_ASSERT_TRUE(near(sine_of(PI), 1.2246467991473532e-16, 1e-27)); /* the remainder of pi */
     TEST_ASSERT_TRUE(near(cosine_of(PI / 2.0), 6.123233995736766e-17, 1e-27));
     TEST_ASSERT_TRUE(near(sine_of(PI / 6.0), 0.5, 2.3e-16));
     TEST_ASSERT_TRUE(near(cosine_of(PI / 3.0), 0.5, 2.3e-16));
@@ -93,7 +92,7 @@ static void test_out_of_range_is_nan(void) {
     TEST_ASSERT_FALSE(is_nan(sine_of(5e8)));
     double sine = 0.5;
     double cosine = 0.25;
-    wh_sincos_of_range(1e300, &sine, &cosine); /* only a phase of float needs to be told */
+    wh_sincos_of_range(1e300, &sine, &cosine); /* only a float's phase needs the check */
     TEST_ASSERT_TRUE(sine == 0.5 && cosine == 0.25);
 }
 
@@ -141,8 +140,7 @@ void suite_sine(void) {
 
 static int64_t times(int64_t a, int64_t b) { return (a * b + (INT64_C(1) << 30)) >> 31; }
 
-/* Taylor series about the nearest quarter turn, in the nested form 1 - z/(2*3)(1 - z/(4*5)(...)).
- * Errs by less than 3e-9. */
+/* Taylor series about the nearest quarter turn, nested as 1 - z/(2*3)(1 - z/(4*5)(...)). Error below 3e-9. */
 static void reference(uint32_t phase, int64_t *sine, int64_t *cosine) {
     const uint32_t quarter = (phase + QUARTER / 2U) / QUARTER;
     const int32_t rest = (int32_t)(phase - quarter * QUARTER);
@@ -160,12 +158,12 @@ static void reference(uint32_t phase, int64_t *sine, int64_t *cosine) {
     *cosine = turned_s[(quarter + 1U) & 3U];
 }
 
-/* A float from -1 to 1 in units of 2^-31, its far digits dropped. */
+/* A float from -1 to 1 in units of 2^-31, truncated. */
 static int64_t fixed(float value) { return (int64_t)(int32_t)(value * 0x1p30f) * 2; }
 
 #define TOLERANCE 143 /* 6.285e-8, the sine's worst error, and 4e-9 for the reference */
 
-/* How far sine or cosine are off at `phase`, in units of 2^-31. */
+/* Error of sine and cosine at `phase`, in units of 2^-31. */
 static int64_t error_at(uint32_t phase) {
     float s;
     float c;
@@ -234,7 +232,7 @@ static void test_about_quarters_and_sectors(void) {
 }
 
 static void test_worst_found(void) {
-    /* Where tests/tools/sine_exhaustive.c found the largest errors. */
+    /* Phases of the largest errors by tests/tools/sine_exhaustive.c. */
     expect_good(UINT32_C(0x48ffebe7), 1, 1);
     expect_good(UINT32_C(0x08ffebe7), 1, 1);
     TEST_ASSERT_GREATER_THAN_INT64(125, error_at(UINT32_C(0x48ffebe7)));

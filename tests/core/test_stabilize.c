@@ -1,5 +1,5 @@
-/* test_stabilize.c: what a step gives back of the drift of its energy (core/step/stabilize.h), of a body of 1 kg that flies with
- * two rates, in closed form. Drifts are made by hand: what the books say the start was. */
+/* test_stabilize.c: a step's correction of its energy drift (core/step/stabilize.h), for a body of 1 kg that flies with two
+ * rates, in closed form. Drifts are made by changing the start's energy in the books. */
 #include "core/step/stabilize.h"
 
 #include "unity.h"
@@ -28,11 +28,11 @@ typedef struct flight {
     wh_real real[4]; /* places, rates */
     wh_real carry[4];
     wh_real ledger
-        [6]; /* given back, its carry, the levels at the start, the most of the rates' energy */
+        [6]; /* correction so far, its carry, the levels at the start, the largest kinetic energy */
     wh_state state;
 } flight;
 
-/* So much has the energy drifted by. */
+/* Sets the energy's drift. */
 static void set_out(flight *f, wh_real first, wh_real second, wh_real drift, bool compensated) {
     *f = (flight){.real = {WH_R(1.0), WH_R(2.0), first, second}};
     f->ledger[2] = WH_R(0.5) * (first * first + second * second) - drift;
@@ -56,7 +56,7 @@ static wh_real drawn(uint32_t *seed) {
     return (wh_real)(int32_t)(*seed >> 8) / WH_R(8388608.0) - WH_R(1.0);
 }
 
-/* With carries the change is kept to more digits than a rate has. */
+/* With carries the change has more digits than a rate. */
 static void test_a_part_of_the_drift_is_given_back(void) {
     uint32_t seed = 20261128;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -77,7 +77,7 @@ static void test_a_part_of_the_drift_is_given_back(void) {
     }
 }
 
-/* What was given before makes the drift neither larger nor smaller; and of plain sums that counts which the rates took. */
+/* Earlier corrections do not change the drift. Of plain sums only the part that the rates took counts. */
 static void test_it_is_entered(void) {
     uint32_t seed = 20261129;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -91,7 +91,7 @@ static void test_it_is_entered(void) {
         give_back(&f);
         const wh_real given = (f.ledger[0] - before) + f.ledger[1];
         TEST_ASSERT_TRUE(WH_ABS(given + is / WH_R(1024.0)) <= WH_R(2e-7) * WH_ABS(before));
-        /* and what is given without carries is what the rates then have */
+        /* and without carries the correction is the change of the rates */
         set_out(&f, first, second, WH_R(1e-6), false);
         give_back(&f);
         const wh_real took = first * (f.real[2] - first) + second * (f.real[3] - second);
@@ -99,8 +99,8 @@ static void test_it_is_entered(void) {
     }
 }
 
-/* Where a swing turns back, rates change by no larger part than where it is fastest: what is slow and goes on gets no more
- * there. And a faster one is the new measure. */
+/* Where a swing turns back, rates change by no larger share than at its fastest: slow rates get no more there. A faster one
+ * sets the new measure. */
 static void test_the_fastest_so_far_is_the_measure(void) {
     uint32_t seed = 20261130;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -111,7 +111,7 @@ static void test_the_fastest_so_far_is_the_measure(void) {
         set_out(&f, fast, slow, drift, true);
         give_back(&f);
         const wh_real part = (f.real[3] - slow + f.carry[3]) / slow;
-        /* so much later it turns back; the books say the same */
+        /* it turns back this much later; the books agree */
         const wh_real most = f.ledger[5];
         set_out(&f, WH_R(0.001) * fast, slow, drift, true);
         f.ledger[5] = most;
@@ -127,7 +127,7 @@ static void test_the_fastest_so_far_is_the_measure(void) {
     }
 }
 
-/* Rates change by 2^-20 of themselves at most, whichever way. */
+/* Rates change by at most 2^-20 of themselves, in either direction. */
 static void test_there_is_a_bound(void) {
     for (unsigned i = 0; i < 4; i++) {
         flight f;
@@ -139,7 +139,7 @@ static void test_there_is_a_bound(void) {
     }
 }
 
-/* Before the first step, at rest, with books that are no numbers or that say momenta go against rates: nothing is done. */
+/* Nothing changes before the first step, at rest, and with books that are NaN or oppose the rates. */
 static void test_where_nothing_is_to_be_given(void) {
     const wh_real none = WH_R(0.0) * (WH_ABSURD * WH_ABSURD * WH_ABSURD);
     const wh_real drift[] = {WH_R(0.1), WH_R(0.0), (none - none) / (none - none), WH_R(1e20),

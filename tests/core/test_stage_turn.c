@@ -1,5 +1,5 @@
-/* test_stage_turn.c: steps that turn their sines: as good as looking them up, to the method's order, for every method and
- * form and however fast; refused where looking up is; and what rounding leaves of a small turn. */
+/* test_stage_turn.c: steps that rotate their sines are as accurate as lookups, to the method's order, for every method, form
+ * and speed. They are refused like lookups. Checks the round-off of a small turn. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #define WH_WAVES 3
@@ -17,7 +17,7 @@ static wh_real carry[ANGLES + REALS];
 static wh_real input[1];
 static wh_state state = {.angle = angle, .real = real, .carry = carry, .input = input};
 
-/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle stands in none. */
+/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle is in none. */
 static void sines(const void *model, const wh_phase *phase, wh_sine_parts *parts) {
     (void)model;
     wh_sincos_parts(phase[0], &parts[0]);
@@ -40,9 +40,9 @@ static void rates(const void *model, wh_real scale, const wh_real *rate, wh_real
 
 static const wh_waves waves = {NULL, sines, rates, 3};
 
-static wh_real coupling; /* by what grows with rates */
+static wh_real coupling; /* by terms that grow with rates */
 
-/* Pendulums that lean on each other and on a spring; the last turns freely. */
+/* Pendulums coupled to each other and to a spring; the last turns freely. */
 static void swing_turned(const void *model, const wh_wave *p, const wh_real *linear,
                          const wh_real *rate, const wh_real *u, wh_real *accel) {
     (void)model;
@@ -75,7 +75,7 @@ static void flow(const void *model, const wh_phase *phase, const wh_real *x, con
     flow_turned(model, pair, x, u, slope);
 }
 
-/* How a test steps. */
+/* A test's kind of step. */
 typedef struct manner {
     wh_form form;
     wh_method method;
@@ -136,19 +136,18 @@ static wh_real squares(unsigned count, const wh_real *x, const wh_real *y) {
     return sum;
 }
 
-/* Every manner of turning: a number of them, from 0 on. */
+/* All ways of rotating, counted from 0. */
 enum { MANNERS = 4 * WH_METHODS };
 static manner manner_of(unsigned k) {
     return (manner){k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER, (wh_method)(k / 4),
                     k / 2 % 2 != 0, true};
 }
 
-/* Is there such a step? */
 static bool turns(manner how) {
     return wh_method_takes(how.method, how.form) && wh_method_turns(how.method);
 }
 
-/* The two errors have the same leading term (stage_turn.h). Against runs with steps that are a sixteenth and look sines up. */
+/* The two errors have the same leading term (stage_turn.h). The reference runs use a sixteenth of the step and lookups. */
 static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -160,7 +159,7 @@ static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
         wh_real looked_up[VALUES];
         wh_real exact[VALUES];
         if (!wh_method_turns(how.method) || (sizeof(wh_real) == 4 && order > 4)) {
-            continue; /* in float fifth order shows at steps only whose leans are not small */
+            continue; /* in float fifth order shows only at steps with large leans */
         }
         if (!wh_method_takes(how.method, how.form)) {
             start();
@@ -171,7 +170,7 @@ static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
         after_1s(how, 2 * count, turned[1]);
         how.turns = false;
         after_1s(how, count, looked_up);
-        how.method = order > 4 ? how.method : WH_RK4; /* whose error would not be small enough */
+        how.method = order > 4 ? how.method : WH_RK4; /* its error would not be small enough */
         after_1s(how, 16 * count, exact);
         const wh_real error = squares(components, turned[0], exact);
         const wh_real ratio = error / squares(components, turned[1], exact);
@@ -182,7 +181,7 @@ static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
     }
 }
 
-/* The column .turns is what the shares make it, or is left out. */
+/* The column .turns follows from the shares, or is absent. */
 static void test_turns_follow_from_the_shares(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const wh_tableau *by = wh_tableau_of(m);
@@ -200,7 +199,7 @@ static void test_turns_follow_from_the_shares(void) {
     }
 }
 
-/* Where there is but one stage, or nothing turns, turning is looking up. */
+/* With a single stage, or nothing that turns, rotating equals a lookup. */
 static void test_what_does_not_turn_has_the_same_bits(void) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -216,7 +215,7 @@ static void test_what_does_not_turn_has_the_same_bits(void) {
     }
 }
 
-/* Who is told the phases, gets those of the last stage and leaves the run alone. */
+/* A caller that asks for the phases gets the last stage's, and the run does not change. */
 static void test_phases_are_told(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
@@ -261,8 +260,8 @@ static wh_real between(wh_real low, wh_real high) {
     return low + (high - low) * (wh_real)(uint32_t)(chance >> 33) * WH_R(4.656612873077393e-10);
 }
 
-/* One step by turning and one by looking up, [0] and [1], from where start() stands with this input and these rates. What
- * accelerations add to such rates is small. */
+/* One step by rotation and one by lookup, [0] and [1], from start() with this input and these rates. The accelerations'
+ * contribution to such rates is small. */
 static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_status status[2],
                       int fault[2], wh_real value[2][VALUES]) {
     for (int k = 0; k < 2; k++) {
@@ -284,8 +283,8 @@ static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_
     }
 }
 
-/* However fast the angles turn, up to half a turn a step: the lean is small, so that the two steps are the same but for
- * rounding. The waves turn by up to three times as much, and d is beyond what is small most of the time. */
+/* Up to half a turn per step the lean is small, so the two steps agree to round-off. The waves turn up to three times as much,
+ * and d is rarely small. */
 static void test_fast_angles_step_as_looking_up_does(void) {
     const wh_real h = WH_R(0.0009765625);
     const wh_real most = WH_R(3.14) / h;
@@ -317,7 +316,7 @@ static void test_fast_angles_step_as_looking_up_does(void) {
     TEST_ASSERT_TRUE(taken > 50 * MANNERS);
 }
 
-/* What looking up refuses is refused: half a turn and more, or no number, and the state is as it was. */
+/* A turn that a lookup refuses (half a turn and more, or NaN) is refused, and the state is unchanged. */
 static void test_what_is_no_turn_is_refused(void) {
     const wh_real nan = (wh_real)__builtin_nan("");
     const wh_real rates[] = {WH_R(3200.0), WH_R(-1e5), WH_R(1e9), WH_R(-1e14), WH_R(1e30), nan};
@@ -354,7 +353,7 @@ static void test_small_turns_are_sines(void) {
         wh_wave turn = wh_small_turn(d);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
-        /* and next to nothing they are what they are, not only near it */
+        /* next to zero they are exact, not only near it */
         const wh_real tiny = d * WH_R(1e-9);
         turn = wh_small_turn(tiny);
         TEST_ASSERT_TRUE(turn.sine == tiny);
@@ -362,7 +361,8 @@ static void test_small_turns_are_sines(void) {
     }
 }
 
-/* Up to eight turns: what is doubled errs in proportion; and what is beyond all turns is infinite or NaN: no step takes it. */
+/* Up to eight turns: the error grows with each doubling in proportion. Beyond all turns the result is infinite or NaN, and no
+ * step accepts it. */
 static void test_far_turns_are_sines(void) {
     const int32_t each = __STDC_HOSTED__ ? 1 : 9;
     for (int32_t i = -50000; i <= 50000; i += each) {

@@ -1,6 +1,6 @@
-/* test_stage_turn_ledger.c: books that are kept while sines are turned on (core/step/stage_turn_ledger.h), with stages that are
- * unrolled by hand, as for compilers that cannot be asked to: the run's bits are those without books, what a torque gives is
- * what its energy says, and a refused step enters nothing. */
+/* test_stage_turn_ledger.c: books with rotated sines (core/step/stage_turn_ledger.h) and stages unrolled by hand, for compilers
+ * without an unroll request. The run's bits are those without books. A torque's work is its energy's change. A refused step
+ * enters nothing. */
 #include "core/scene.h"
 #define WH_COORDS 2
 #define WH_WAVES 1
@@ -16,7 +16,7 @@ void suite_stage_turn_ledger(void);
 enum { STEPS = 128 };
 #define STEP_S WH_R(0.0078125)
 
-/* A pendulum of 1 kg m^2 under a torque, beside a carriage that a force draws. */
+/* A pendulum of 1 kg m^2 under a torque, beside a carriage drawn by a force. */
 static void turned_accel(const void *model, const wh_wave *pair, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
@@ -135,7 +135,7 @@ static void test_books_beside_turned_sines(void) {
         const uint64_t wanted = wh_scene_hash(&scene, &state);
         run(&scene, true);
         TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
-        /* a constant force's work is force times way, its impulse force times time */
+        /* The books' residual is the method's error: of order h for Euler's, round-off for the best. */
         const wh_real rad = wh_angle_to_rad(state.angle[0]) - wh_angle_to_rad(start_angle[0]);
         const wh_real near = allowed(method);
         TEST_ASSERT_TRUE(WH_ABS(state.ledger[0] - WH_R(0.25) * rad) < near);
@@ -189,7 +189,7 @@ static void turned_slope(const void *model, const wh_wave *pair, const wh_real *
     result[1] = pair[0].cosine;
 }
 
-/* th' = 1/2, x' = cos th: x = 2 sin(t/2) after a second; half a turn in a step is refused by whichever stage meets it. */
+/* th' = 1/2, x' = cos th: x = 2 sin(t/2) after a second. Each stage refuses half a turn in a step. */
 static void test_first_order_unrolled_by_hand(void) {
     for (unsigned m = 0; m < 2 * WH_METHODS; m++) {
         const wh_method method = (wh_method)(m / 2);

@@ -1,5 +1,5 @@
-/* test_station.c: the rig's console: each line has its answer, orders do what they do without it, nobody who does not read
- * disturbs the rig. */
+/* test_station.c: the rig's console: each line has its answer, orders act as without it, and a host that does not read does not
+ * disturb the rig. */
 #include "core/station/station.h"
 
 #include <string.h>
@@ -29,13 +29,12 @@ static void begin(void) {
 
 static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
 
-/* One control period of the firmware. */
 static void period(void) {
     even_step(&even);
     wh_station_step(&station, &even.rig);
 }
 
-/* What wants out, as much as there is room for. */
+/* Pending output, as much as there is room for. */
 static void hear(void) {
     const unsigned count =
         wh_station_peek(&station, heard + heard_length, (unsigned)sizeof heard - 1U - heard_length);
@@ -64,7 +63,7 @@ static void check_begins(const char *with, const char *answer) {
     TEST_ASSERT_EQUAL_STRING_LEN(with, answer, strlen(with));
 }
 
-/* --- what each command says ------------------------------------------------------------------------ */
+/* --- each command ------------------------------------------------------------------------------------ */
 
 static void test_help_knows_every_command(void) {
     begin();
@@ -179,9 +178,9 @@ static void test_a_trip_is_told_and_cleared(void) {
     check_begins("OK trip=0 ended=trip: no fault", ask("fault"));
 }
 
-/* --- who reads, who types -------------------------------------------------------------------------- */
+/* --- readers and typists ------------------------------------------------------------------------------- */
 
-/* Escape is there before what was typed before it, in whatever is half done. */
+/* Escape overtakes earlier input, whatever is unfinished. */
 static void test_escape_stops_at_once(void) {
     for (unsigned i = 0; i < 40; i++) {
         begin();
@@ -193,7 +192,7 @@ static void test_escape_stops_at_once(void) {
             type(k % 3U == 0 ? "status\n" : k % 3U == 1U ? "set 200\n" : "he");
         }
         type("\x1b");
-        period(); /* an order before it may be waiting for its answer */
+        period(); /* an earlier order may still wait for its answer */
         period();
         TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
         TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_STOPPING);
@@ -204,7 +203,6 @@ static void test_escape_stops_at_once(void) {
     }
 }
 
-/* Many lines at once: an answer each, in their order. */
 static void test_lines_wait_for_each_other(void) {
     begin();
     type("arm\rstart 330\r\nstatus\nnonsense\n\nset 250\r");
@@ -223,7 +221,7 @@ static void test_lines_wait_for_each_other(void) {
     for (at = heard; *at != '\0'; at++) {
         lines += *at == '\n' ? 1U : 0U;
     }
-    TEST_ASSERT_EQUAL_UINT(5, lines); /* the empty one asks for nothing */
+    TEST_ASSERT_EQUAL_UINT(5, lines); /* the empty one needs no answer */
 }
 
 static void test_a_person_sees_what_is_typed(void) {
@@ -245,7 +243,7 @@ static void test_a_person_sees_what_is_typed(void) {
     TEST_ASSERT_EQUAL_STRING("OK stop", ask("stop"));
 }
 
-/* Nobody reads: answers are lost whole, and counted; what is there is whole lines. Then somebody reads again. */
+/* Without a reader whole answers are dropped and counted; the buffer holds whole lines. Then a reader returns. */
 static void test_nobody_reads(void) {
     begin();
     for (unsigned i = 0; i < 30; i++) {
@@ -262,14 +260,14 @@ static void test_nobody_reads(void) {
     TEST_ASSERT_EQUAL_UINT(30, told + station.lost_answers);
     TEST_ASSERT_TRUE(station.lost_answers > 0 && station.lost_bytes == 0);
     TEST_ASSERT_NULL(strstr(ask("status"), "lost_answers=0"));
-    /* and more than can wait */
+    /* more than can wait */
     char many[WH_STATION_IN_BYTES + 10U];
     memset(many, 'x', sizeof many);
     wh_station_take(&station, many, sizeof many);
     TEST_ASSERT_EQUAL_UINT32(10, station.lost_bytes);
 }
 
-/* Lines that come faster than they are worked on: a line is obeyed as it was typed, or refused as no line. */
+/* Lines faster than they are processed: a line is obeyed as typed, or refused as too long. */
 static void test_no_line_is_obeyed_that_lost_bytes(void) {
     seed = 12;
     begin();
@@ -293,8 +291,7 @@ static void test_no_line_is_obeyed_that_lost_bytes(void) {
     TEST_ASSERT_TRUE(obeyed > 1000U && refused > 20U && station.lost_bytes > 1000U);
 }
 
-/* Whatever is typed, and whether or not somebody reads: the rig does what it does when the same orders are posted, and
- * each answer is the rig's. */
+/* Random input, with or without a reader: the rig acts as if the same orders were posted, and each answer is the rig's. */
 static void test_orders_are_those_that_are_posted(void) {
     static const struct {
         const char *line;
@@ -320,7 +317,7 @@ static void test_orders_are_those_that_are_posted(void) {
         type(draw_one_in(&seed, 2) ? "\r\n" : "\n");
         period(); /* read, */
         even_step(&twin);
-        period(); /* taken, answered */
+        period(); /* then taken and answered */
         const wh_refusal answer = even_order(&twin, orders[k].event, orders[k].value);
         if (!draw_one_in(&seed, 8)) {
             hear();
@@ -340,7 +337,7 @@ static void test_orders_are_those_that_are_posted(void) {
     TEST_ASSERT_TRUE(allowed > 60U);
 }
 
-/* Any bytes: no answer without its end, and no more answers than lines. */
+/* Random bytes: every answer has its end, and there are no more answers than lines. */
 static void test_any_bytes(void) {
     static const char *const pieces[] = {"arm",    "start", " 330", "stop",    "\n",
                                          "\r\n",   "\x1b",  "help", " ",       "talk on",
@@ -353,10 +350,11 @@ static void test_any_bytes(void) {
         const char *piece = pieces[draw_one_of(&seed, 15)];
         type(piece);
         lines_in += strpbrk(piece, "\n\x1b") != NULL ? 1U : 0U;
-        even.rig.answers += station.waits ? 1U : 0U; /* as if taken: the rig is another test's */
+        even.rig.answers +=
+            station.waits ? 1U : 0U; /* counted as taken: the rig belongs to another test */
         even.rig.orders = 0;
         wh_station_step(&station, &even.rig);
-        station.talks = false; /* an echo is no answer */
+        station.talks = false; /* an echo is not an answer */
         heard_length = 0;
         hear();
         TEST_ASSERT_TRUE(heard_length == 0 || heard[heard_length - 1U] == '\n');

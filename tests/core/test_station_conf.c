@@ -1,5 +1,5 @@
-/* test_station_conf.c: settings at the console: each within its range into its place of the configuration, written in idle
- * only, kept, and gone back from to the bit. */
+/* test_station_conf.c: settings at the console: each in range and in its place of the configuration, changed in idle only,
+ * stored, and restored to the bit. */
 #include <stddef.h>
 #include <string.h>
 
@@ -70,7 +70,7 @@ static void check_begins(const char *with, const char *answer) {
     TEST_ASSERT_EQUAL_STRING_LEN(with, answer, strlen(with));
 }
 
-/* A program's own has no hash of settings. */
+/* A program without settings has no hash of them. */
 static void check_same(const wh_rig_config *one, const wh_rig_config *other) {
     wh_rig_config with_hash = *one;
     with_hash.settings = one->settings == 0 ? other->settings : one->settings;
@@ -78,7 +78,7 @@ static void check_same(const wh_rig_config *one, const wh_rig_config *other) {
     TEST_ASSERT_TRUE(memcmp(one, other, sizeof *one) == 0);
 }
 
-/* Where each setting goes, and how large its unit is: written down once more. */
+/* Each setting's place and unit: an independent copy. */
 static wh_real where(const wh_rig_config *c, const char *name) {
     const struct {
         const char *name;
@@ -140,7 +140,7 @@ static wh_real draw_value(const wh_conf_row *row) {
     return is_whole(row) ? (wh_real)(int32_t)(value + WH_R(0.5)) : (wh_real)(float)value;
 }
 
-/* How a list begins. */
+/* A list's first line. */
 static const char *settings_told(void) {
     static char bytes[40];
     const wh_value value = {.count = WH_CONF_COUNT};
@@ -150,7 +150,7 @@ static const char *settings_told(void) {
     return bytes;
 }
 
-/* As it is typed. */
+/* As typed. */
 static const char *name_of(wh_conf_id id) {
     static char bytes[40];
     const wh_value value = {.word = wh_conf_name(id)};
@@ -182,7 +182,7 @@ static void test_rows(void) {
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find(""));
 }
 
-/* Any values: each is where it belongs, and saved, loaded and gone back from. */
+/* Random values: each is in its place, and is saved, loaded and restored. */
 static void test_values_have_their_places(void) {
     seed = 21;
     wh_rig_config plain;
@@ -227,7 +227,7 @@ static void test_values_have_their_places(void) {
     TEST_ASSERT_TRUE(against > 10U);
 }
 
-/* What goes with the rotor: a heavier one, or one that lies level. */
+/* The rotor's dependent values: a heavier one, or one that lies level. */
 static void own_standard(wh_rig_config *config) { *config = wh_rig_standard; }
 
 static void test_what_follows(void) {
@@ -256,20 +256,20 @@ static void test_what_follows(void) {
         1e-5f, 0.5f, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
 }
 
-/* Of another program: numbers that there are not, values outside, settings against each other. */
+/* Another program's settings: unknown numbers, values out of range, contradictory settings. */
 static void test_what_is_stored_of_others(void) {
     static const struct {
         uint8_t payload[16];
         unsigned count;
-        wh_conf_id set; /* the only one that is, */
+        wh_conf_id set; /* the only valid one, */
         float to;
-    } rows[] = {/* 18: 10.0, and what there is not: 200 */
+    } rows[] = {/* 18: 10.0, and an unknown one: 200 */
                 {{18, 0, 0, 0x20, 0x41, 200, 0, 0, 0x20, 0x41}, 10, WH_CONF_record_turns, 10.0f},
-                /* 7: 2.0 is outside; NaN; cut off */
+                /* 7: 2.0 is out of range; NaN; cut off */
                 {{7, 0, 0, 0, 0x40, 18, 0, 0, 0xC0, 0x7F, 18, 0, 0}, 13, WH_CONF_COUNT, 0.0f},
-                /* 32: 0.5 is no switch */
+                /* 32: 0.5 is not a switch value */
                 {{32, 0, 0, 0, 0x3F}, 5, WH_CONF_COUNT, 0.0f},
-                /* 28: 50 V is more than the most: none is taken, also not 18 */
+                /* 28: 50 V is above the maximum: none is taken, not even 18 */
                 {{28, 0, 0, 0x48, 0x42, 18, 0, 0, 0x20, 0x41}, 10, WH_CONF_COUNT, 0.0f},
                 {{0}, 0, WH_CONF_COUNT, 0.0f}};
     wh_rig_config plain;
@@ -339,7 +339,7 @@ static void test_list_has_all_and_can_be_typed(void) {
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, told);
 }
 
-/* A list begins at 0 or behind it, and before its end: at any number that can be typed. */
+/* A list begins at 0 or later and before its end, for any typed number. */
 static void test_where_a_list_begins(void) {
     begin();
     unsigned below = 0;
@@ -416,7 +416,7 @@ static void test_refusals(void) {
     check_begins("ERR 114 ", ask("conf list"));
 }
 
-/* What is set is what measures: a cell that is twice as sensitive, masses that are half. */
+/* Settings act on the measurement: a cell twice as sensitive, masses half as large. */
 static void test_a_run_with_settings(void) {
     begin();
     check_begins("OK", ask("conf set cell_scale 20"));

@@ -1,4 +1,4 @@
-/* test_station_host.c: the rig's console, and somebody at it who goes away. */
+/* test_station_host.c: the rig's console, and a host that goes away. */
 #include "core/station/station.h"
 
 #include <string.h>
@@ -18,7 +18,6 @@ static uint64_t seed;
 
 static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
 
-/* One control period of the firmware. */
 static void period(void) {
     even_step(&even);
     seen.inputs = even.inputs;
@@ -26,7 +25,7 @@ static void period(void) {
     wh_station_step(&station, &even.rig);
 }
 
-/* Typed, and allowed. */
+/* Sends a line, which must be accepted. */
 static void obey(const char *line) {
     char heard[WH_STATION_OUT_BYTES];
     type(line);
@@ -39,8 +38,8 @@ static void obey(const char *line) {
     TEST_ASSERT_TRUE(count > 3U && memcmp(heard, "OK", 2) == 0);
 }
 
-/* What a host does that types now and then, and then no more: a run ends when nothing was heard for as long as it had
- * said, to the step, and as the rig was configured; without a limit, or as long as there are bytes, it goes on. */
+/* A host types now and then, then stops. The run ends, to the step, after the silence that the host or the configuration
+ * allows. Without a limit, or while bytes come, it goes on. */
 static void test_a_host_that_is_gone(void) {
     seed = 31;
     unsigned ends = 0;
@@ -60,7 +59,7 @@ static void test_a_host_that_is_gone(void) {
         obey("arm");
         obey("start 330");
         even_go_on_until(&even, (wh_rig_phase)(WH_PHASE_TARE + draw_one_of(&seed, 5)));
-        for (unsigned k = draw_one_of(&seed, 5); k > 0; k--) { /* heard: any byte will do */
+        for (unsigned k = draw_one_of(&seed, 5); k > 0; k--) { /* any byte counts */
             type(draw_one_in(&seed, 2) ? "\n" : "\b");
             for (uint32_t step = 0; limit_s > 0 && step < limit_s * STEPS_PER_S; step++) {
                 period();
@@ -71,13 +70,13 @@ static void test_a_host_that_is_gone(void) {
         uint32_t silent = 0;
         while (even.rig.state == WH_LIFE_RUNNING) {
             if (draw_one_in(&seed, 20)) {
-                wh_station_take(&station, "", 1); /* noise: a byte that came broken */
+                wh_station_take(&station, "", 1); /* noise: a damaged byte */
             }
             period();
             silent++;
             TEST_ASSERT_TRUE(silent < 60U * STEPS_PER_S);
         }
-        /* Said in one step, taken in the next. */
+        /* Set in one step, read in the next. */
         const uint32_t most = limit_s * STEPS_PER_S + 2U;
         const bool stops = limit_s > 0 && even.config.host_loss_stops;
         TEST_ASSERT_TRUE(!stops || silent <= most);
@@ -88,10 +87,10 @@ static void test_a_host_that_is_gone(void) {
         TEST_ASSERT_TRUE(stopped || even_is_done(&even));
         ends += stopped ? 1U : 0U;
         TEST_ASSERT_EQUAL_UINT32(limit_s > 0 ? 1 : 0, station.host_losses);
-        type("\n"); /* behind the noise */
+        type("\n"); /* after the noise */
         period();
         wh_station_drop(&station, WH_STATION_OUT_BYTES);
-        obey("arm"); /* and is heard again */
+        obey("arm");
     }
     TEST_ASSERT_TRUE(ends >= 10U);
 }

@@ -9,7 +9,7 @@ void suite_station_line(void);
 static wh_line line;
 static uint64_t seed;
 
-/* The last event that these bytes make. */
+/* The last event of these bytes. */
 static wh_line_event take(const char *bytes) {
     wh_line_event last = WH_LINE_NOTHING;
     for (; *bytes != '\0'; bytes++) {
@@ -23,7 +23,7 @@ static void test_lines_end_in_each_of_three_ways(void) {
     static const char *const ends[] = {"\r", "\n", "\r\n"};
     for (unsigned i = 0; i < 9; i++) {
         line = (wh_line){.length = 0};
-        for (unsigned k = 0; k < 3; k++) { /* whatever the one before ended with */
+        for (unsigned k = 0; k < 3; k++) { /* whatever ended the previous one */
             TEST_ASSERT_TRUE(take(k == 0 ? "arm" : "start 330") == WH_LINE_NOTHING);
             TEST_ASSERT_TRUE(take(ends[k == 1U ? i % 3U : i / 3U]) == WH_LINE_WHOLE);
             TEST_ASSERT_EQUAL_STRING(k == 0 ? "arm" : "start 330", line.text);
@@ -78,7 +78,7 @@ static void test_what_is_no_line_is_refused_whole(void) {
     }
 }
 
-/* Bytes as they come: nothing is written beyond the line, and each end of a line is one. */
+/* Random bytes: nothing is written beyond the line, and each line end counts once. */
 static void test_any_bytes(void) {
     seed = 3;
     line = (wh_line){.length = 0};
@@ -112,7 +112,7 @@ static void test_words(void) {
     TEST_ASSERT_EQUAL_STRING("", words.word[0]);
 }
 
-/* A whole number and a part, written as text: their sum. */
+/* The sum of a whole number and a fraction, written as text. */
 static void test_numbers_drawn(void) {
     static const uint32_t tens[] = {1, 10, 100, 1000, 10000};
     seed = 7;

@@ -1,5 +1,5 @@
-/* test_station_odd.c: the station where things are not as they should be: a full queue, a trip, keys that have no room, a
- * board whose cell is turned round, a memory that cannot be read again, arithmetic that is wrong. */
+/* test_station_odd.c: the station in odd conditions: a full queue, a trip, too long input, a board with a reversed cell,
+ * unreadable memory, wrong arithmetic. */
 #include <string.h>
 
 #include "core/number/arithmetic.h"
@@ -12,7 +12,7 @@ void suite_station_odd(void);
 
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
-/* All that wants out. */
+/* All pending output. */
 static const char *hear(void) {
     const unsigned count = wh_station_peek(&bench.station, heard, sizeof heard - 1U);
     wh_station_drop(&bench.station, count);
@@ -26,7 +26,7 @@ static void check_begins(const char *with, const char *text) {
 
 /* --- orders ---------------------------------------------------------------------------------------------- */
 
-/* Others post orders, too: one that finds no room is refused by its number, and the next is taken. */
+/* Other code posts orders too: an order without room is refused with its number, and the next is taken. */
 static void test_a_full_queue(void) {
     for (unsigned posted = 0; posted <= WH_RIG_ORDERS_MOST; posted++) {
         tel_begin();
@@ -48,7 +48,7 @@ static void test_a_full_queue(void) {
     }
 }
 
-/* A host that is lost while there is no room: the rig hears of it in the first step that has some, and once. */
+/* A host lost while the queue is full: the rig is notified once, in the first step with room. */
 static void test_lost_while_the_queue_is_full(void) {
     for (unsigned full_steps = 0; full_steps < 6U; full_steps++) {
         tel_begin();
@@ -68,14 +68,14 @@ static void test_lost_while_the_queue_is_full(void) {
         TEST_ASSERT_EQUAL_UINT(1, told);
         TEST_ASSERT_EQUAL_UINT(1, bench.station.host_losses);
         TEST_ASSERT_EQUAL_UINT(4U + full_steps, first);
-        wh_station_take(&bench.station, "x", 0); /* nothing is heard */
+        wh_station_take(&bench.station, "x", 0); /* silence */
         TEST_ASSERT_TRUE(bench.station.silent_steps > 0);
         wh_station_take(&bench.station, "x", 1);
         TEST_ASSERT_TRUE(bench.station.silent_steps == 0);
     }
 }
 
-/* Where it talks, a trip is told with its cause; and `fault` has nothing of another trip's record. */
+/* Where text is on, a trip is reported with its cause; `fault` shows nothing of another trip's record. */
 static void test_trips_are_told(void) {
 #define NAME(name, number, words) name,
     static const wh_trip trips[] = {WH_TRIP_ROWS(NAME)};
@@ -106,7 +106,7 @@ static void test_trips_are_told(void) {
     }
 }
 
-/* Keys that change nothing are not echoed: what does not fit any more, or a rub-out of nothing. */
+/* Keys without effect are not echoed: beyond the line's room, or a rub-out of nothing. */
 static void test_echo(void) {
     tel_begin();
     tel_type("talk on");
@@ -127,7 +127,7 @@ static void test_echo(void) {
     TEST_ASSERT_EQUAL_STRING("", hear());
 }
 
-/* --- what there is ------------------------------------------------------------------------------------------- */
+/* --- results and self-tests ----------------------------------------------------------------------------------- */
 
 static wh_probed spoilt;
 
@@ -138,7 +138,7 @@ static void compute_otherwise(wh_real *result) {
     }
 }
 
-/* Arithmetic is the observer's scene's; one that has none, or no scene, is not bad for it. */
+/* Arithmetic is checked in the observer's scene; an observer without one, or no scene, passes. */
 static void test_arithmetic_is_tested(void) {
     wh_scene scene = {.name = "none"};
     for (unsigned i = 0; i <= WH_PROBED_COUNT + 2U; i++) {
@@ -148,7 +148,7 @@ static void test_arithmetic_is_tested(void) {
         scene.arithmetic = i <= 1U ? NULL : compute_otherwise;
         spoilt = (wh_probed)(i >= 2U ? i - 2U : 0U);
         const bool good = i < 2U || spoilt == WH_PROBED_COUNT;
-        bench.seen = (wh_seen){.inputs = bench.even.inputs}; /* no sample: nothing to say of it */
+        bench.seen = (wh_seen){.inputs = bench.even.inputs}; /* no sample, no statement */
         wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
         tel_type("selftest");
         wh_station_step(&bench.station, &bench.even.rig);
@@ -165,7 +165,7 @@ static void own_turned(wh_rig_config *config) {
     config->measure.cell.newton_per_count = -config->measure.cell.newton_per_count;
 }
 
-/* Of a board whose cell is mounted the other way: that is its standard, and its scale has no sign. */
+/* A board with a reversed cell: that is its standard, and its scale has no sign. */
 static void test_a_cell_turned_round(void) {
     static wh_conf conf;
     wh_rig_config config;
@@ -200,7 +200,7 @@ static bool read_slot(unsigned slot, unsigned at, uint8_t *bytes, unsigned count
     return true;
 }
 
-/* What cannot be read again was not saved, whenever reading begins to fail; nothing else is said. */
+/* A setting that cannot be read back is reported as not saved, whichever read fails. */
 static void test_a_memory_that_is_not_read(void) {
     static const wh_store_memory memory = {erase_slot, write_slot, read_slot};
     static wh_conf conf;
@@ -228,12 +228,12 @@ static void test_a_memory_that_is_not_read(void) {
 
 /* --- numbers in answers ---------------------------------------------------------------------------------------- */
 
-/* Whole numbers as they are, without a point; where there is no room, no more than there is, and said. */
+/* Whole numbers have no point; text is cut at the room, and that is reported. */
 static void test_exact_numbers(void) {
     bench.seed = 64;
     for (unsigned i = 0; i < 2000U; i++) {
         const uint32_t whole = (uint32_t)draw_bits(&bench.seed) >> draw_one_of(&bench.seed, 32) &
-                               UINT32_C(0xFFFFFF00); /* a float has it */
+                               UINT32_C(0xFFFFFF00); /* a float holds it */
         char bytes[40];
         char wanted[40];
         wh_text text;

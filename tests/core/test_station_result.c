@@ -1,5 +1,5 @@
-/* test_station_result.c: whose a result is, and how a run ended: drawn sequences of orders, settings, trips, stops and a host
- * that goes away, in which each answer of the console belongs to the last start. */
+/* test_station_result.c: a result's run and end. Random sequences of orders, settings, trips, stops and a host that goes away:
+ * each answer of the console belongs to the last start. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,11 +20,11 @@ static wh_seen seen;
 static uint64_t seed;
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
-/* What must be told. */
+/* The expected report. */
 static unsigned runs;
 static const char *ended;
 static bool has_result;
-static uint32_t result_steps; /* since it was through */
+static uint32_t result_steps; /* since it was finished */
 static wh_real measured_with[WH_CONF_COUNT];
 
 static void own(wh_rig_config *config) { *config = even_config(); }
@@ -211,7 +211,7 @@ static void test_answers_belong_to_the_last_start(void) {
     unsigned outdated = 0;
     seed = 71;
     const unsigned rounds = draw_cases(12);
-    /* Where few are drawn, some have no result to ask for: go on until enough have. */
+    /* Some sequences have no result to ask for: continue until enough have. */
     for (unsigned round = 0; round < rounds || (round < 8U * rounds && (results < draw_cases(40) ||
                                                                         outdated < draw_cases(8)));
          round++) {
@@ -227,7 +227,7 @@ static void test_answers_belong_to_the_last_start(void) {
     TEST_ASSERT_TRUE(results >= draw_cases(40) && outdated >= draw_cases(8));
 }
 
-/* Each setting counts, and the hash is the values' alone: what is set back has the one before. */
+/* Each setting changes the hash, which depends on the values alone: restored values restore it. */
 static void test_any_other_setting_has_another_hash(void) {
     seed = 72;
     begin();
@@ -252,7 +252,7 @@ static void test_any_other_setting_has_another_hash(void) {
     }
 }
 
-/* Hours later: a capture timer that wraps does not make a result young again. */
+/* Hours later: a wrapping capture timer does not rejuvenate a result. */
 static void test_an_age_beyond_the_timer(void) {
     begin();
     start();
@@ -270,8 +270,7 @@ static void test_an_age_beyond_the_timer(void) {
     TEST_ASSERT_TRUE(age_s - before_s >= 3U * 3600U - 1U && age_s - before_s <= 3U * 3600U + 1U);
 }
 
-/* Whatever is against a result, the console says it whole, of numbers as large as a rig can have; and of larger ones it says a
- * line that has an end. */
+/* The console prints all doubts of a result, with the largest numbers of a rig. With larger ones the line still has an end. */
 static void test_every_verdict_is_said(void) {
     static const char other[] = "conf set settle_time 2";
     wh_measured *force = &even.rig.result.force;
@@ -283,7 +282,7 @@ static void test_every_verdict_is_said(void) {
     TEST_ASSERT_TRUE(has_result);
     for (unsigned i = 0; i < 4U * WH_WHYS; i++) {
         const char *words = wh_why_text((wh_why)(i % WH_WHYS));
-        const bool is_odd = i >= 2U * WH_WHYS; /* numbers that no rig has */
+        const bool is_odd = i >= 2U * WH_WHYS; /* numbers beyond any rig */
         const wh_real most = is_odd ? WH_R(-1e30) : WH_R(-9999.99);
         if (i == WH_WHYS || i == 3U * WH_WHYS) {
             TEST_ASSERT_TRUE(is_ok(other));

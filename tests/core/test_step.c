@@ -1,5 +1,5 @@
-/* test_step.c: the step of every method in both forms: its order where rates, angles and lengths act on one another,
- * and which component a refused step names, at every place where one can be refused. */
+/* test_step.c: the step of every method in both forms: its order with coupled rates, angles and lengths, and the component that
+ * a refused step names, at every place of refusal. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #include "core/step.h"
@@ -34,7 +34,7 @@ static void clear(void) {
 
 /* --- orders --------------------------------------------------------------------------------------- */
 
-/* The hand of a clock and what leans on it, with damping: all three parts of the state are in both equations. */
+/* A clock's hand and an oscillator that leans on it, with damping: all three parts of the state are in both equations. */
 static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *u, wh_real *accel) {
     wh_real sine;
@@ -85,7 +85,7 @@ static unsigned after_1s(wh_form form, wh_method method, bool compensated, unsig
     return 1 + reals;
 }
 
-/* Of the differences between runs with steps that halve, squared. */
+/* Of the differences between runs with halved steps, squared. */
 static wh_real distance(wh_form form, wh_method method, bool compensated, unsigned count) {
     wh_real coarse[VALUES];
     wh_real fine[VALUES];
@@ -104,7 +104,7 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
         const wh_form form = k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER;
         const bool compensated = k / 2 % 2 != 0;
         const unsigned order = wh_methods[method].order;
-        /* float's rounding leaves coarse steps only */
+        /* float's round-off leaves coarse steps only */
         const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 64)
                                : order < 4          ? 32
                                : order < 5          ? 4
@@ -151,7 +151,7 @@ static void moved(const void *model, const wh_phase *phase, const wh_real *x, co
     }
 }
 
-/* The step is refused with this fault, or done when it is negative; refused, it leaves the state as it was. */
+/* The step is refused with this fault, or done if it is negative. A refused step leaves the state unchanged. */
 static void expect(wh_form form, wh_method method, bool compensated, wh_real h, int fault) {
     wh_angle angle_before[ANGLES];
     wh_real real_before[2 * COORDINATES];

@@ -1,5 +1,4 @@
-/* test_store.c: settings in two slots: after a write that is torn at whatever byte they are the old or the new, and what is
- * written next is kept. */
+/* test_store.c: settings in two slots: after a write torn at any byte the old or the new ones load, and the next save works. */
 #include "core/station/store.h"
 
 #include <string.h>
@@ -15,8 +14,8 @@ void suite_store(void);
 static uint8_t flash[WH_STORE_SLOTS][SLOT_BYTES];
 static uint8_t photo[WH_STORE_SLOTS][SLOT_BYTES];
 static uint32_t left;  /* bytes that can still be erased or written before the supply fails */
-static bool scattered; /* an erase that fails has been at all bytes at once */
-static bool one_sided; /* writes can make zeros only, as flash does */
+static bool scattered; /* a failing erase affects all bytes at once */
+static bool one_sided; /* writes can only clear bits, like flash */
 static uint64_t seed;
 
 static void start_flash(void) {
@@ -26,7 +25,7 @@ static void start_flash(void) {
     one_sided = true;
 }
 
-/* A byte on its way from `was` to `becomes`: some of its bits have arrived. */
+/* A byte changing from `was` to `becomes`: some of its bits have changed. */
 static uint8_t torn(uint8_t was, uint8_t becomes) {
     const uint8_t arrived = (uint8_t)draw_bits(&seed);
     return (uint8_t)((was & ~arrived) | (becomes & arrived));
@@ -101,7 +100,7 @@ static bool is_loaded(const payload *p) {
            (count <= 0 || memcmp(bytes + WH_STORE_HEAD_BYTES, p->bytes, (unsigned)count) == 0);
 }
 
-/* The record as the header of store.h has it, with a CRC of another making. */
+/* The record by the header of store.h, with another implementation of the CRC. */
 static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     uint8_t *to = flash[slot];
     uint32_t crc = 0xFFFFFFFFU;
@@ -123,7 +122,7 @@ static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     }
 }
 
-/* A new one, a second, and so on: each is what is loaded. */
+/* Several saves in a row: each loads back. */
 static void test_what_is_saved_is_loaded(void) {
     seed = 3;
     start_flash();
@@ -141,7 +140,7 @@ static void test_what_is_saved_is_loaded(void) {
     TEST_ASSERT_EQUAL_UINT32(301, sequence);
 }
 
-/* The supply fails at every byte that is erased or written: old or new, nothing else; and what is saved then is kept. */
+/* The supply fails at every erased or written byte: the old or new record loads, and the next save works. */
 static void test_torn_at_every_byte(void) {
     seed = 4;
     unsigned old = 0;
@@ -165,7 +164,7 @@ static void test_torn_at_every_byte(void) {
                 left = FOREVER;
                 const bool is_new = is_loaded(&after);
                 TEST_ASSERT_TRUE(is_new || is_loaded(&before));
-                TEST_ASSERT_TRUE(is_new || !said); /* what it says is there, is */
+                TEST_ASSERT_TRUE(is_new || !said); /* a successful save is there */
                 TEST_ASSERT_TRUE(at <= all || said);
                 old += is_new ? 0U : 1U;
                 new += is_new ? 1U : 0U;
@@ -177,7 +176,7 @@ static void test_torn_at_every_byte(void) {
     TEST_ASSERT_TRUE(old > 5000U && new >= 8U);
 }
 
-/* A bit of the newest that has turned: the one before counts. */
+/* A flipped bit in the newest record: the one before counts. */
 static void test_every_bit(void) {
     seed = 5;
     for (unsigned round = 0; round < 4U; round++) {
@@ -202,7 +201,7 @@ static void test_every_bit(void) {
 
 static uint32_t after_it(uint32_t sequence) { return sequence == UINT32_MAX ? 1U : sequence + 1U; }
 
-/* Sequences wrap; and the format is the one that is written down. */
+/* Sequence numbers wrap, and the format is the documented one. */
 static void test_sequences_wrap(void) {
     static const uint32_t first[] = {1U, 0x7FFFFFFFU, 0xFFFFFFFEU, 0xFFFFFFFFU};
     seed = 6;
@@ -225,7 +224,7 @@ static void test_sequences_wrap(void) {
     }
 }
 
-/* Memory that fails is said to have, and another format is none. */
+/* Failing memory is reported, and another format is refused. */
 static void test_failing_memory(void) {
     seed = 7;
     start_flash();

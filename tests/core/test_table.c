@@ -1,8 +1,8 @@
-/* test_table.c: functions that stand in tables, a polynomial a cell: looked up at any phase they are those polynomials, and
- * hold what they were made of, as far as a cell's width lets them. Whole tables and, where the build has those, halves. */
+/* test_table.c: tabulated functions, one polynomial per cell. A lookup at any phase gives the polynomial, and the function to
+ * the accuracy of a cell's width. Whole tables and, if the build has them, half tables. */
 #include "core/angle.h"
 #if __STDC_HOSTED__ && !WH_DOUBLE
-#define WH_TABLE_FOLD 1 /* as boards without an FPU have it; else as the board has it */
+#define WH_TABLE_FOLD 1 /* as on boards without an FPU; else the board's own */
 #endif
 #include "core/step/table.h"
 
@@ -49,7 +49,7 @@ static void fill(unsigned bits) {
     }
 }
 
-/* What is left out of the series, at half a cell: the next term, and rounding. */
+/* The truncation error at half a cell: the next term, and round-off. */
 static void check_at(unsigned bits, uint32_t units) {
     const wh_real half = TWO_PI / (wh_real)(2U << bits);
     wh_real s;
@@ -65,7 +65,7 @@ static void check_at(unsigned bits, uint32_t units) {
                      ((units + (UINT32_C(1) << (31U - bits))) >> (32U - bits)) % (1U << bits));
     TEST_ASSERT_TRUE(WH_ABS(sine - s) < half * half * half * half / WH_R(23.9) + rounding);
     TEST_ASSERT_TRUE(WH_ABS(cosine - c) < half * half / WH_R(1.99) + rounding);
-    /* by halves: an even function as it stands, an odd one turned back */
+    /* half tables: an even function as it is, an odd one mirrored */
     const wh_real *from_half = wh_table_half(cells, bits, WIDTH, phase_of(units), &y, &back);
     TEST_ASSERT_TRUE((unsigned)(from_half - cells) < WH_TABLE_HALF(bits) * WIDTH);
     const wh_real odd = wh_table_back(wh_table_cubic(from_half, y), back);
@@ -82,18 +82,19 @@ static void test_tables_hold_what_they_were_made_of(void) {
         for (unsigned i = 0; i < CASES; i++) {
             check_at(bits, (uint32_t)(draw_bits(&seed) << 16 ^ draw_bits(&seed)));
         }
-        for (uint32_t i = 0; i < 2U << bits; i++) { /* middles and ends of cells, and beside them */
+        for (uint32_t i = 0; i < 2U << bits;
+             i++) { /* middles and ends of cells, and their neighbours */
             const uint32_t edge = i << (31U - bits);
             check_at(bits, edge + 3U);
             check_at(bits, edge - 3U);
-            if (i % 2U == 0 || !WH_DOUBLE) { /* in double, rounding decides at an end */
+            if (i % 2U == 0 || !WH_DOUBLE) { /* in double, round-off decides at an end */
                 check_at(bits, edge);
             }
         }
     }
 }
 
-/* Cells that are parts of the 128 which have constants of their own: the number and the way from the middle alone. */
+/* Cell counts that divide the 128 with constants: the cell number and the distance from the middle only. */
 static void test_finer_cells_are_parts_of_coarse_ones(void) {
     static const wh_real none[1] = {WH_R(0.0)};
     uint64_t seed = 7;
@@ -116,7 +117,7 @@ static void test_finer_cells_are_parts_of_coarse_ones(void) {
 }
 
 #if WH_DOUBLE
-/* Beyond what its constants are exact for a phase has no value. */
+/* Beyond the exact range of its constants a phase has no value. */
 static void test_phases_too_large_have_none(void) {
     const double far[] = {5.1e8, -5.1e8, 1e300, __builtin_inf(), __builtin_nan("")};
     fill(WH_TABLE_BITS_LEAST);

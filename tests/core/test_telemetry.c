@@ -1,5 +1,5 @@
-/* test_telemetry.c: frames beside the console's text: all that was seen is in them or counted, answers come through, and the
- * rig does what it does without. */
+/* test_telemetry.c: frames beside the console's text: all events are in them or counted, answers come through, and the rig acts
+ * as without telemetry. */
 #include <string.h>
 
 #include "core/cobs.h"
@@ -19,7 +19,7 @@ static void test_sum(void) {
     TEST_ASSERT_EQUAL_HEX16(0x29B1, wh_crc16(wh_crc16(WH_CRC16_START, digits, 4), digits + 4, 5));
 }
 
-/* Bytes of every kind there and, by another reader, back. */
+/* Bytes of every kind are coded and, by another decoder, restored. */
 static void test_coding(void) {
     bench.seed = 40;
     uint8_t bytes[WIRE_CHUNK];
@@ -80,7 +80,7 @@ static void test_off_at_first_and_after(void) {
     TEST_ASSERT_EQUAL_UINT(frames, bench.got.frames);
 }
 
-/* Every sample and pulse, whatever comes of the converter, at each rate and delay, of 12 to 24 bits. */
+/* Every sample and pulse, whatever the converter's status, at each rate and delay, of 12 to 24 bits. */
 static void test_all_that_was_seen(void) {
     static const char *const rates[] = {"tel rate 500", "tel rate 250", "tel rate 100",
                                         "tel rate 20"};
@@ -107,7 +107,7 @@ static void test_all_that_was_seen(void) {
     }
 }
 
-/* The line of 115,200 baud carries it, with room; a slow one does not, and every loss is counted; answers come. */
+/* A 115,200 baud line carries it with room to spare. A slow one does not, and every loss is counted; answers come. */
 static void test_losses_are_counted(void) {
     static const unsigned baud[] = {115200, 57600, 38400, 19200, 9600, 4800};
     bench.seed = 43;
@@ -125,7 +125,7 @@ static void test_losses_are_counted(void) {
             tel_period(true, credit / STEPS_PER_S);
             credit %= STEPS_PER_S;
         }
-        for (unsigned i = 0; i < 20U; i++) { /* what is told last is known when all else was */
+        for (unsigned i = 0; i < 20U; i++) { /* the last report is complete once all others are */
             tel_period(true, FREE);
         }
         TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
@@ -141,7 +141,7 @@ static void test_losses_are_counted(void) {
     }
 }
 
-/* A pulse and an end in each step, more than a line of 115,200 baud takes: ends give way, loads do not. */
+/* A pulse and an end in each step, more than a 115,200 baud line takes: ends are dropped, loads are not. */
 static void test_ends_give_way(void) {
     bench.seed = 47;
     tel_begin();
@@ -158,8 +158,7 @@ static void test_ends_give_way(void) {
     TEST_ASSERT_TRUE(bench.tel.dropped[WH_TEL_EVENT] > 1000U);
 }
 
-/* Bytes that the line breaks, loses or invents: each frame is as it was sent or is missed, and text is whole again behind
- * the next zero. */
+/* Bytes that the line breaks, loses or invents: each frame is as sent or missing, and text is whole after the next zero. */
 static void test_a_bad_line(void) {
     bench.seed = 44;
     tel_begin();
@@ -179,7 +178,7 @@ static void test_a_bad_line(void) {
                 (uint8_t)(fate == 0 ? (uint8_t)bytes[k] ^ 1U << draw_one_of(&bench.seed, 8)
                                     : (uint8_t)bytes[k]);
             if (fate != 1U && wire_take(&bench.heard, byte, &frame)) {
-                tel_hear_frame(&frame); /* which finds its samples */
+                tel_hear_frame(&frame); /* its samples are found */
             }
             if (fate == 2U && wire_take(&bench.heard, (uint8_t)draw_bits(&bench.seed), &frame)) {
                 tel_hear_frame(&frame);
@@ -190,7 +189,7 @@ static void test_a_bad_line(void) {
     TEST_ASSERT_EQUAL_UINT(0, bench.got.dropped);
 }
 
-/* Somebody reads, goes, comes back, types; the rig beside it that nobody listens to gives the same commands. */
+/* A reader comes, goes, returns and types. A second rig without a reader gives the same commands. */
 static void test_control_is_undisturbed(void) {
     bench.seed = 45;
     tel_begin();
@@ -223,7 +222,7 @@ static void test_control_is_undisturbed(void) {
     TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
 }
 
-/* States, speed and drive as the rig has them. */
+/* States, speed and drive equal the rig's. */
 static void test_states_are_told(void) {
     bench.seed = 46;
     tel_begin();

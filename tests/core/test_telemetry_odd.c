@@ -1,5 +1,5 @@
-/* test_telemetry_odd.c: telemetry of what is none, too large or out of step: frames and plotters' lines that have no room
- * for it, cells without a period. */
+/* test_telemetry_odd.c: telemetry of invalid, too large or untimely values: frames and plotter lines without room for them, and
+ * cells without a period. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static wh_real draw_size(void) {
                                          : size;
 }
 
-/* As telemetry.h says: 65535 for none, else within 0 and 65534. */
+/* As in telemetry.h: 65535 for none, else 0 to 65534. */
 static unsigned counted(wh_real number, float each) {
     const float counts = (float)number / each;
     return counts != counts     ? 65535U
@@ -96,7 +96,7 @@ static void test_frames_of_odd_numbers(void) {
     }
 }
 
-/* A line for each sample that is one, with the speed where it is known; what has no room is counted. */
+/* A line for each valid sample, with the speed if it is known; lines without room are counted. */
 static void test_lines_of_odd_numbers(void) {
     bench.seed = 62;
     unsigned none = 0;
@@ -154,7 +154,7 @@ static void check_answer(const char *line, const char *answer) {
     memset(&bench.heard, 0, sizeof bench.heard);
 }
 
-/* A board without a cell has no rate; and what is told while telemetry is on. */
+/* A board without a cell has no rate. Also checks the reports while telemetry is on. */
 static void test_rates_and_schemas(void) {
     tel_begin();
     bench.got.blind = true;

@@ -1,4 +1,4 @@
-/* test_telemetry_ring.c: telemetry's ring has the steps round its trigger; what plotters get; answers and refusals. */
+/* test_telemetry_ring.c: telemetry's ring of steps around its trigger, plotter lines, answers and refusals. */
 #include <string.h>
 
 #include "draw.h"
@@ -12,7 +12,7 @@ void suite_telemetry_ring(void);
 static wh_captured truth[4096];
 static uint32_t truth_ticks[4096];
 
-/* Steps, each written down; returns at which a pulse or a trip came, or -1. */
+/* Records steps; returns the one with a pulse or a trip, or -1. */
 static void note_period(unsigned at, unsigned bytes) {
     tel_period(true, bytes);
     truth_ticks[at] = bench.seen.inputs.now_ticks;
@@ -25,7 +25,7 @@ static void note_period(unsigned at, unsigned bytes) {
                       .stage = (uint8_t)wh_rig_stage(&bench.even.rig)};
 }
 
-/* What is read back is what was, in its order, the trigger where it belongs. */
+/* The read-back has all steps in order, with the trigger in its place. */
 static void check_read(unsigned end, bool by_pulse) {
     unsigned row = 0;
     unsigned from = end;

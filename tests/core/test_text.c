@@ -90,8 +90,7 @@ static void test_fixed_extremes(void) {
     expect("nan");
 }
 
-/* More decimals than there are to be had are as many as there are; a little more than half is no half; what lies below 2^-160
- * is nothing. */
+/* Excess decimals are cut to the available ones. Slightly more than a half is not a tie. Values below 2^-160 are zero. */
 static void test_fixed_beyond_its_room(void) {
     expect_fixed("0.500000000000000000", WH_R(0.5), WH_TEXT_DECIMALS_MAX + 1U);
     expect_fixed("-3.250000000000000000", WH_R(-3.25), 1000);
@@ -105,8 +104,8 @@ static void test_fixed_beyond_its_room(void) {
 #endif
 }
 
-/* A minus sign stands before digits of which one is not 0, and before no others: values about half of the last digit, by
- * factors from 2^-30 to 2^4, a tie and its neighbours. */
+/* A minus sign appears only before a nonzero digit. Values are about half of the last digit, by factors from 2^-30 to 2^4, a
+ * tie and its neighbours. */
 static void test_fixed_sign(void) {
     uint32_t random = 1;
     unsigned bare = 0;
@@ -155,7 +154,7 @@ static void test_full_buffer_keeps_its_bounds(void) {
 }
 
 #if __STDC_HOSTED__
-/* 200,000 mixed numbers against the C library's own conversion. */
+/* 200,000 mixed numbers against the C library's conversion. */
 static void test_fixed_agrees_with_printf(void) {
     uint64_t random = UINT64_C(0x9e3779b97f4a7c15);
     unsigned compared = 0;

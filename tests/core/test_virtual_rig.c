@@ -1,13 +1,13 @@
 /* test_virtual_rig.c: the whole rig on its model: the dissertation's measurement, and its failures.
  *
- * The virtual rig computes in single precision only, so the double build has just the formula. */
+ * The virtual rig computes in single precision only, so the double build tests the formula alone. */
 #include "on_plant.h"
 
 #include "unity.h"
 
 void suite_virtual_rig(void);
 
-/* I.3.2.1's formula in the units it is written in, weights over g, inches: 9.44 lbf at 330 rpm. */
+/* I.3.2.1's formula in its own units, weights over g, inches: 9.44 lbf at 330 rpm. */
 static void test_mass_moment_gives_the_dissertations_force(void) {
     const wh_real omega = WH_R(5.5) * WH_RIG_TWO_PI;
     const wh_real g_inps2 = WH_R(386.0886);
@@ -24,9 +24,8 @@ static void test_mass_moment_gives_the_dissertations_force(void) {
 
 static on_plant on;
 
-/* The run is done and measured S <w^2>: within 2 rpm, and within 0.1 % of what the mean speed and the speed's swing,
- * here from the model's own inertia, make of it; the phase within 0.1 degrees of 0, which it is for every rotor that
- * comes round at the speed it went with (docs/rig.md). */
+/* The run is done and measured S <w^2> within 2 rpm. It is within 0.1 % of the value from the mean speed and the speed's swing,
+ * by the model's inertia. The phase is 0 within 0.1 degrees, as for every rotor that returns at its speed (docs/rig.md). */
 static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(plant_is_done(&on));
     const wh_measured *force = &on.rig.result.force;
@@ -35,7 +34,7 @@ static void check_measurement(float target_rpm) {
         WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
     const float wanted_N = WH_RIG_MASS_MOMENT_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
     TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
-    /* the speed itself, the damping's part of the swing */
+    /* the speed, and the damping's part of the swing */
     TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);
     TEST_ASSERT_FLOAT_WITHIN(0.001f * wanted_N, force->expected_N, force->amplitude_N);
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
@@ -51,14 +50,14 @@ static void test_measurement_of_the_force(void) {
     const wh_rig_result *result = &on.rig.result;
     TEST_ASSERT_EQUAL_UINT32(10, result->force.turns);
     TEST_ASSERT_EQUAL_UINT32(0, result->lost + result->rejected);
-    /* what moves in circles has no mean acceleration: the tare must come out */
+    /* circular motion has no mean acceleration: the tare must cancel */
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->force.mean_N);
     /* 12 lb of frame and 0.604 lb of arms and discs */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 12.604f * 4.4482216f, result->tare_N);
 }
 
-/* The cell's own noise (cell_noise of the model has 0.07 N), and far more: at the tare, while the guard watches, and in
- * what is measured, which says how much worse it is and is no further off than that, by a good margin here. */
+/* The cell's own noise (cell_noise of the model has 0.07 N), and far more: at the tare, under the guard, and in the
+ * measurement. The measurement's interval grows with it and contains the error by a good margin. */
 static void test_a_noisy_cell_is_no_fault(void) {
     static const float noises_N[] = {0.07f, 0.5f, 1.0f, 3.0f};
     float before_N = 0.0f;
@@ -79,8 +78,8 @@ static void test_a_noisy_cell_is_no_fault(void) {
     }
 }
 
-/* Gravity speeds the arms up on the way down: both peaks lie 2 S^2 g / I = 4.2 N off the formula,
- * towards the bottom. Sensor 1's spike sits on the upper peak, sensor 2's near the zero. */
+/* Gravity speeds the arms up on the way down: both peaks lie 2 S^2 g / I = 4.2 N off the formula, towards the bottom. Sensor
+ * 1's spike sits on the upper peak, sensor 2's near the zero. */
 static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     const wh_rig_result *result = &on.rig.result;
     TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
@@ -89,8 +88,7 @@ static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_mark_N[1]);
 }
 
-/* Once settled, each pulse stands where the rotor is: the phase at the step after it, less what
- * the rotor turned since. */
+/* Once settled, each pulse's position is the rotor's: the phase at the next step minus the turn since. */
 static void test_pulses_stand_at_their_angles(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RECORD);
@@ -143,21 +141,20 @@ static void test_lost_pulses_do_not_spoil_the_run(void) {
     }
 }
 
-/* Also at both ends of the range of set-points. */
 static void test_slowest_and_fastest_set_points_run(void) {
     static const wh_real targets_rpm[] = {WH_RIG_TARGET_MIN_RPM, WH_RIG_TARGET_MAX_RPM};
     for (unsigned i = 0; i < 2; i++) {
         plant_begin(&on, targets_rpm[i]);
         plant_go_on_to_the_end(&on);
         check_measurement(targets_rpm[i]);
-        /* and take the voltage that the supply is asked for */
+        /* and takes the voltage of the supply check */
         TEST_ASSERT_FLOAT_WITHIN(0.5f, wh_run_needs_V(&on.config.run, targets_rpm[i] * RPM),
                                  on.rig.result.volts);
         plant_check_stopped(&on);
     }
 }
 
-/* The controller's data sheet and the model are written down apart: they must say the same. */
+/* The controller's constants and the model are separate: they must agree. */
 static void test_data_sheet_agrees_with_the_model(void) {
     wh_real output[8];
     wh_state state;
@@ -168,7 +165,7 @@ static void test_data_sheet_agrees_with_the_model(void) {
     rig_fixed.observe(&rig_fixed, &state, output);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_MASS_MOMENT_KGM, output[2]);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]); /* mass on the axis: all of it shows */
-    /* level, the force is S times what the speed changes by: gravity, and the damping with the speed */
+    /* level, the force is S times the change of speed: gravity, and the damping with the speed */
     state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
     state.real[0] = 0.0f;
     state.input[0] = 0.0f;

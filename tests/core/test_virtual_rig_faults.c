@@ -1,11 +1,11 @@
-/* test_virtual_rig_faults.c: the whole rig on its model, and what fails of it. */
+/* test_virtual_rig_faults.c: the whole rig on its model, with failures. */
 #include "on_plant.h"
 
 #include "unity.h"
 
 void suite_virtual_rig_faults(void);
 
-#define RUNAWAY_RPM 470.0f /* no faster, settled or in the record */
+#define RUNAWAY_RPM 470.0f /* highest speed, settled or in the record */
 
 /* docs/rig.md: the shaft's safety factor is 2 at 416 rpm and falls with the square. */
 static void test_a_runaway_does_not_break_the_shaft(void) {
@@ -17,7 +17,7 @@ static void test_a_runaway_does_not_break_the_shaft(void) {
 
 static on_plant on;
 
-/* With the limit taken away: the slowest set-point has a reserve, and is no mere caution. */
+/* Without the limit: the slowest set-point has a reserve and is not mere caution. */
 static void test_slower_set_points_end_at_the_top(void) {
     static const float targets_rpm[] = {100.0f, 140.0f, 150.0f};
     for (unsigned i = 0; i < 3; i++) {
@@ -52,7 +52,7 @@ static void test_dead_sensors_stop_the_rig(void) {
     }
 }
 
-/* Once a pulse is overdue the speed is hearsay: the voltage stands still, though the ramp goes on. */
+/* Once a pulse is overdue the speed is unknown: the voltage freezes, though the ramp goes on. */
 static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RAMP);
@@ -85,9 +85,8 @@ static void test_stuck_load_cell_stops_the_rig(void) {
     plant_check_stopped(&on);
 }
 
-/* A drive stage stuck at full supply obeys no voltage: the guard trips, the enable cuts. How fast the
- * rotor gets depends on where in a turn it happens. docs/rig.md: the shaft's safety factor is 2 at
- * 416 rpm and falls with the square, to 1.57 at 470 rpm. */
+/* A drive stage stuck at full supply ignores the voltage: the guard trips, the enable cuts. The rotor's speed depends on the
+ * angle at the fault. docs/rig.md: the shaft's safety factor is 2 at 416 rpm and falls with the square, to 1.57 at 470 rpm. */
 static void test_runaway_is_caught(void) {
     for (unsigned i = 0; i < 10U; i++) {
         const bool recording = i % 2U == 1;
@@ -110,8 +109,7 @@ static void test_runaway_is_caught(void) {
     }
 }
 
-/* A controller that falls silent: within 10 control steps the motor is cut, and stays cut. */
-/* Off by an interrupt, in each phase that drives: no command of the run drives again, and it ends for a reason. */
+/* Off by an interrupt, in each driving phase: no later command drives, and the run ends with a reason. */
 static void test_off_from_an_interrupt_stays(void) {
     for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         plant_begin(&on, 330.0f);
@@ -130,7 +128,7 @@ static void test_off_from_an_interrupt_stays(void) {
     }
 }
 
-/* Stop, for less than a control step, in each phase that drives: the drive has cut itself, and the run ends as by stop. */
+/* Stop for less than a control step, in each driving phase: the stage switches itself off, and the run ends as by stop. */
 static void test_a_short_stop_is_seen(void) {
     for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         plant_begin(&on, 330.0f);

@@ -1,5 +1,5 @@
-/* test_virtual_rig_halts.c: the rig on its model, from each state: stop pressed, the processor reset, the host lost. What was
- * halted does not move by itself. */
+/* test_virtual_rig_halts.c: the rig on its model, from each state: stop pressed, processor reset, host lost. A halted rig does
+ * not move by itself. */
 #include "on_plant.h"
 
 #include <stddef.h>
@@ -16,7 +16,7 @@ static on_plant stood;
 static hal_virtual_rig stood_rig;
 static uint64_t seed;
 
-/* --- where it stands ------------------------------------------------------------------------------- */
+/* --- states ------------------------------------------------------------------------------------------- */
 
 enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* then the phases from the tare on */
 #define PLACES ((unsigned)AT_PHASES + (unsigned)WH_PHASES - (unsigned)WH_PHASE_TARE)
@@ -34,7 +34,7 @@ static void stand_at(unsigned place) {
     stood_rig = *hal_virtual_rig_instance();
 }
 
-/* There again, and some steps on. */
+/* Brings the rig there again, and some steps on. */
 static void stand_again(void) {
     on = stood;
     *hal_virtual_rig_instance() = stood_rig;
@@ -48,7 +48,7 @@ static void check_off(void) {
     TEST_ASSERT_TRUE(on.command.way != WH_MOTOR_DRIVES && !(rig->volts > 0.0f));
 }
 
-/* It does not start by itself, nor by orders that are out of turn. */
+/* It does not start by itself, nor by orders out of sequence. */
 static void check_stays_off(unsigned steps, wh_life state) {
     for (unsigned i = 0; i < steps; i++) {
         if (i % 100U == 7) {
@@ -67,7 +67,7 @@ static void check_stays_off(unsigned steps, wh_life state) {
 
 /* --- stop -------------------------------------------------------------------------------------------- */
 
-/* Off in the very step that follows, wherever it stands; and nothing starts while it is pressed or afterwards. */
+/* Off in the next step, in any state; no start while it is pressed or afterwards. */
 static void test_stop_in_every_state(void) {
     seed = 21;
     for (unsigned place = 0; place < PLACES; place++) {
@@ -93,8 +93,8 @@ static void test_stop_in_every_state(void) {
     }
 }
 
-/* A stage that is stuck at a share of the supply, in each state in which the motor must not drive: the enable is off within
- * a second and a half, and the trip has a name where the rotor turns. */
+/* A stage stuck at a share of the supply, in each state with the motor off. The enable is off within 1.5 s, and the trip names
+ * the cause if the rotor turns. */
 static void test_a_stuck_stage_in_every_off_state(void) {
     seed = 25;
     for (unsigned i = 0; i < draw_cases(24); i++) {
@@ -117,7 +117,6 @@ static void test_a_stuck_stage_in_every_off_state(void) {
     }
 }
 
-/* A trip stays one. */
 static void test_stop_of_a_tripped_rig(void) {
     stand_at(AT_PHASES + 3);
     hal_virtual_rig_instance()->supply_V = 9.0f;
@@ -133,7 +132,8 @@ static void test_stop_of_a_tripped_rig(void) {
 
 /* --- the supply ------------------------------------------------------------------------------------------ */
 
-/* Beyond its range, or none: `arm` is refused, and what is armed or runs trips in the next step, with the reading in its record. */
+/* Supply out of range or missing: `arm` is refused. An armed or running rig trips in the next step with the reading in its
+ * record. */
 static void test_supplies_out_of_range(void) {
     seed = 24;
     for (unsigned place = 0; place < PLACES; place++) {
@@ -164,7 +164,7 @@ static void test_supplies_out_of_range(void) {
 
 typedef enum breakage { NOTHING, BLIND, DEAF, WEAK, SILENT, BREAKAGES } breakage;
 
-/* Something that trips a rig in a run, and perhaps the trip. Returns what is latched. */
+/* A cause of a trip in a run, and perhaps the trip. Returns the latched one. */
 static wh_trip break_something(breakage what) {
     hal_virtual_rig *rig = hal_virtual_rig_instance();
     switch (what) {
@@ -213,7 +213,7 @@ static void check_reset(wh_trip trip) {
     check_stays_off(300, tripped ? WH_LIFE_TRIPPED : WH_LIFE_IDLE);
 }
 
-/* At any instant, with a trip latched or none: off, idle or tripped as before, and so again after the next. */
+/* At any instant, with a trip latched or not: off, then idle or tripped as before, and the same after the next reset. */
 static void test_resets_in_every_state(void) {
     unsigned latched = 0;
     unsigned none = 0;
@@ -232,7 +232,7 @@ static void test_resets_in_every_state(void) {
     TEST_ASSERT_TRUE(latched >= 15U && none >= PLACES);
 }
 
-/* What was cleared is not found again, nor what a power-on cannot know; and `clear` never arms. */
+/* A cleared trip does not return, nor one from before a power-on; `clear` never arms. */
 static void test_what_is_cleared_is_forgotten(void) {
     stand_at(AT_PHASES + 1);
     seed = 23;
@@ -281,7 +281,7 @@ static void test_a_lost_host_in_every_phase(void) {
 
 #endif
 
-/* Every trip there is, from its bytes: latched with all that is known of it, and `arm` is refused by its name. */
+/* Every trip, from its bytes: latched with all its data, and `arm` is refused with its name. */
 static void test_a_record_is_latched_from_its_bytes(void) {
     static const wh_trip trips[] = {
 #define TRIP(name, number, words) name,

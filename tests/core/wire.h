@@ -1,5 +1,5 @@
-/* wire.h: a reader of the station's line for tests, of another making than the core's: text here, frames there. It was
- * written from the words at the head of core/station/telemetry.h; sums are taken bit by bit. */
+/* wire.h: the tests' own decoder of the station's line: text and frames. It follows the text at the head of
+ * core/station/telemetry.h; its checksums work bit by bit. */
 #ifndef TESTS_CORE_WIRE_H
 #define TESTS_CORE_WIRE_H
 
@@ -18,12 +18,12 @@ typedef struct wire_frame {
     unsigned count;
 } wire_frame;
 
-/* All zeros: nothing heard. */
+/* All zeros: no input yet. */
 typedef struct wire {
     uint8_t chunk[WIRE_CHUNK]; /* since the last zero */
     unsigned count;
-    bool framed;               /* it is no text, */
-    bool text_next;            /* or it is */
+    bool framed;               /* not text, */
+    bool text_next;            /* or text */
     uint8_t whole[WIRE_CHUNK]; /* the last frame, decoded */
     char text[WIRE_TEXT];
     unsigned text_count;
@@ -50,7 +50,7 @@ static inline bool wire_sum_is_right(const uint8_t *bytes, unsigned count) {
     return count > 2U && rest == wire_number(bytes + count - 2U, 2);
 }
 
-/* A count-down to the next code: a code of 255 stands for no zero. */
+/* Counts down to the next code byte: a code of 255 has no zero. */
 static inline unsigned wire_without_codes(const wire *w, uint8_t *to) {
     unsigned left = 1;
     unsigned length = 0;
@@ -87,13 +87,13 @@ static inline void wire_add(wire *w, uint8_t byte) {
     }
     if (w->text_next && w->count > 0) {
         wire_text(w, (char)byte);
-        w->count = 2; /* it is no frame's */
+        w->count = 2; /* not a frame's */
     } else if (w->count < WIRE_CHUNK) {
         w->chunk[w->count++] = byte;
     }
 }
 
-/* True when this byte ends a good frame: *frame. */
+/* True if this byte ends a good frame: *frame. */
 static inline bool wire_take(wire *w, uint8_t byte, wire_frame *frame) {
     if (byte != 0) {
         wire_add(w, byte);
