@@ -1,5 +1,5 @@
 /* f405_plant.c: a plant (hal/virtual) inside the flashed firmware: rotor, slot sensors, load cell, supply and stop. An emulated
- * STM32F405 has none of them. The drivers of clock, console, motor, watchdog and memory are the board's. The linker routes the
+ * STM32F405 lacks them. The drivers of clock, console, motor, watchdog and memory are the board's. The linker routes the
  * motor's commands to the plant (--wrap). The rotor keeps turning through a reset.
  *
  * Symbols to set from outside: */
