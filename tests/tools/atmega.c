@@ -29,8 +29,6 @@ bool runs(unsigned rpm, unsigned ms) {
     return asks("arm", "OK arm") && asks(order, "OK start") && (mega_run(ms) || no("it ended"));
 }
 
-/* --- the console -------------------------------------------------------------------------------- */
-
 static bool boots(unsigned times) {
     static const struct {
         const char *order;
@@ -62,8 +60,6 @@ static bool boots(unsigned times) {
     return asks("selftest", "OK selftest=good arithmetic=good clock=good") && asks("arm", "OK") &&
            asks("start 100", "ERR 14 ") && asks("stop", "OK");
 }
-
-/* --- runs ------------------------------------------------------------------------------------------ */
 
 static double number_of(const char *name) {
     const char *at = strstr(answer, name);
@@ -115,8 +111,6 @@ static bool measures(unsigned rpm, bool busy) {
 
 static bool is_given(unsigned rpm) { return measures(rpm, false); }
 static bool is_busy(unsigned rpm) { return measures(rpm, true); }
-
-/* --- the order of what is stored ---------------------------------------------------------------- */
 
 #define SCRATCH 0x3E000U /* flash that no image uses */
 

@@ -166,8 +166,6 @@ bool all_resets(unsigned times) {
     return true;
 }
 
-/* --- settings ---------------------------------------------------------------------------------------- */
-
 #define TORN_MOST 1024U
 static uint8_t (
     *torn)[MEGA_EEPROM_BYTES]; /* the state just before a byte changes, with that byte corrupted */
@@ -181,7 +179,7 @@ static void tear(unsigned address) {
     }
 }
 
-/* Whatever byte was being written, the setting is the old or the new value. */
+/* For any byte being written the setting is the old or the new value. */
 static bool is_either(const char *old, const char *new, unsigned *news) {
     for (unsigned k = 0; k < torn_count; k++) {
         memcpy(mega_eeprom(), torn[k], MEGA_EEPROM_BYTES);

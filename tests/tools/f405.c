@@ -18,8 +18,6 @@
 #define SHIFT_STORM 4U /* 16 ns: still slower, but an outside storm is a storm inside */
 #define EXTI "/machine/unattached/device[0]/exti"
 
-/* --- the flashed image -------------------------------------------------------------------------- */
-
 static bool boots(unsigned times) {
     char line[300];
     (void)times;
@@ -100,8 +98,6 @@ static bool keeps_time(unsigned times) {
     }
     return true;
 }
-
-/* --- slot pulses through the interrupt ----------------------------------------------------------- */
 
 static unsigned told; /* edges since the last query */
 

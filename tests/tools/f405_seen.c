@@ -57,7 +57,6 @@ bool hear(const char *begin, char *line, unsigned room, unsigned ms) {
     return no("only other lines than '%s...'", begin);
 }
 
-/* Discards earlier output. */
 static bool answered(const char *order, char *line, unsigned room, unsigned ms) {
     char typed[500];
     while (emulated_hear(&board, line, room, 0)) {

@@ -102,7 +102,6 @@ static bool is_off_after(uint64_t mark, bool faulted) {
 
 typedef enum fault_kind { CRYSTAL, STRAY, NO_FPU, MEMORY, FAULT_KINDS } fault_kind;
 
-/* Returns the report's start. */
 static const char *inject(fault_kind kind) {
     switch (kind) {
     case CRYSTAL: emulated_store(&board, ICSR, ICSR_NMI); return "NMI, PC ";

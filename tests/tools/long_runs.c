@@ -22,7 +22,7 @@ typedef struct subject {
     const char *what;
     double (*energy_J)(const motion *m);
     const char *text;
-    bool rates;    /* its accelerations use them; its centre of mass is fixed */
+    bool rates;    /* its accelerations use rates; its centre of mass is fixed */
     bool no_books; /* a coordinate is integrated from its momentum */
 } subject;
 

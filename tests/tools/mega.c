@@ -267,7 +267,7 @@ bool mega_step(void) {
     }
     if (avr->pc == 0) {
         mega_parts_start();
-        forget_times(); /* a reset, or what looks like one */
+        forget_times(); /* a reset, or an apparent one */
     }
     see_times();
     if (said_bytes > 0) {

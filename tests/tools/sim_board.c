@@ -70,7 +70,6 @@ void board_start(void) {
 
 void hal_console_write(const char *bytes, unsigned count) { (void)fwrite(bytes, 1, count, stderr); }
 
-/* Lets the reader take the pending bytes. */
 static void let_read(void) {
     const struct timespec nap = {.tv_nsec = 10000000L};
     int left = 1;
