@@ -75,7 +75,6 @@ static const uint8_t *function_row(unsigned port, unsigned pin, wire is) {
     return NULL;
 }
 
-/* The chip's own drive. */
 static chip_level chip_drives(unsigned port, unsigned pin) {
     chip_level level = CHIP_OPEN;
     if (mode_of(port, pin) == OUTPUT) {

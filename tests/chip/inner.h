@@ -35,7 +35,7 @@ typedef struct part {
     const char *name;
     uint32_t base;
     uint32_t bytes;
-    uint32_t clock_register; /* offset in RCC, 0: none */
+    uint32_t clock_register; /* offset in RCC, or 0 */
     uint32_t clock_bit;
     uint32_t (*load)(uint32_t offset);
     void (*store)(uint32_t offset, uint32_t value);
@@ -90,7 +90,7 @@ bool pin_input(unsigned port, unsigned pin);
 void pins_changed(void); /* called when an output changed */
 void pins_new(void);
 
-/* tim1.c: its drive of PB13 as TIM1_CH1N; CHIP_OPEN: none. */
+/* tim1.c: its drive of PB13 as TIM1_CH1N; CHIP_OPEN: no drive. */
 chip_level tim1_ch1n(void);
 void tim1_break_input(void);  /* called when the pin may have changed */
 void tim1_clock_failed(void); /* CSS */

@@ -93,7 +93,6 @@ chip_clocks chip_clocks_now(void) {
 }
 bool pll_is_on(void) { return (*reg(CR) & PLLON) != 0; }
 
-/* Invariants of every instant. */
 static void clocks_are_allowed(void) {
     const chip_clocks now = chip_clocks_now();
     if (now.core_Hz > (rcc.vos_1 ? 168000000U : 144000000U)) {

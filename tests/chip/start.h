@@ -9,7 +9,7 @@
 /* Clocks, variables, console and time base, the rig's hardware. *how: the result of hal_clock_start(), if it was reached. */
 chip_end chip_start(hal_start *how);
 
-/* Memory that survives a reset holds earlier data (boards/cortexm/kept.c), or none. */
+/* Memory that survives a reset holds earlier data (boards/cortexm/kept.c), or no data. */
 void chip_memory_keeps(bool anything);
 
 /* A suite's seed, not 0: the given one, or WHIRL_SEED. */
@@ -17,7 +17,7 @@ uint64_t chip_seed(uint64_t usual);
 
 /* Differences between the boards. */
 typedef struct chip_wiring {
-    const char *board; /* the program whose drivers' data are linked */
+    const char *board; /* the program with the linked drivers' data */
     uint32_t crystal_Hz;
     char slot_port[2];
     uint8_t slot_pin[2];

@@ -193,7 +193,7 @@ static void test_ends(void) {
     }
 }
 
-/* A sample whose window contains a clipped part of the force is not valid. */
+/* A sample with a window that contains a clipped part of the force is not valid. */
 static double clip_V;
 static double clipped(double s) {
     const double in_turn = fmod(s, 0.05);
@@ -278,7 +278,7 @@ static void test_core_that_stood(void) {
     }
 }
 
-/* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no sample follows, and none is wrong. The
+/* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no sample follows, right or wrong. The
  * controller sees a silent cell. A reset restores the samples. */
 static void test_overrun(void) {
     begin(110);

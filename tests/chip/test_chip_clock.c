@@ -129,7 +129,6 @@ static void test_behind_a_loader(void) {
     }
 }
 
-/* The chip starts from any reset as from the first. */
 static void test_from_every_reset(void) {
     static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG,
                                         CHIP_BY_SOFTWARE};

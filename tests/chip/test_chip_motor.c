@@ -197,8 +197,8 @@ static void test_fault_from_anywhere(void) {
     }
 }
 
-/* Stop or the drive stage's fault pulls the output low without software, until the next off, however short the pulse and
- * whatever the order. */
+/* Stop or the drive stage's fault pulls the output low without software, until the next off, however short the pulse, and
+ * for any order. */
 static void test_break(void) {
     scattered_state = chip_seed(6);
     chip_on(6);
@@ -302,7 +302,7 @@ static void test_voltage_alone(void) {
     }
 }
 
-/* An interrupt switches off after the store that sets a voltage: the output stays off, whatever voltages follow. */
+/* An interrupt switches off after the store that sets a voltage: the output stays off, for any voltages that follow. */
 static void off_behind(void) {
     chip_stored = NULL;
     hal_motor_off(way);

@@ -23,7 +23,6 @@ static void start_and_ask(void) {
     TEST_ASSERT_TRUE(length > 0 && length < sizeof words && words[length] == 0);
 }
 
-/* Each start reports its own cause, whichever came before. */
 static void test_causes(void) {
     static const hal_reset told[] = {[CHIP_BY_POWER] = HAL_RESET_POWER_ON,
                                      [CHIP_BY_DIP] = HAL_RESET_SUPPLY,
@@ -42,7 +41,6 @@ static void test_causes(void) {
     }
 }
 
-/* The text stays within its buffer. */
 static void test_words_are_cut(void) {
     chip_on(2);
     for (unsigned room = 1; room < 20; room++) {

@@ -91,7 +91,6 @@ static void test_slots(void) {
     }
 }
 
-/* A protected sector is reported by the memory. */
 static void test_refused(void) {
     chip_clocks_on(2);
     for (slot = 0; slot < 2; slot++) {

@@ -56,7 +56,6 @@ static void edge_now(unsigned sensor, hal_slot_end end) {
     made[made_count++].ticks = chip_tim2_count();
     chip_slot_is(sensor, end == HAL_SLOT_LEADING ? CHIP_HIGH : CHIP_LOW);
 }
-/* Schedules a pulse of this length. */
 static void pulse_at(uint64_t units, unsigned sensor, uint64_t high_us) {
     edge_at(units, sensor, HAL_SLOT_LEADING);
     edge_at(units + high_us * CHIP_UNITS_PER_US, sensor, HAL_SLOT_TRAILING);
@@ -135,7 +134,7 @@ static void test_together(void) {
     }
 }
 
-/* A pulse shorter than the filter is none, of either level. */
+/* A pulse shorter than the filter does not count, at either level. */
 static void test_spikes(void) {
     begin(12);
     for (unsigned i = 0; i < 200; i++) {
@@ -292,7 +291,6 @@ static void storm(uint64_t period_us, uint64_t ms) {
     if (period_us < 100U) {
         TEST_ASSERT_TRUE(overruns > overruns_before);
     }
-    /* Afterwards all works as before. */
     chip_pass_us(3000);
     run_take(ROOM);
     made_count = got_count = 0;
