@@ -70,7 +70,7 @@ wh_real bench_along(unsigned k, const wh_real *x); /* J_k x */
 wh_real bench_delassus(unsigned k, unsigned l);    /* J_k M^-1 J_l^T */
 wh_real bench_way(unsigned k, unsigned i);         /* (M^-1 J_k^T)_i */
 bool bench_near(wh_real value, wh_real wanted);    /* within the round-off of a few whole numbers */
-/* The members whose rows are in the span of earlier independent ones, as bits of places. Those with nonzero at[] are left out
+/* The members with rows in the span of earlier independent ones, as bits of places. Those with nonzero at[] are left out
  * (at may be NULL). */
 unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at);
 /* Solves the members' J M^-1 J^T lambda = wanted with zeros for `out` (bits of places): Gauss-Jordan with the largest pivot. */

@@ -24,7 +24,7 @@ static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
            draw_whole(seed, 1, 1023) / WH_R(1048576.0);
 }
 
-/* One of `count`, from zero; zero if there is none. */
+/* One of `count`, from zero; zero if `count` is zero. */
 static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
     return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;
 }

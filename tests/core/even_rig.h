@@ -1,7 +1,7 @@
 /* even_rig.h: the rig's controller on a made-up rotor that turns evenly, for the suites of its run and its life.
  *
  * The rotor stands still for the first tenth of a second of spin-up, then turns at EVEN_BEGIN_RPM until the loop is closed.
- * After that it follows the loop's set-point, whatever the voltage, each turn evenly, and stops with the motor. Its load is
+ * After that it follows the loop's set-point, at any voltage, each turn evenly, and stops with the motor. Its load is
  * EVEN_LOAD_N cos(theta), so the right answer is known. */
 #ifndef TESTS_CORE_EVEN_RIG_H
 #define TESTS_CORE_EVEN_RIG_H
@@ -27,7 +27,7 @@ typedef struct even_failure {
     unsigned lose_samples;
     bool swapped;                /* the sensors, from the start */
     bool jams;                   /* the rotor, permanently */
-    int shows;                   /* the cell: this many counts of square wave, whatever the load */
+    int shows;                   /* the cell: this many counts of square wave instead of the load */
     int creeps;                  /* drift, counts per second */
     wh_load_status status;       /* of all samples */
     bool adds[WH_SPEED_SENSORS]; /* one false pulse */
@@ -49,7 +49,7 @@ typedef struct even_rig {
     wh_rig_phase phase;   /* at the last step, */
     uint32_t phase_ticks; /* the start time of that step */
     bool turns;
-    wh_real hand_rpm; /* not 0: a hand turns it, whatever the motor does */
+    wh_real hand_rpm; /* not 0: a hand turns it, against any motor */
     uint32_t turn_ticks;
     uint32_t from_ticks;   /* the rotor's angle is 0: a turn begins */
     unsigned due_sensor;   /* the next pulse, */

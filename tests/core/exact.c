@@ -327,7 +327,7 @@ void exact_start(exact *e) {
 
 /* --- motion ------------------------------------------------------------------------------------------------- */
 
-/* The first time within `left` at which g + r t + a t^2 / 2 falls below zero after being above; `left` if there is none. */
+/* The first time within `left` at which g + r t + a t^2 / 2 falls below zero after being above; otherwise `left`. */
 static double falls(exact *e, double g, double r, double a, double left) {
     const double end = g + r * left + 0.5 * a * left * left;
     const int below = exact_sign(e, end);
@@ -366,7 +366,6 @@ static double falls(exact *e, double g, double r, double a, double left) {
     return r < 0.0 ? 2.0 * g / (root - r) : (-r - root) / a;
 }
 
-/* The time until the event of contact k. */
 static double waits(exact *e, unsigned k, const double *a, double left) {
     const double r = exact_along(k, e->v);
     switch ((wh_contact_kind)hand_now.contact[k].kind) {

@@ -55,8 +55,6 @@ double exact_coupled(unsigned k, unsigned l) {
     return exact_along(k, way);
 }
 
-/* --- all cases ---------------------------------------------------------------------------------------------- */
-
 bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double *lambda) {
     double a[HAND_CONTACTS][HAND_CONTACTS + 1];
     unsigned member[HAND_CONTACTS];
@@ -146,7 +144,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
             return beyond;
         }
     }
-    e->vague = true; /* dependent holds: none here */
+    e->vague = true; /* dependent holds: not here */
     return 0;
 }
 
@@ -157,8 +155,6 @@ bool exact_repeat(const exact *e, unsigned members) {
     (void)e;
     return !exact_reach(&p, members, x, lambda);
 }
-
-/* --- forces ------------------------------------------------------------------------------------------------- */
 
 unsigned exact_holding(const exact *e) {
     return exact_those(e, WH_STOP, WH_ACTIVE) | exact_those(e, WH_HOLD, WH_ACTIVE) |

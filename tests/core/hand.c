@@ -3,8 +3,6 @@
 
 #include "unity.h"
 
-/* --- the mechanism ------------------------------------------------------------------------------- */
-
 static void hand_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                        const wh_real *rate, const wh_real *input, wh_real *accel) {
     const hand *m = model;
@@ -149,8 +147,6 @@ static wh_status hand_advance(const wh_scene *scene, wh_state *state) {
     }
     return wh_step_counted(wh_step_contact(&m->system, scene->step_s, state), state);
 }
-
-/* --- its scenes ------------------------------------------------------------------------------------ */
 
 hand hand_now;
 static const uint8_t accounts[3] = {0, 1, 2};

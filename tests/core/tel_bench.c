@@ -25,8 +25,6 @@ void tel_type(const char *line) {
     wh_station_take(&bench.station, "\n", 1);
 }
 
-/* --- received ------------------------------------------------------------------------------------------ */
-
 /* The next item of this kind with this time and value; earlier ones were dropped. With uneven samples the times are exact to an
  * eighth of the sample distance. */
 static void find_sample(uint32_t ticks, int32_t value) {
@@ -103,8 +101,6 @@ void tel_hear(unsigned bytes) {
         bytes -= most;
     }
 }
-
-/* --- sampled ------------------------------------------------------------------------------------------- */
 
 static void draw_sample(bool evenly) {
     const wh_cell_config *cell = &bench.even.config.measure.cell;

@@ -26,9 +26,9 @@ typedef struct tel_counts {
     uint32_t dropped; /* as frames say */
     uint16_t before[WH_TEL_CHANNELS];
     unsigned loads;
-    bool broken; /* the line loses frames, too */
-    bool uneven; /* the line loses frames too */
-    bool blind;  /* samples come unevenly */
+    bool broken; /* the line loses frames too */
+    bool uneven; /* samples come unevenly */
+    bool blind;  /* frame contents are not checked */
     bool any[WH_TEL_CHANNELS];
     uint16_t next[WH_TEL_CHANNELS];
 } tel_counts;
@@ -37,9 +37,9 @@ typedef struct tel_bench {
     even_rig even;
     wh_station station;
     wh_tel tel;
-    wh_seen seen; /* frame contents are not checked */
+    wh_seen seen; /* in the last step */
     wire heard;
-    uint64_t seed; /* of what is drawn */
+    uint64_t seed; /* of the random draws */
     uint32_t cell_ticks;
     tel_truth samples;
     tel_truth pulses;

@@ -49,7 +49,6 @@ void suite_angle(void) {
 
 #define QUARTER (UINT32_C(1) << 30)
 
-/* --- moving ----------------------------------------------------------------------------------- */
 static void test_phase_moves(void) {
     wh_phase moved = 0;
     TEST_ASSERT_TRUE(wh_phase_move(QUARTER, 1000.9f, &moved));
@@ -102,8 +101,6 @@ static void test_phase_of_angle(void) {
     TEST_ASSERT_EQUAL_UINT32(QUARTER, wh_phase_of((INT64_C(1000) << 32) + QUARTER));
     TEST_ASSERT_EQUAL_UINT32(3 * QUARTER, wh_phase_of(-(int64_t)QUARTER));
 }
-
-/* --- radians ---------------------------------------------------------------------------------- */
 
 /* rad * 2^32/(2 pi), rounded, from the float's own bits: an 86-bit product. */
 static int64_t angle_reference(float rad) {
@@ -195,8 +192,6 @@ static void test_there_and_back(void) {
         TEST_ASSERT_INT64_WITHIN(1 + (size >> 24), angle, back);
     }
 }
-
-/* --- parts of angles --------------------------------------------------------------------------- */
 
 /* The low half above the point of angle * factor, rounded: 128 bits, added up bit by bit. */
 static uint32_t times_reference(int64_t angle, wh_factor factor) {

@@ -72,7 +72,6 @@ static void test_a_scene_of_other_arithmetic_is_refused(void) {
     }
 }
 
-/* --- the processor's modes, if the compiler can set them -------------------------------------------- */
 #if defined(__SSE2_MATH__)
 #define MODES 1
 static const uint32_t flushing[] = {0x8000U, 0x40U, 0x8040U}; /* results, arguments, both */

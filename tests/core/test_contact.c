@@ -5,8 +5,6 @@
 
 void suite_contact(void);
 
-/* --- stops ----------------------------------------------------------------------------------------- */
-
 /* From 1 m, restitution 1/2: the bounces end at 3 sqrt(2 h / g), and the ball then rests for a minute. */
 static void test_ball_comes_to_rest_and_stays(void) {
     const wh_real rest_s = WH_R(3.0) * WH_SQRT(WH_R(2.0) / HAND_G);
@@ -144,8 +142,6 @@ static void test_a_rest_at_the_last_moment_is_counted(void) {
     }
 }
 
-/* --- friction, holds, crossings -------------------------------------------------------------------- */
-
 /* 10 degrees: sin 0.17364818, cos 0.98480775. */
 static void build_block(wh_real coefficient) {
     const wh_real normal = HAND_G * WH_R(0.984807753);
@@ -219,8 +215,6 @@ static void test_crossing_sets_the_rate(void) {
     TEST_ASSERT_TRUE(hand_state.real[1] == WH_R(-0.5));
     TEST_ASSERT_TRUE(hand_near(hand_state.real[0], WH_R(0.05), 1e-12, 1e-6));
 }
-
-/* --- refusals -------------------------------------------------------------------------------------- */
 
 /* A load beyond all bounds: the step is refused, with state, modes and books unchanged. */
 static void test_a_refused_step_changes_nothing(void) {

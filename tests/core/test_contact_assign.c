@@ -97,7 +97,6 @@ static void test_what_cannot_be_held_is_blamed(void) {
     }
 }
 
-/* A crossing without assignments changes its side only. */
 static void test_nothing_to_set(void) {
     uint64_t seed = 311;
     for (unsigned round = 0; round < 40; round++) {

@@ -1,4 +1,4 @@
-/* test_contact_begin.c: a step's start (contact_step.h): whatever its memory held, all that the drawn contacts' laws read is
+/* test_contact_begin.c: a step's start (contact_step.h): with arbitrary memory, all that the drawn contacts' laws read is
  * set, and held places come from the state. */
 #include <stddef.h>
 

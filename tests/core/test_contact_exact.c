@@ -211,7 +211,6 @@ static void test_crossings_beside_what_touches(void) { run(16, 1, true, 1); }
 
 enum { CORRECTED = __STDC_HOSTED__ ? 500 : 25, AFTER = 40 };
 
-/* Results of a run. */
 typedef struct reached {
     wh_real real[4];
     wh_real held;

@@ -80,8 +80,6 @@ static void test_others_stay_where_they_are(void) {
     }
 }
 
-/* --- holds ------------------------------------------------------------------------------------------------ */
-
 /* Two bodies of 1 and 3 kg held at a distance from an input with a rate, drawn by a load. A jump of the input is corrected at
  * once by both bodies in the ratio of their masses; both continue as one body of 4 kg. */
 static void test_a_hold_takes_along_what_it_holds(void) {
@@ -105,8 +103,6 @@ static void test_a_hold_takes_along_what_it_holds(void) {
     TEST_ASSERT_TRUE(hand_near(hand_state.real[1], way - WH_R(0.25) * longer, 1e-13, 3e-6));
     hand_pushed = WH_R(0.0);
 }
-
-/* --- recorded accelerations ---------------------------------------------------------------------------------- */
 
 static wh_real shown(unsigned i) {
     wh_real accel[WH_COORDS];

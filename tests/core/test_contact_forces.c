@@ -13,7 +13,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_work(seed, some, w);
 }
 
-/* The others' effect on each other's accelerations. A redundant contact, or one at a limit, has none. */
+/* The others' effect on each other's accelerations. A redundant contact, or one at a limit, has no effect. */
 static void test_a_load_is_what_a_dense_solve_says(void) {
     uint64_t seed = 101;
     for (unsigned round = 0; round < ROUNDS; round++) {

@@ -128,7 +128,7 @@ static void test_who_merely_touches(void) {
     TEST_ASSERT_TRUE(loose > ROUNDS / 32);
 }
 
-/* Closing free stops whose gap is within the motion of the step's finest share. */
+/* Closing free stops with a gap within the motion of the step's finest share. */
 static void test_who_is_hit_in_the_same_moment(void) {
     uint64_t seed = 304;
     unsigned tied = 0;
@@ -278,7 +278,7 @@ static void test_a_squeeze_ends(void) {
         bench_state(&seed, &s);
         s.real[0] = x;
         bench_now.row[0][0] = WH_R(0.0);
-        bench_now.signal[0] = h; /* the gap: h - x^2/2, whose root is never exact */
+        bench_now.signal[0] = h; /* the gap: h - x^2/2, with an inexact root */
         bench_work(&seed, false, &w);
         w.mode[0] = WH_FREE;
         bench_now.moves = true;

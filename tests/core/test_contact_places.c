@@ -24,8 +24,6 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     }
 }
 
-/* --- motion --------------------------------------------------------------------------------------------------- */
-
 static void test_a_coordinate_moves_and_no_other(void) {
     uint64_t seed = 141;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -115,8 +113,6 @@ static void test_a_straight_way_is_summed_without_rounding(void) {
         TEST_ASSERT_TRUE((off < 0.0 ? -off : off) <= (WH_DOUBLE ? 0.0 : 3e-7) * size);
     }
 }
-
-/* --- constraint errors ---------------------------------------------------------------------------------------- */
 
 static bool slips(const wh_contact_work *w, unsigned k) {
     const wh_contact *c = &bench_now.contact[k];
@@ -233,8 +229,6 @@ static void test_how_far_a_stop_is_passed(void) {
         }
     }
 }
-
-/* --- into the state and out of it ---------------------------------------------------------------------------- */
 
 /* The step's end is written into the state completely, nothing after it is touched, and it reads back the same. */
 static void test_a_step_is_written_down_and_read_back(void) {

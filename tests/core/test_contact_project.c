@@ -17,7 +17,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *
             c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
         }
         bench_now.signal[2 * k] *= draw_one_in(seed, 3) ? WH_R(0.0) : WH_R(0.03125);
-        bench_now.first[k] /= 32; /* none turns by half a turn */
+        bench_now.first[k] /= 32; /* each turns by less than half a turn */
     }
     bench_work(seed, some, w);
     w->books = draw_one_in(seed, 2) ? books : NULL;
@@ -158,7 +158,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
     TEST_ASSERT_TRUE(coarse > ROUNDS / 8 && moves > ROUNDS / 8);
 }
 
-/* The first contact whose place is not a number is reported; the others are corrected without it. */
+/* The first contact with a NaN place is reported; the others are corrected without it. */
 static void test_a_place_that_is_no_number_is_told(void) {
     uint64_t seed = 162;
     unsigned told = 0;

@@ -18,8 +18,6 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 /* Round-off of numbers of size one. */
 #define SLACK (WH_DOUBLE ? WH_R(2e-12) : WH_R(2e-3))
 
-/* --- drawing ------------------------------------------------------------------------------------------------ */
-
 /* A row of whole numbers; its only coordinate, or -1. */
 static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
     row[0] = draw_whole(seed, -2, 2);
@@ -108,8 +106,6 @@ static void mirror(void) {
     }
 }
 
-/* --- invariants ---------------------------------------------------------------------------------------------- */
-
 static wh_real along(unsigned k, const wh_real *x) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < hand_now.n; i++) {
@@ -178,7 +174,7 @@ static bool all_hold(const wh_real *was) {
     return good;
 }
 
-/* A run; false if an invariant fails. A step whose events are cut off has no such promise. */
+/* A run; false if an invariant fails. A step with too many events has no such promise. */
 static bool run(wh_real *end, uint64_t *overruns) {
     wh_real was[HAND_CONTACTS] = {WH_R(0.0)};
     bool good = true;

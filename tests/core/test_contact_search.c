@@ -46,7 +46,7 @@ static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_r
     return k;
 }
 
-/* Far stops, or none. Returns their number. */
+/* Perhaps far stops. Returns their number. */
 static unsigned add_far(uint64_t *seed) {
     if (draw_one_in(seed, 2)) {
         return 0;
@@ -56,7 +56,6 @@ static unsigned add_far(uint64_t *seed) {
     return 1;
 }
 
-/* The state after a second, and its margins. */
 static void run_out(wh_contact_work *w, const wh_contact_state *from, wh_contact_state *to,
                     wh_margins *m) {
     const unsigned n = bench_now.system.coordinates;
@@ -104,7 +103,7 @@ static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, u
     TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
 }
 
-/* Stops, holds' conditions and crossings, each with its time (after the end: none), several at once; some begin at zero with an
+/* Stops, holds' conditions and crossings, each with its time (after the end: no event), several at once; some begin at zero with an
  * immediate event. The first is found, just past it, with all simultaneous ones. */
 static void test_the_first_of_several_is_found(void) {
     uint64_t seed = 201;

@@ -101,7 +101,7 @@ static void test_readings(void) {
 
 static wh_reset reset_out;
 
-/* Any number of remembered bytes, also none, and an existing cause. */
+/* Any number of remembered bytes, also zero, and an existing cause. */
 static void test_reset(void) {
     seed = 3;
     for (unsigned count = 0; count <= WH_REMEMBER_MAX; count++) {

@@ -151,7 +151,6 @@ static void test_edges_of_power(void) {
     }
 }
 
-/* --- results that are numbers ---------------------------------------------------------------------------- */
 static void test_exact_powers_of_two(void) {
     wh_real wanted = SMALLEST;
     for (int n = LEAST_POWER; n <= MOST_POWER; n++) {
@@ -190,7 +189,6 @@ static void test_exact_powers(void) {
     }
 }
 
-/* --- order and symmetry ------------------------------------------------------------------------------------ */
 static void test_never_falls(void) {
     wh_real last[6] = {-INFINITE, -INFINITE, -INFINITE, -INFINITE, -INFINITE, -INFINITE};
     wh_real last_cosine = INFINITE;
@@ -239,7 +237,6 @@ static void test_inverses(void) {
     }
 }
 
-/* --- the same bits everywhere -------------------------------------------------------------------------------- */
 static uint64_t mixed_of_all(uint64_t hash, wh_real x, wh_real y) {
     hash = mixed(hash, wh_exp(x));
     hash = mixed(hash, wh_log(x));

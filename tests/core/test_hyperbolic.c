@@ -4,7 +4,6 @@
 
 void suite_hyperbolic(void);
 
-/* --- edges, after C11's Annex F -------------------------------------------------------------------------- */
 static void test_hyperbolic_edges(void) {
     static const edge of_sinh[] = {{ZERO, ZERO},          {SMALLEST, SMALLEST},
                                    {NORMAL, NORMAL},      {ONE, WH_R(1.1752011936438014569)},
@@ -30,7 +29,6 @@ static void test_hyperbolic_edges(void) {
     EXPECT_EDGES(wh_tanh, of_tanh, true);
 }
 
-/* --- order and symmetry ------------------------------------------------------------------------------------ */
 /* Boundaries between two ways of computing: neighbours, a few thousand on either side. */
 static void test_hyperbolic_never_fall(void) {
     static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
@@ -74,7 +72,6 @@ static void test_hyperbolic_symmetry(void) {
     }
 }
 
-/* --- the same bits everywhere -------------------------------------------------------------------------------- */
 /* Later functions have a hash of their own. */
 static uint64_t mixed_of_hyperbolic(uint64_t hash, wh_real x) {
     return mixed(mixed(mixed(hash, wh_sinh(x)), wh_cosh(x)), wh_tanh(x));

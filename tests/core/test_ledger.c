@@ -80,7 +80,7 @@ static void test_books_do_not_touch_the_run(void) {
 
 /* --- an input in the energy ----------------------------------------------------------------------------- */
 
-/* A body of 1 kg on a spring whose rate is the input. */
+/* A body of 1 kg on a spring with the input as its rate. */
 static void spring_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;

@@ -396,7 +396,7 @@ static void test_samples_stay_in_their_room(void) {
 
 /* --- the angle within a turn ---------------------------------------------------------------------- */
 
-/* It begins at the mark and ends a turn on. An inertia off by up to 40 % is found from the split alone, whatever the direction
+/* It begins at the mark and ends a turn on. An inertia off by up to 40 % is found from the split alone, for any direction
  * of gravity, except on the diagonal that the split does not show. */
 static void test_the_inertia_is_found_from_the_split(void) {
     static const wh_real gravities[] = {WH_R(0.0), WH_R(90.0), WH_R(180.0), WH_R(-90.0)};

@@ -46,8 +46,6 @@ static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
     return result;
 }
 
-/* --- times ------------------------------------------------------------------------------------------ */
-
 #define DIGITS (sizeof(wh_real) == sizeof(float) ? 24 : 53)
 
 /* Is `value`, of [0, 1), a real nearest to part / of, with part < of < 2^30? */
@@ -168,8 +166,6 @@ static void test_time_without_a_fraction(void) {
     const wh_state state = {.steps = 2};
     TEST_ASSERT_TRUE(wh_scene_time(&scene, &state).whole_s >= (uint64_t)UINT32_MAX << 24);
 }
-
-/* --- counts ----------------------------------------------------------------------------------------- */
 
 static void test_steps_do_not_wrap(void) {
     hand_build_ball(WH_R(0.5));

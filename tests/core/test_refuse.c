@@ -1,4 +1,4 @@
-/* test_refuse.c: the component blamed for a refused step, in all chips' forms, against the written rule. Sizes whose sum is
+/* test_refuse.c: the component blamed for a refused step, in all chips' forms, against the written rule. Sizes with a sum of
  * 1e15 or more, or not a number, are invalid. The first that is so large by itself is blamed, or else the last. */
 #include "core/step/matrix_step.h"
 #include "tests/core/draw.h"

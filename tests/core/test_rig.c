@@ -16,8 +16,6 @@ static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
 static float rpm(wh_real radps) { return (float)(radps / RPM); }
 
-/* --- speed -------------------------------------------------------------------------------------- */
-
 /* `turns` turns of even pulses from *ticks on; leaves *ticks at the next pulse of sensor 0. */
 static void spin(wh_speed *speed, uint32_t *ticks, unsigned turns) {
     for (unsigned i = 0; i < turns; i++) {
@@ -91,7 +89,7 @@ static void test_a_gap_keeps_the_speed_and_counts(void) {
 }
 
 /* Three lost pulses in a row: the same sensor fires after two turns, which at an even speed is just half of one turn's speed.
- * Whatever the ripple, it must not count as one turn. */
+ * With any ripple, it must not count as one turn. */
 static void test_three_lost_running_are_a_gap(void) {
     for (unsigned late = 0; late < 2; late++) {
         wh_speed speed;
@@ -122,8 +120,6 @@ static void test_impossible_pulses_are_rejected(void) {
     TEST_ASSERT_EQUAL_UINT32(0, speed.lost);
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 330.0f, rpm(speed.turn_radps));
 }
-
-/* --- drive -------------------------------------------------------------------------------------- */
 
 static unsigned steps_to_target(wh_drive *drive) {
     unsigned steps = 0;
@@ -169,7 +165,7 @@ static void test_loop_leaves_no_steady_error(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 34.0f, (float)speed);
 }
 
-/* A rotor blocked for a minute must not find a minute of integral on release, whatever the supply. */
+/* A rotor blocked for a minute must not find a minute of integral on release, with any supply. */
 static void test_integral_does_not_wind_up(void) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
@@ -244,8 +240,6 @@ static void test_only_a_known_turn_can_be_overdue(void) {
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, 1000U + 181000U)); /* a turn takes 181818 */
     TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, 1000U + 183000U));
 }
-
-/* --- load cell ---------------------------------------------------------------------------------- */
 
 /* The converter's status of a sample, and its value at full scale. */
 static void test_the_cells_counts_are_newtons(void) {

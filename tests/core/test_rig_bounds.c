@@ -24,8 +24,6 @@ static void arm(bool trusted) {
                      WH_OK);
 }
 
-/* --- a step's work --------------------------------------------------------------------------------------- */
-
 /* Waiting marks, as many as there is room for: a step takes one, the last one only in a step without a pulse. */
 static void test_a_single_mark_waits_for_a_step_without_a_pulse(void) {
     static even_rig twin;
@@ -67,7 +65,7 @@ static int halves_since(const wh_lockin *before) {
 
 /* A controller late by up to three steps, with or without samples meanwhile. A step without a sample works on four half nodes
  * of a turn's sums. With one sample it is three (two while a mark is unsure and gravity is fed). With more samples, or if the
- * observer caught up two steps, it is one. After a pulse or a mark it is none. */
+ * observer caught up two steps, it is one. After a pulse or a mark it is zero. */
 static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
     static wh_lockin before;
     unsigned times[5] = {0};
@@ -116,8 +114,6 @@ static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
     }
 }
 
-/* --- phases ----------------------------------------------------------------------------------------------- */
-
 /* A set-point that needs gravity fed forward, with an observer that never becomes valid: the ramp takes its full time and
  * trips. */
 static void test_a_ramp_takes_no_longer_than_it_may(void) {
@@ -152,8 +148,6 @@ static void test_what_was_seen_at_rest_begins_no_turn(void) {
     }
 }
 
-/* --- limits ------------------------------------------------------------------------------------------------ */
-
 /* The largest scatter that counts as still is allowed, and the next number above is not; the same for the mean's error. */
 static void test_limits_of_the_tare_are_allowed(void) {
     seed = 3;
@@ -178,8 +172,6 @@ static void test_limits_of_the_tare_are_allowed(void) {
         TEST_ASSERT_FALSE(wh_tare_is_still(&config, &tare));
     }
 }
-
-/* --- words -------------------------------------------------------------------------------------------------- */
 
 /* Numbers below the phases' are states, all others phases. */
 static void test_a_stage_is_a_state_or_a_phase(void) {

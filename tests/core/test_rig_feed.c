@@ -309,7 +309,7 @@ static void test_the_answer_to_a_pulse(void) {
         const double slope = (double)rotor.damping_Nms;
         const double size = (double)weight_Nm * second_of_pulse(1.0 - (double)cut) /
                             (2.0 * (double)speed * root(turning * turning + slope * slope));
-        /* by components over the angle without it, so that sampling loses none of it */
+        /* by components over the angle without it, so that sampling loses nothing */
         double off[2] = {0.0, 0.0};
         for (unsigned k = 0; k < 64U; k++) {
             const wh_real part = (wh_real)k / WH_R(64.0);

@@ -11,8 +11,6 @@ void suite_rig_guard(void);
 
 static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
-/* --- guard -------------------------------------------------------------------------------------- */
-
 /* docs/rig.md: reversed bending at the bearing, 1 in from the arm, notch factor 2, safety 2, against
  * the corrected endurance limit of steel with 440 MPa tensile strength. */
 static void test_speed_limit_follows_from_the_shaft(void) {
@@ -65,7 +63,7 @@ static void test_over_speed_trips(void) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
-/* Whatever is known of the last pulses: a turn that is too fast trips as soon as nothing contradicts it, and so do two fast
+/* For any known last pulses: a turn that is too fast trips as soon as nothing contradicts it, and so do two fast
  * intervals in a row. */
 static void test_over_speed_trips_when_it_is_sure(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
@@ -96,7 +94,7 @@ static void test_what_climbs_and_is_fast_trips(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
-        for (unsigned part = 0; part <= 10U; part++) { /* of twice what it may climb */
+        for (unsigned part = 0; part <= 10U; part++) { /* of twice the allowed climb */
             wh_guard guard;
             wh_guard_start(&guard, 0);
             wh_pulses pulses;

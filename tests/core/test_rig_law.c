@@ -42,8 +42,6 @@ static void test_silence_goes_on_over_the_wrap(void) {
     }
 }
 
-/* --- the motor's voltage ------------------------------------------------------------------------------------ */
-
 /* A voltage frozen by missing pulses exceeds a supply that sags meanwhile. */
 static void test_no_more_volts_than_the_supply_has(void) {
     scattered_state = UINT64_C(0x5eed0006);
@@ -64,8 +62,6 @@ static void test_no_more_volts_than_the_supply_has(void) {
                                  (float)command.volts);
     }
 }
-
-/* --- the drive against the copy of its law ------------------------------------------------------------ */
 
 static double between(double low, double high) {
     return low + (high - low) * (double)(scattered() >> 11) * 0x1p-53;

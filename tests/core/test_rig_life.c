@@ -105,7 +105,6 @@ static void check_answer(const expectation *of, wh_life state) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES || wh_run_drives(&even.rig.run));
 }
 
-/* Posted in each state and phase; only the state can refuse. */
 static void test_every_event_in_every_state(void) {
     for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
         stand_in(state);

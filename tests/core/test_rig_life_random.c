@@ -13,8 +13,6 @@ static uint32_t result_end_ticks;
 static even_rig stood;
 static uint64_t seed;
 
-/* --- set-points ------------------------------------------------------------------------------------- */
-
 /* In any phase before the result: it settles at the new one, and the record restarts. */
 static void test_another_set_point_while_it_runs(void) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
@@ -39,9 +37,7 @@ static void test_another_set_point_while_it_runs(void) {
     }
 }
 
-/* --- the last result -------------------------------------------------------------------------------- */
-
-/* The next run counts from zero, whatever the last one lost or rejected before its loop was closed. */
+/* The next run counts from zero, not from the pulses that the last one lost or rejected before its loop was closed. */
 static void test_the_run_before_does_not_count(void) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -54,7 +50,7 @@ static void test_the_run_before_does_not_count(void) {
     TEST_ASSERT_TRUE(even_is_done(&even));
 }
 
-/* A record whose speed leaves its band ends in a trip without a result, whether there was an earlier one or not. */
+/* A record that leaves its speed band ends in a trip without a result, whether there was an earlier one or not. */
 static void test_a_record_that_is_left_brings_no_result(void) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
@@ -84,8 +80,6 @@ static void test_rest_leaves_no_speed(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.run.off_radps);
 }
 
-/* --- random orders and inputs ---------------------------------------------------------------------- */
-
 static wh_real any_value(void) {
     const wh_real values[] = {WH_R(330.0) * EVEN_RPM,
                               WH_R(200.0) * EVEN_RPM,
@@ -114,7 +108,6 @@ static wh_real any_supply_V(void) {
     return supplies_V[draw_one_of(&seed, sizeof supplies_V / sizeof supplies_V[0])];
 }
 
-/* A step's input. */
 typedef struct asked {
     bool arm;
     bool start;

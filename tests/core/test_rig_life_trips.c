@@ -56,7 +56,7 @@ static void check_clears(void) {
 
 /* --- trips ------------------------------------------------------------------------------------------ */
 
-/* Trips the rig in any state; returns the reason. */
+/* Causes that trip the rig in any state, and their effects. */
 static void break_supply(bool broken) {
     even.inputs.supply_V = broken ? WH_R(9.0) : WH_RIG_RATED_V;
 }

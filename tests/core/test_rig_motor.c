@@ -20,9 +20,9 @@ static wh_conf conf;
 static wh_rig_motor motor; /* the real one */
 static rotor_kind kind;
 static rotor_state rotor;
-static wh_real supply_V;            /* the real one */
-static wh_real reads;               /* the real one, */
-extern const wh_scene rig_observed; /* and its divider's reading */
+static wh_real supply_V;            /* the real one, */
+static wh_real reads;               /* and its divider's reading */
+extern const wh_scene rig_observed; /* the firmware's */
 static wh_pulse pulse[4];           /* the last ones */
 static uint64_t seed;
 
@@ -112,7 +112,7 @@ static void draw_motor(void) {
     kind.no_load_radps = motor.no_load_radps;
 }
 
-/* None trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model less
+/* No motor trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model less
  * well, and the result may be doubtful. */
 static void test_any_motor_with_its_settings(void) {
     seed = 61;
@@ -232,7 +232,6 @@ static void test_the_speed_of_a_rotor_that_coasts(void) {
     TEST_ASSERT_TRUE(known_steps > 1000U && unknown_steps > 100U);
 }
 
-/* Contradictory settings are refused, and nothing changes. */
 static void test_settings_that_cannot_go_together(void) {
     seed = 64;
     unsigned against = 0;

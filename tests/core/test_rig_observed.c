@@ -53,7 +53,6 @@ static void test_each_pulse_is_told_once(void) {
     }
 }
 
-/* After any earlier run the next begins with a reset observer. */
 static void test_each_run_begins_with_an_observer_that_knows_nothing(void) {
     seed = 1;
     for (unsigned i = 0; i < 8U; i++) {
@@ -70,7 +69,6 @@ static void test_each_run_begins_with_an_observer_that_knows_nothing(void) {
     }
 }
 
-/* A result has the motor's voltage at the record's end. */
 static void test_a_result_says_the_voltage(void) {
     for (unsigned i = 0; i < 4U; i++) {
         even_arm(&even);

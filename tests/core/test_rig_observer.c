@@ -92,7 +92,6 @@ static void test_jitter_is_not_amplified(void) {
     }
 }
 
-/* Without corrections the test above fails. */
 static void test_without_corrections_it_is_lost(void) {
     fed_rotor_standard(&fed, 7);
     fed.kind.friction_Nm = WH_R(0.02);
@@ -109,7 +108,7 @@ static void test_without_corrections_it_is_lost(void) {
 
 /* Half to six times the inertia, gravity 30 % off, up to 0.2 N m of friction, sensors up to 3 degrees off, and jitter. The
  * stage brakes or freewheels, known or unknown. Speeds are 80 to 400 rpm, below 170 with gravity's voltage after a start at 150
- * or more. Of a hundred, nine are followed to 17 degrees only; in none is a wrong angle called valid for long. */
+ * or more. Of a hundred, nine are followed to 17 degrees only; no wrong angle is called valid for long. */
 static void test_drawn_rotors_are_followed(void) {
     uint64_t seed = UINT64_C(0x5eed0b5e);
     unsigned fine = 0;
@@ -323,7 +322,6 @@ static void test_shivers_set_nothing_going(void) {
     }
 }
 
-/* The timer's wrap changes no bit. */
 static void test_the_wrap_changes_nothing(void) {
     wh_real speed[2];
     wh_phase phase[2];

@@ -39,7 +39,6 @@ static void test_free_angles(void) {
     TEST_ASSERT_TRUE(wh_free_angle((wh_real)__builtin_nanf("")) == WH_R(0.0));
 }
 
-/* Amplitudes of any size have a direction. */
 static void test_polar_of_every_size(void) {
     seed = 2;
     for (unsigned i = 0; i < 2000U; i++) {
@@ -62,7 +61,7 @@ static void test_polar_of_every_size(void) {
     }
 }
 
-/* The return value is the mark's deviation from the shape that it corrects, whatever is corrected. */
+/* The return value is the mark's deviation from the shape that it corrects, for any corrected parameter. */
 static void test_a_split_says_how_far_the_mark_was_off(void) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
@@ -184,7 +183,6 @@ static void test_the_last_interval_bounds_what_coasts(void) {
     }
 }
 
-/* Doubt grows by two with a doubtful pulse and shrinks by one, down to zero, with each that fits. */
 static void test_doubt_grows_by_two_and_shrinks_by_one(void) {
     unsigned grown = 0;
     unsigned shrunk = 0;
@@ -196,7 +194,7 @@ static void test_doubt_grows_by_two_and_shrinks_by_one(void) {
         unsigned due = 0;
         for (unsigned i = 0; i < 200U; i++) {
             unsigned sensor = due;
-            if (draw_one_in(&seed, 8)) { /* one that is none */
+            if (draw_one_in(&seed, 8)) { /* a false one */
                 ticks += 1000U + draw_one_of(&seed, 40000);
                 sensor = draw_one_of(&seed, 2);
             } else {
@@ -242,7 +240,7 @@ static void test_the_second_pulse_is_suspected_where_it_is_fast(void) {
 
 /* --- turns --------------------------------------------------------------------------------------------- */
 
-/* A record's drift runs from its first counted turn to its last, whatever is left out. */
+/* A record's drift runs from its first counted turn to its last, with any turns left out. */
 static void test_first_and_last_turn_of_those_that_count(void) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;

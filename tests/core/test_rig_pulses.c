@@ -31,7 +31,6 @@ static uint64_t seed;
 static wh_pulse train[TRAIN_PULSES];
 static wh_real mean_radps;
 
-/* The input, in order of time. */
 static wh_pulse given[MOST_PULSES];
 static unsigned given_count;
 
@@ -100,7 +99,6 @@ static void give(unsigned sensor, uint32_t ticks, bool behind) {
     given[at] = (wh_pulse){.ticks = ticks, .sensor = sensor};
 }
 
-/* A run at the train's speed, just before the train. */
 static void stand_in(wh_rig_phase phase) {
     config = even_config();
     const uint32_t now = train[0].ticks - STEP_TICKS;
@@ -112,7 +110,6 @@ static void stand_in(wh_rig_phase phase) {
     wh_drive_start(&rig.run.drive, mean_radps, rig.run.volts);
 }
 
-/* Results of the given pulses. */
 typedef struct outcome {
     unsigned marks;
     unsigned gaps;
@@ -133,7 +130,7 @@ static unsigned true_pulse(const wh_mark *mark, unsigned from) {
     return best;
 }
 
-/* Runs all input in control steps whose time is up to `early` after the pulses'. */
+/* Runs all input in control steps with times up to `early` after the pulses'. */
 static outcome play(uint32_t early) {
     outcome out = {.marks = 0};
     uint32_t now = train[0].ticks - 1000U;

@@ -15,7 +15,6 @@ static wh_rig_config config;
 static uint64_t seed;
 static const wh_real nominal_radps = WH_RIG_NOMINAL_RPM * EVEN_RPM;
 
-/* A run at 330 rpm, or on its way to it. */
 static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
     config = even_config();
     wh_rig_start(&config, &rig, now_ticks, NULL);
@@ -27,7 +26,7 @@ static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
     wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
 }
 
-/* Full voltage on the rotor, whatever the order; returns the time until it trips, s. */
+/* Full voltage on the rotor, against any order; returns the time until it trips, s. */
 static wh_real run_away(rotor_state *rotor) {
     const rotor_kind kind = rotor_nominal();
     const uint32_t begin = rotor->ticks;

@@ -31,8 +31,6 @@ static wh_wave wave_of(wh_real rad) {
     return wave;
 }
 
-/* --- the real rotor ------------------------------------------------------------------------------------ */
-
 typedef struct plant {
     wh_real speed_radps; /* about its mean */
     wh_real inertia_kgm2;
@@ -127,9 +125,6 @@ static void integrate(const plant *p) {
     }
 }
 
-/* --- its measurement -------------------------------------------------------------------------------------- */
-
-/* The force at this part of the turn's time. */
 static wh_real force_at(wh_real part) {
     unsigned low = 0;
     unsigned high = STEPS;

@@ -1,4 +1,4 @@
-/* test_rig_swing_pulses.c: the stored pulses of a swing against the story that made them, the first guess against the rotor
+/* test_rig_swing_pulses.c: the stored pulses of a swing against the story that made them. The first guess against the rotor
  * (rotor.c), the work per step, and turning points against many small steps. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"

@@ -38,7 +38,6 @@ static void test_good(void) {
         ask());
 }
 
-/* One or several faults. */
 static void test_each_part(void) {
     static const char *const parts[] = {"clock", "watchdog", "supply", "cell",
                                         "cell",  "cell",     "stop",   "rotor"};

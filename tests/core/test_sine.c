@@ -191,7 +191,6 @@ static void expect_good(uint32_t first, uint32_t step, uint32_t many) {
     TEST_ASSERT_LESS_OR_EQUAL_INT64(TOLERANCE, worst);
 }
 
-/* --- the tests -------------------------------------------------------------------------------- */
 static void test_known_values(void) {
     TEST_ASSERT_TRUE(sine_of(0) == 0.0f);
     TEST_ASSERT_TRUE(cosine_of(0) == 1.0f);

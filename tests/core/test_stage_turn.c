@@ -17,7 +17,7 @@ static wh_real carry[ANGLES + REALS];
 static wh_real input[1];
 static wh_state state = {.angle = angle, .real = real, .carry = carry, .input = input};
 
-/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle is in none. */
+/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle is not in them. */
 static void sines(const void *model, const wh_phase *phase, wh_sine_parts *parts) {
     (void)model;
     wh_sincos_parts(phase[0], &parts[0]);
@@ -75,7 +75,6 @@ static void flow(const void *model, const wh_phase *phase, const wh_real *x, con
     flow_turned(model, pair, x, u, slope);
 }
 
-/* A test's kind of step. */
 typedef struct manner {
     wh_form form;
     wh_method method;
@@ -136,7 +135,6 @@ static wh_real squares(unsigned count, const wh_real *x, const wh_real *y) {
     return sum;
 }
 
-/* All ways of rotating, counted from 0. */
 enum { MANNERS = 4 * WH_METHODS };
 static manner manner_of(unsigned k) {
     return (manner){k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER, (wh_method)(k / 4),

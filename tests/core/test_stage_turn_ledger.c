@@ -113,7 +113,7 @@ static void run(const wh_scene *scene, bool books_too) {
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, STEPS) == WH_OK);
 }
 
-/* What the books leave over is the method's own error: of order h for Euler's, rounding for the best. */
+/* The books' residual is the method's error: of order h for Euler's, round-off for the best. */
 static wh_real allowed(wh_method method) {
     const wh_real rounding = WH_DOUBLE ? WH_R(1e-9) : WH_R(2e-5);
     const unsigned order = wh_methods[method].order;
@@ -135,7 +135,7 @@ static void test_books_beside_turned_sines(void) {
         const uint64_t wanted = wh_scene_hash(&scene, &state);
         run(&scene, true);
         TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
-        /* The books' residual is the method's error: of order h for Euler's, round-off for the best. */
+        /* a constant force's work is force times distance, its impulse force times time */
         const wh_real rad = wh_angle_to_rad(state.angle[0]) - wh_angle_to_rad(start_angle[0]);
         const wh_real near = allowed(method);
         TEST_ASSERT_TRUE(WH_ABS(state.ledger[0] - WH_R(0.25) * rad) < near);
@@ -167,8 +167,6 @@ static void test_a_refused_step_enters_nothing(void) {
         }
     }
 }
-
-/* --- first order, unrolled by hand ------------------------------------------------------------------------ */
 
 static void slope(const void *model, const wh_phase *phase, const wh_real *x, const wh_real *input,
                   wh_real *result) {

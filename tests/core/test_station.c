@@ -180,7 +180,7 @@ static void test_a_trip_is_told_and_cleared(void) {
 
 /* --- readers and typists ------------------------------------------------------------------------------- */
 
-/* Escape overtakes earlier input, whatever is unfinished. */
+/* Escape overtakes earlier input, even unfinished input. */
 static void test_escape_stops_at_once(void) {
     for (unsigned i = 0; i < 40; i++) {
         begin();

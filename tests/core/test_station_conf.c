@@ -140,7 +140,6 @@ static wh_real draw_value(const wh_conf_row *row) {
     return is_whole(row) ? (wh_real)(int32_t)(value + WH_R(0.5)) : (wh_real)(float)value;
 }
 
-/* A list's first line. */
 static const char *settings_told(void) {
     static char bytes[40];
     const wh_value value = {.count = WH_CONF_COUNT};
@@ -150,7 +149,6 @@ static const char *settings_told(void) {
     return bytes;
 }
 
-/* As typed. */
 static const char *name_of(wh_conf_id id) {
     static char bytes[40];
     const wh_value value = {.word = wh_conf_name(id)};

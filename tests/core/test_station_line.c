@@ -9,7 +9,6 @@ void suite_station_line(void);
 static wh_line line;
 static uint64_t seed;
 
-/* The last event of these bytes. */
 static wh_line_event take(const char *bytes) {
     wh_line_event last = WH_LINE_NOTHING;
     for (; *bytes != '\0'; bytes++) {

@@ -12,7 +12,6 @@ void suite_station_odd(void);
 
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
-/* All pending output. */
 static const char *hear(void) {
     const unsigned count = wh_station_peek(&bench.station, heard, sizeof heard - 1U);
     wh_station_drop(&bench.station, count);
@@ -23,8 +22,6 @@ static const char *hear(void) {
 static void check_begins(const char *with, const char *text) {
     TEST_ASSERT_EQUAL_STRING_LEN(with, text, strlen(with));
 }
-
-/* --- orders ---------------------------------------------------------------------------------------------- */
 
 /* Other code posts orders too: an order without room is refused with its number, and the next is taken. */
 static void test_a_full_queue(void) {
@@ -127,8 +124,6 @@ static void test_echo(void) {
     TEST_ASSERT_EQUAL_STRING("", hear());
 }
 
-/* --- results and self-tests ----------------------------------------------------------------------------------- */
-
 static wh_probed spoilt;
 
 static void compute_otherwise(wh_real *result) {
@@ -157,8 +152,6 @@ static void test_arithmetic_is_tested(void) {
         TEST_ASSERT_NOT_NULL(strstr(heard, " cell=good "));
     }
 }
-
-/* --- settings ------------------------------------------------------------------------------------------------- */
 
 static void own_turned(wh_rig_config *config) {
     *config = even_config();
@@ -225,8 +218,6 @@ static void test_a_memory_that_is_not_read(void) {
     }
     TEST_ASSERT_TRUE(status == WH_STATION_FINE && failed > 3U);
 }
-
-/* --- numbers in answers ---------------------------------------------------------------------------------------- */
 
 /* Whole numbers have no point; text is cut at the room, and that is reported. */
 static void test_exact_numbers(void) {

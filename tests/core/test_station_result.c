@@ -20,7 +20,6 @@ static wh_seen seen;
 static uint64_t seed;
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
-/* The expected report. */
 static unsigned runs;
 static const char *ended;
 static bool has_result;

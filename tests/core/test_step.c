@@ -32,8 +32,6 @@ static void clear(void) {
     state.fault = -1;
 }
 
-/* --- orders --------------------------------------------------------------------------------------- */
-
 /* A clock's hand and an oscillator that leans on it, with damping: all three parts of the state are in both equations. */
 static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *u, wh_real *accel) {
@@ -127,8 +125,6 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
                                  wh_methods[method].word);
     }
 }
-
-/* --- refusals -------------------------------------------------------------------------------------- */
 
 static void pushed(const void *model, const wh_phase *phase, const wh_real *linear,
                    const wh_real *rate, const wh_real *u, wh_real *accel) {

@@ -122,7 +122,6 @@ static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     }
 }
 
-/* Several saves in a row: each loads back. */
 static void test_what_is_saved_is_loaded(void) {
     seed = 3;
     start_flash();

@@ -11,15 +11,12 @@ void suite_telemetry(void);
 
 static even_rig twin;
 
-/* --- the coding ------------------------------------------------------------------------------------------ */
-
 static void test_sum(void) {
     const uint8_t digits[9] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
     TEST_ASSERT_EQUAL_HEX16(0x29B1, wh_crc16(WH_CRC16_START, digits, 9));
     TEST_ASSERT_EQUAL_HEX16(0x29B1, wh_crc16(wh_crc16(WH_CRC16_START, digits, 4), digits + 4, 5));
 }
 
-/* Bytes of every kind are coded and, by another decoder, restored. */
 static void test_coding(void) {
     bench.seed = 40;
     uint8_t bytes[WIRE_CHUNK];
@@ -51,8 +48,6 @@ static void test_coding(void) {
     }
 }
 
-/* --- what goes over the line ------------------------------------------------------------------------------ */
-
 static void test_off_at_first_and_after(void) {
     bench.seed = 41;
     tel_begin();
@@ -80,7 +75,7 @@ static void test_off_at_first_and_after(void) {
     TEST_ASSERT_EQUAL_UINT(frames, bench.got.frames);
 }
 
-/* Every sample and pulse, whatever the converter's status, at each rate and delay, of 12 to 24 bits. */
+/* Every sample and pulse, for any converter's status, at each rate and delay, of 12 to 24 bits. */
 static void test_all_that_was_seen(void) {
     static const char *const rates[] = {"tel rate 500", "tel rate 250", "tel rate 100",
                                         "tel rate 20"};
@@ -222,7 +217,6 @@ static void test_control_is_undisturbed(void) {
     TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
 }
 
-/* States, speed and drive equal the rig's. */
 static void test_states_are_told(void) {
     bench.seed = 46;
     tel_begin();

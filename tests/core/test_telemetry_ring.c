@@ -7,8 +7,6 @@
 
 void suite_telemetry_ring(void);
 
-/* --- the ring ------------------------------------------------------------------------------------------------ */
-
 static wh_captured truth[4096];
 static uint32_t truth_ticks[4096];
 
@@ -100,8 +98,6 @@ static void test_the_ring_has_what_was(void) {
         check_read(at, by_pulse); /* it stays */
     }
 }
-
-/* --- text ------------------------------------------------------------------------------------------------- */
 
 static void test_text_for_plotters(void) {
     bench.seed = 48;
