@@ -66,8 +66,7 @@ static double number_of(const char *name) {
     return at == NULL ? -1.0 : strtod(at + strlen(name), NULL);
 }
 
-/* Until the run is through, with no queries or with continuous state queries. The rotor has no dry friction and coasts for a
- * minute. */
+/* Until the run is through, with no state queries or continuous ones. Without dry friction the rotor coasts for a minute. */
 static bool goes_on(bool busy) {
     const uint64_t end = mega_cycle() + 150ULL * MEGA_HZ;
     while (mega_cycle() < end) {

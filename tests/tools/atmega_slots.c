@@ -43,8 +43,7 @@ static bool taken(hal_slot_edge *edge) {
 
 static uint32_t now_us(void) { return (uint32_t)(mega_cycle() / MEGA_CYCLES_PER_US); }
 
-/* An edge of this end comes now and must be the next one taken, within 10 ms. *differ: the clocks' difference, set by the first
- * edge. */
+/* An edge of this end comes now and must be taken next, within 10 ms. *differ: the clocks' difference, set by the first edge. */
 static bool sees_edge(unsigned i, unsigned sensor, hal_slot_end end, int64_t *differ) {
     hal_slot_edge seen = {0};
     const uint32_t at = now_us();
@@ -130,8 +129,7 @@ bool sees_edges(unsigned times) {
     return true;
 }
 
-/* The highest rate that a capture can take, on both pins, during spin-up: pulses are rejected, the rig trips, and no step is
- * late. */
+/* The highest rate that a capture can take, on both pins, in spin-up: pulses are rejected, the rig trips, no step is late. */
 bool survives_storm(unsigned times) {
     unsigned taken_of = 0;
     hal_slot_edge edge;

@@ -1,5 +1,4 @@
-/* board_tests.h: shared frame of the firmware tests (f405.c, atmega.c): a test by its name, a count, a seed, and the reason of
- * a failure. */
+/* board_tests.h: shared frame of the firmware tests (f405.c, atmega.c): a named test, a count, a seed, and a failure's reason. */
 #ifndef TESTS_TOOLS_BOARD_TESTS_H
 #define TESTS_TOOLS_BOARD_TESTS_H
 

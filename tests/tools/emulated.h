@@ -40,8 +40,7 @@ void emulated_end(emulated *e);
 
 void emulated_say(emulated *e, const char *words);
 
-/* The console's next line without its end. False after `ms` of the emulator's processor time, or twenty times as many of the
- * clock. */
+/* The console's next line without its end. False after `ms` of the emulator's processor time, or 20 times that of the clock. */
 bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
 
 /* Waits `ms` and reads what arrives. */

@@ -1,5 +1,4 @@
-/* linkages.c: `linkages COUNT SEED` writes COUNT random planar linkages (tests/host/linkage.h) on standard output, a
- * scene of half a second each: l1_moves, l2_moves, ... */
+/* linkages.c: `linkages COUNT SEED` writes random planar linkages (tests/host/linkage.h), half-second scenes l1_moves, ... */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

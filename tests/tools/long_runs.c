@@ -1,7 +1,7 @@
 /* long_runs.c: energy and momentum drift over long runs. `long_runs [STEPS [WAY [SUBJECT]]]` swings a pendulum from 1 rad and
- * turns the epicyclic gear without torque, for STEPS steps of 1 ms (default 10^7). For every decade of steps it prints the
- * largest relative energy error and the drift of the gear's centre of mass in m, and their growth. The energies come from
- * formulas in this file, in double. */
+ * turns the epicyclic gear without torque, for STEPS steps of 1 ms (default 10^7). For every decade of steps it prints the largest
+ * relative energy error, the drift of the gear's centre of mass in m, and their growth. Energies are formulas of this file, in
+ * double. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

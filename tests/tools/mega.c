@@ -170,8 +170,7 @@ static void on_convert(struct avr_irq_t *irq, uint32_t value, void *data) {
     const float mV = asked.mux.src == 0
                          ? 2500.0f + load_N / HAL_LOADCELL_FULL_SCALE_N * 2500.0f + noise_mV()
                          : 100.0f * mega_supply_V;
-    /* Simavr divides by 1023, the data sheet (DS 26.7) by 1024 per reference: the voltage is scaled so that the code is the
-     * data sheet's. */
+    /* Simavr divides by 1023, the data sheet (DS 26.7) by 1024 per reference: the scaled voltage gives the data sheet's code. */
     const float counts = mV * (1024.0f / 5000.0f);
     const uint32_t count = counts < 0.0f ? 0 : counts > 1023.0f ? 1023U : (uint32_t)counts;
     avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, (int)asked.mux.src),

@@ -15,8 +15,7 @@
 #define MEGA_CYCLES_PER_US (MEGA_HZ / 1000000U)
 #define MEGA_EEPROM_BYTES 4096U
 
-/* The chip's time in cycles. A control step runs from the end of its wait to the console's turn; `all` runs to the next wait,
- * with the console's turn. */
+/* The chip's time in cycles. A step runs from its wait's end to the console's turn; `all` runs to the next wait. */
 typedef struct mega_times {
     uint64_t steps;
     uint64_t worst_step;

@@ -108,8 +108,7 @@ static uint8_t overflows_now(const avr_t *avr, unsigned word) {
     return waits;
 }
 
-/* simavr clears all flags of a timer when one is written; the chip clears that one (DS 17.11.37). The interrupt clears an
- * overflow. */
+/* simavr clears all flags of a timer when one is written; the chip clears that one (DS 17.11.37). Interrupts clear overflows. */
 static void keep_overflows(avr_t *avr, uint8_t overflows) {
     for (avr_io_t *io = avr->io_port; io != NULL && overflows != 0; io = io->next) {
         avr_timer_t *timer = (avr_timer_t *)io;
