@@ -1,5 +1,4 @@
-/* adc.c: ADC1 of the chip model, regular groups by trigger, and stream 0 of DMA2, which takes the values. RM0090, chapters 13
- * and 10; DS8626, table 67. */
+/* adc.c: ADC1 of the chip model, triggered groups, and its DMA2 stream 0. RM0090, chapters 13 and 10; DS8626, table 67. */
 #include <string.h>
 
 #include "tests/chip/inner.h"

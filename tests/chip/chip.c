@@ -229,8 +229,7 @@ void chip_pass(uint64_t units) {
 }
 void chip_pass_us(uint64_t us) { chip_pass(us * CHIP_UNITS_PER_US); }
 
-/* An access, with the core's work around it. While the flash is busy the core waits for its own instructions and takes no
- * interrupt. */
+/* An access, with the core's work around it. While the flash is busy the core waits for instructions and takes no interrupt. */
 static void time_passes(void) {
     if (flash_busy()) {
         run_until(flash_busy_until());

@@ -1,5 +1,4 @@
-/* flash.c: the flash of the chip model: wait states, erase, program, option bytes, data cache. RM0090, chapter 3; DS8626,
- * tables 40 and 41. */
+/* flash.c: flash of the chip model: wait states, erase, program, option bytes, cache. RM0090, chapter 3; DS8626, tables 40, 41. */
 #include <string.h>
 
 #include "tests/chip/inner.h"

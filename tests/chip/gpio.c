@@ -1,5 +1,4 @@
-/* gpio.c: ports A to I of the chip model (RM0090, chapter 8) and the wiring of their pins; alternate functions by DS8626, table
- * 9. */
+/* gpio.c: ports A to I of the chip model (RM0090, chapter 8) and their pins' wiring; alternate functions by DS8626, table 9. */
 #include <string.h>
 
 #include "tests/chip/inner.h"

@@ -1,5 +1,4 @@
-/* start.c: an image's start on the chip model as in boards/cortexm/startup.c: clocks, variables, devices, and memory that a
- * reset preserves. */
+/* start.c: an image's start on the chip model, as in boards/cortexm/startup.c, and the memory that a reset preserves. */
 #include "tests/chip/start.h"
 
 #include <stdlib.h>

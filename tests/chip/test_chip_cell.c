@@ -101,8 +101,7 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* Amplitude to 0.05 % and stamps to 1.5 us. Frequencies are the rig's, and ones at which a plain mean would be a percent
- * low. */
+/* Amplitude to 0.05 %, stamps to 1.5 us. Frequencies are the rig's, and ones at which a plain mean would be a percent low. */
 static void test_sines(void) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
@@ -243,8 +242,7 @@ static void test_kept(void) {
 
 static void erase(void) { (void)hal_settings_erase(0); }
 
-/* The core stops at any instant for any time, for an erase or by a debugger, while the force changes. A sample reported as good
- * is still the force at its stamp. */
+/* The core stops at any instant for any time (erase, debugger). A sample reported as good is still the force at its stamp. */
 static double ramp(double s) { return 0.4 + 2.4 * fabs(remainder(s, 1.0)); }
 static void test_core_that_stood(void) {
     for (unsigned i = 0; i < 30; i++) {

@@ -107,8 +107,8 @@ static void test_out_is_full(void) {
     TEST_ASSERT_TRUE(chip_serial_sent() - from > 1100U);
 }
 
-/* Received bytes arrive in order at any spacing, and none is lost if read each control step. A byte with a framing error or
- * noise becomes a zero, except Escape. */
+/* Bytes arrive in order, and none is lost if read each control step. After a framing error or noise a zero stands for the byte,
+ * except Escape. */
 static void test_in(void) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);
@@ -173,8 +173,7 @@ static void test_both(void) {
     }
 }
 
-/* Bytes are lost if the program does not read, or if the core stood or was held up. The bytes handed on are in order, and a
- * zero stands for each gap. */
+/* Unread bytes are lost, also while the core stands. Those handed on are in order, and a zero stands for each gap. */
 static void lost(bool held) {
     static uint8_t seen[4096];
     chip_on(7U + (held ? 1U : 0U));

@@ -175,8 +175,8 @@ static void test_off_at_once(void) {
     }
 }
 
-/* A fault's first stores (boards/cortexm/fault.c makes them before it touches the stack). The first turns the PWM off, the
- * second the enable. */
+/* A fault's first stores (boards/cortexm/fault.c), before any use of the stack. The first turns the PWM off, the second the
+ * enable. */
 static void fault_stores(void) {
 #define SAFE_STORE(address, value) reg_store((address), (value));
     BOARD_SAFE_ROWS(SAFE_STORE)
@@ -197,8 +197,7 @@ static void test_fault_from_anywhere(void) {
     }
 }
 
-/* Stop or the drive stage's fault pulls the output low without software, until the next off, however short the pulse, and
- * for any order. */
+/* Stop or the drive stage's fault pulls the output low without software, until the next off, for any pulse length and order. */
 static void test_break(void) {
     scattered_state = chip_seed(6);
     chip_on(6);
@@ -259,8 +258,7 @@ static void test_ordered_while_pressed(void) {
     TEST_ASSERT_EQUAL(TICKS, high_ticks());
 }
 
-/* Stop was pressed for less than a step since the last off, which comes each step while the motor is off: a start has no
- * effect. */
+/* Stop was pressed for less than a step since the last off (one per step while the motor is off): a start has no effect. */
 static void test_pressed_before_a_start(void) {
     scattered_state = chip_seed(14);
     chip_on(14);

@@ -1,5 +1,4 @@
-/* test_chip_unplayed.c: a register missing from the chip model is not silent memory, so a driver that begins to use it is
- * noticed. */
+/* test_chip_unplayed.c: a register missing from the chip model is not silent memory, so a driver that uses it is noticed. */
 #include "unity.h"
 
 #include "boards/stm32f4/registers.h"

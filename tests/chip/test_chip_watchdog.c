@@ -1,5 +1,4 @@
-/* test_chip_watchdog.c: the watchdog on the chip model, at any speed of its oscillator: never early, and within three times its
- * time. */
+/* test_chip_watchdog.c: the watchdog on the chip model, at any oscillator speed: never early, and within three times its time. */
 #include "unity.h"
 
 #include "boards/stm32f4/stm32f4.h"
