@@ -56,8 +56,7 @@ void bench_work(uint64_t *seed, bool some, wh_contact_work *w);
 bool bench_keeps(const wh_contact_work *w, unsigned k);
 /* x[WH_COORDS]: whole numbers, and the guard values after them. */
 void bench_vector(uint64_t *seed, wh_real *x);
-/* All or some of the contacts with a force in member[BENCH_CONTACTS], in any order; an invalid one follows. Returns their
- * number. */
+/* All or some of the contacts with a force in member[BENCH_CONTACTS], in any order, then an invalid one. Returns their number. */
 unsigned bench_members(uint64_t *seed, uint8_t *member);
 
 /* A state: whole turns or radians, metres and rates, and the guard values after them. */
@@ -70,8 +69,7 @@ wh_real bench_along(unsigned k, const wh_real *x); /* J_k x */
 wh_real bench_delassus(unsigned k, unsigned l);    /* J_k M^-1 J_l^T */
 wh_real bench_way(unsigned k, unsigned i);         /* (M^-1 J_k^T)_i */
 bool bench_near(wh_real value, wh_real wanted);    /* within the round-off of a few whole numbers */
-/* The members with rows in the span of earlier independent ones, as bits of places. Those with nonzero at[] are left out
- * (at may be NULL). */
+/* The members with rows in the span of earlier independent ones, as bits of places, without those with nonzero at[] (or NULL). */
 unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at);
 /* Solves the members' J M^-1 J^T lambda = wanted with zeros for `out` (bits of places): Gauss-Jordan with the largest pivot. */
 void bench_solve(const uint8_t *member, unsigned count, unsigned out, const wh_real *wanted,

@@ -1,5 +1,4 @@
-/* edges.h: shared by the suites of the core's functions: the limits of numbers, arguments with known results, random
- * numbers. */
+/* edges.h: shared by the suites of the core's functions: limits of numbers, arguments with known results, random numbers. */
 #ifndef TESTS_CORE_EDGES_H
 #define TESTS_CORE_EDGES_H
 

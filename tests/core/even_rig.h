@@ -31,8 +31,7 @@ typedef struct even_failure {
     int creeps;                  /* drift, counts per second */
     wh_load_status status;       /* of all samples */
     bool adds[WH_SPEED_SENSORS]; /* one false pulse */
-    /* permanent: marks are late by up to this many ticks, uniformly; the speed hunts by this much, this often a second, and
-     * drifts */
+    /* permanent: marks are late by up to this many ticks, uniformly; the speed hunts by this much, this often, and drifts */
     uint32_t jitter_ticks;
     wh_real hunts_rpm;
     wh_real hunts_Hz;

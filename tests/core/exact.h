@@ -1,6 +1,5 @@
-/* exact.h: an independent reference for mechanisms by hand (hand.h). Loads are constant, so motion between events is a parabola
- * with roots in closed form. At an event all cases of the laws of docs/dev/events.md are tried. In double, without probes,
- * pivots or pins. */
+/* exact.h: an independent reference for mechanisms by hand (hand.h). Under constant loads motion is piecewise parabolic, with
+ * roots in closed form. Events try all cases of the laws of docs/dev/events.md. In double, without probes, pivots or pins. */
 #ifndef TESTS_EXACT_H
 #define TESTS_EXACT_H
 

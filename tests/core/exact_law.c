@@ -161,8 +161,7 @@ unsigned exact_holding(const exact *e) {
            exact_those(e, WH_FRICTION, WH_STUCK);
 }
 
-/* Accelerations and forces in the current modes; a contact that must pull pulls. Of dependent rows the last ones get
- * nothing. */
+/* Accelerations and forces in the current modes; a contact that must pull pulls. The last of dependent rows get nothing. */
 void exact_accelerate(exact *e, double *a, double *force) {
     double own[2] = {0.0, 0.0};
     unsigned members = 0;

@@ -7,8 +7,7 @@
 /* Below it a number is zero; slightly above it is vague. */
 #define EXACT_ZERO 1e-11
 
-/* The problem: x + M^-1 J^T lambda with J x = target[k], by contacts that push only (a stop), push up to a limit, or act both
- * ways. */
+/* The problem: x + M^-1 J^T lambda with J x = target[k], by contacts that push (a stop), push up to a limit, or act both ways. */
 typedef struct exact_problem {
     unsigned members; /* as bits */
     double target[HAND_CONTACTS];
@@ -41,8 +40,7 @@ double exact_coupled(unsigned k, unsigned l);
 
 /* lambda[] of those in `tight`, which reach their targets; the others' are given. False: dependent rows. */
 bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double *lambda);
-/* The case that meets the conditions: changes x, and lambda[] of the members. Returns those with J x beyond their targets, as
- * bits. */
+/* The case that meets the conditions: changes x and the members' lambda[]. Returns those with J x beyond target, as bits. */
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda);
 /* Are the members' rows dependent? */
 bool exact_repeat(const exact *e, unsigned members);

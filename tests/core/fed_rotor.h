@@ -1,5 +1,5 @@
-/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward and their errors, for tests of
- * core/rig/observer.c and feed.c. */
+/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward (core/rig/observer.c, feed.c) and their
+ * errors. */
 #ifndef TESTS_CORE_FED_ROTOR_H
 #define TESTS_CORE_FED_ROTOR_H
 
@@ -41,8 +41,8 @@ typedef struct fed_rotor {
 
 #define FED_LIE_RAD WH_R(0.35)
 
-/* The controller's settings are the standard rig's. The caller may change the rotor's kind and the rest before
- * fed_rotor_start(), which sets it turning at this speed. */
+/* The controller's settings are the standard rig's. Change the rotor before fed_rotor_start(), which sets it turning at this
+ * speed. */
 void fed_rotor_standard(fed_rotor *fed, uint64_t seed);
 wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm);
 

@@ -1,5 +1,5 @@
-/* hand.h: mechanisms with contacts, written by hand: up to two coordinates, a constant mass matrix, constant loads and springs,
- * so that every result has a closed form. */
+/* hand.h: hand-written contact mechanisms of up to two coordinates with constant masses, loads and springs: closed-form
+ * results. */
 #ifndef TESTS_HAND_H
 #define TESTS_HAND_H
 
@@ -54,8 +54,8 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
 void hand_start(bool with_books);
 /* Steps that must all succeed. */
 void hand_steps(unsigned count);
-/* |value - wanted|, at most `bound` in double and `bound_f` in float. A float sum rounds by up to 3e-8 of its value a step, so
- * n steps are bounded by n times that. */
+/* |value - wanted| <= `bound`, in float `bound_f`. A float sum rounds by up to 3e-8 of its value a step: n times that in n
+ * steps. */
 bool hand_near(wh_real value, wh_real wanted, double bound, double bound_f);
 
 /* Gravity, m/s^2. */

@@ -1,6 +1,6 @@
-/* rotor.h: a made-up rotor for tests of the rig's controller, independent of the core's scene and integrated more finely. It
- * has arms in a vertical plane, a torque line, friction, a braking or freewheeling stage and two slot sensors. All may differ
- * from the controller's settings. */
+/* rotor.h: a made-up rotor for tests of the rig's controller, integrated more finely than the core's scene. It has arms in a
+ * vertical plane, a torque line, friction, a braking or freewheeling stage and two slot sensors. All may differ from the
+ * settings. */
 #ifndef TESTS_CORE_ROTOR_H
 #define TESTS_CORE_ROTOR_H
 

@@ -181,8 +181,7 @@ static void test_thrown_block_stops_and_sticks(void) {
     TEST_ASSERT_TRUE(hand_state.real[0] == where && hand_state.real[1] == WH_R(0.0));
 }
 
-/* Two bodies of 1 kg at 1 and 3 m/s with a held difference: both go on at 2 m/s (momentum). After release, a load on the first
- * accelerates only that one. */
+/* Two bodies of 1 kg at 1 and 3 m/s with a held difference go on at 2 m/s. After release, a load moves only the first. */
 static void test_hold_captures_and_lets_go(void) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));

@@ -1,5 +1,4 @@
-/* test_contact_begin.c: a step's start (contact_step.h): with arbitrary memory, all that the drawn contacts' laws read is
- * set, and held places come from the state. */
+/* test_contact_begin.c: a step's start (contact_step.h) sets all that the contacts' laws read, and held places are the state's. */
 #include <stddef.h>
 
 #include "draw.h"

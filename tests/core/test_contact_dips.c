@@ -1,6 +1,5 @@
-/* test_contact_dips.c: stops into which a try dips (contact_step.h), for random bodies under constant loads with both ends
- * known. Stops passed and on their way out at the end are reported. Those open or closing at the start were hit. Passes between
- * two open ends are found. */
+/* test_contact_dips.c: stops into which a try dips (contact_step.h), for random bodies under constant loads with known ends. Stops
+ * passed and on their way out are reported. Those open or closing at the start were hit. Passes between open ends are found. */
 #include "draw.h"
 #include "hand.h"
 

@@ -1,6 +1,5 @@
 /* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads. Each step's
- * state, modes, events and energies are compared with the reference of exact.h. A run ends where a decision depends on less
- * than round-off; most do not. */
+ * state, modes, events and energies equal the reference of exact.h, until a decision depends on round-off (few do). */
 #include <string.h>
 
 #include "draw.h"

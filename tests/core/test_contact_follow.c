@@ -20,8 +20,7 @@ static void rest_on_a_stop(bool books) {
     TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE && hand_state.real[0] == WH_R(0.0));
 }
 
-/* Raised, or lowered by no more than the ball's fall in a step, the stop takes the ball along. The energy m g s is the
- * stop's. */
+/* Raised, or lowered by at most the ball's fall in a step, the stop takes the ball along. The energy m g s is the stop's. */
 static void test_a_stop_takes_along_what_rests_on_it(void) {
     const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
                              WH_R(-0.9) * REACH_M};
@@ -56,8 +55,7 @@ static void test_a_stop_that_drops_away_leaves_the_ball(void) {
     }
 }
 
-/* A stop that no input moves (direction 0) is checked too: no error. Of two bodies on two stops only the one on the moved stop
- * is taken along. */
+/* A stop that no input moves (direction 0) is checked too. Of two bodies on two stops only the one on the moved stop follows. */
 static void test_others_stay_where_they_are(void) {
     for (unsigned moved = 0; moved < 2; moved++) {
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));
@@ -112,8 +110,7 @@ static wh_real shown(unsigned i) {
     return accel[i];
 }
 
-/* Before and after the first step: at rest on a stop the acceleration is zero, above it all falls. Friction holds up to its
- * limit and slows a slide by its kinetic value. */
+/* Before and after the first step: zero on a stop, free fall above it. Friction holds up to its limit, then slows a slide. */
 static void test_accelerations_with_their_contacts(void) {
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));

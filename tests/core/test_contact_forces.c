@@ -53,8 +53,7 @@ static void test_a_load_is_what_a_dense_solve_says(void) {
 
 /* --- forces -------------------------------------------------------------------------------------------------- */
 
-/* A sliding contact pushes against its motion by its second law; the others keep J q'' + J' q' at zero. Returns the number of
- * members, and their targets. */
+/* A sliding contact pushes against its motion; the others keep J q'' + J' q' at zero. Returns the members' number and targets. */
 static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *member,
                             wh_real *wanted, wh_real *force) {
     unsigned count = 0;

@@ -56,8 +56,7 @@ static void test_who_is_pressed(void) {
     TEST_ASSERT_TRUE(pressed > ROUNDS / 3 && pressed < ROUNDS);
 }
 
-/* A flight shorter than its share of the step does not count. Without a press, a stop rests only if it stands still, as far as
- * its rate is known. */
+/* A flight shorter than its share of the step does not count. Without a press a stop rests only at rate zero, if that is known. */
 static void test_who_rests(void) {
     uint64_t seed = 302;
     unsigned resting = 0;
@@ -297,8 +296,7 @@ static void test_a_squeeze_ends(void) {
     }
 }
 
-/* A correction has put the body beyond a surface that curves away from it. The first push overshoots, and the others bring it
- * back to the original side. */
+/* The body is beyond a surface that curves away. The first push overshoots, and the others bring it back to its original side. */
 static void test_what_is_pushed_too_far_comes_back(void) {
     uint64_t seed = 309;
     for (unsigned round = 0; round < ROUNDS; round++) {

@@ -1,5 +1,4 @@
-/* test_contact_load.c: the parts of core/contact/contact_lcp.h one by one, against a dense solve, explicit sums and their
- * comments; limits are met exactly. */
+/* test_contact_load.c: the parts of core/contact/contact_lcp.h against a dense solve and explicit sums; limits are met exactly. */
 #include "bench.h"
 
 #include "unity.h"
@@ -192,8 +191,7 @@ static void test_what_contradicts_is_told_from_rounding(void) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 8 && seen[1] > ROUNDS / 8 && seen[2] > ROUNDS / 8);
 }
 
-/* Two contacts of one row with nearly equal curvature: the difference counts relative to both curvatures and the terms of one
- * of them. */
+/* Two contacts of one row with nearly equal curvature: the difference counts relative to both and to the terms of one of them. */
 static void test_a_small_difference_of_bends_is_none(void) {
     uint64_t seed = 107;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

@@ -1,5 +1,4 @@
-/* test_contact_margins.c: the contact margins of the search in core/contact/contact_locate.h, its path, and the contact
- * reported for NaN among several. */
+/* test_contact_margins.c: the margins of the search in core/contact/contact_locate.h, its path, and the contact named for NaN. */
 #include "bench.h"
 
 #include "unity.h"
@@ -82,8 +81,7 @@ static wh_real margin_of(const wh_contact_work *w, unsigned k) {
     return BENCH_SENTINEL;
 }
 
-/* The signals that a step depends on: both of a stop and a hold, one of a crossing and a friction, and a sticking friction's
- * limit. */
+/* The signals that a step depends on: both of a stop and a hold, one of a crossing and a friction, a sticking friction's limit. */
 static wh_real sum_of(const wh_contact_work *w) {
     wh_real all = WH_R(0.0);
     for (unsigned k = 0; k < bench_now.system.contacts; k++) {

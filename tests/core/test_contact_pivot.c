@@ -75,8 +75,7 @@ static void test_one_contact_takes_what_it_can(void) {
     TEST_ASSERT_TRUE(gave > ROUNDS / 8);
 }
 
-/* A contact that goes to a limit stays in its place. One that leaves it goes to the end of the list, and its contradiction is
- * tested again. */
+/* A contact at a limit keeps its place. One that leaves a limit goes to the list's end and is tested again for contradiction. */
 static void test_who_leaves_a_limit_is_eliminated_last(void) {
     uint64_t seed = 122;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -254,8 +253,7 @@ static void test_no_case_solves_it_otherwise(void) {
     TEST_ASSERT_TRUE(solved > ROUNDS / 2);
 }
 
-/* A forced endless cycle: released while pressed, as nothing here counts as small. It ends after 4 n + 1 rounds. The last round
- * releases again and is counted. */
+/* A forced cycle, as nothing here counts as small. It ends after 4 n + 1 rounds; the last round's release is counted. */
 static void test_what_does_not_end_is_ended(void) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {

@@ -1,5 +1,4 @@
-/* test_contact_places.c: the functions of core/contact/contact_project.h one by one, against dense solves in the mass metric:
- * motion, constraint errors, projection. */
+/* test_contact_places.c: the functions of core/contact/contact_project.h one by one, against dense solves in the mass metric. */
 #include "bench.h"
 
 #include "unity.h"
@@ -65,8 +64,7 @@ static void test_no_bit_of_a_product_is_lost(void) {
     }
 }
 
-/* J times the motion, of lines and angles at any distance. For two far turns in opposite directions by the same factor the
- * difference is exact. */
+/* J times the motion, of lines and angles at any distance. It is exact for two far turns that differ by the same factor. */
 static void test_a_straight_way_is_summed_without_rounding(void) {
     uint64_t seed = 143;
     const uint64_t most = WH_DOUBLE ? 0x3fffffff : 0x7ffff;

@@ -213,8 +213,7 @@ static void test_a_place_that_is_no_number_is_told(void) {
     TEST_ASSERT_TRUE(told > ROUNDS / 8);
 }
 
-/* Rates along constraints become zero, exactly zero if one coordinate is pinned. The books get each contact's impulse and its
- * work at the mean speed. */
+/* Rates along constraints become zero, exactly so for one coordinate. The books get the impulses and their mean-speed work. */
 static void test_rates_are_taken_away_by_the_least(void) {
     uint64_t seed = 163;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -343,8 +342,7 @@ static void test_what_slipped_is_put_back(void) {
     TEST_ASSERT_TRUE(far > ROUNDS / 40);
 }
 
-/* A stop with a curved surface is corrected along its row, and once more if the distance was large for its motion. There is no
- * third correction. */
+/* A stop with a curved surface is corrected along its row, and once more if the distance was large, but never a third time. */
 static void test_what_is_bent_is_put_back_twice(void) {
     uint64_t seed = 165;
     for (unsigned round = 0; round < ROUNDS; round++) {

@@ -1,5 +1,4 @@
-/* test_contact_rank.c: independent holds (core/contact/contact_rank.h): rows orthogonalized in the metric of M^-1, and the row
- * lost between two places. */
+/* test_contact_rank.c: independent holds (core/contact/contact_rank.h): rows orthogonal in the metric of M^-1, and lost rows. */
 #include "draw.h"
 #include "hand.h"
 

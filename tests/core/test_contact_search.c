@@ -184,8 +184,7 @@ static void test_what_is_beyond_already_comes_at_once(void) {
     }
 }
 
-/* A friction that slides against a force comes to rest at v/a. It begins with a rate, or with none in a mode that its rate is
- * about to leave. */
+/* A friction that slides against a force rests at v/a. It begins with a rate, or at zero in a mode that it is about to leave. */
 static void test_sliding_ends_where_the_rate_does(void) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
@@ -221,8 +220,7 @@ static void test_sliding_ends_where_the_rate_does(void) {
     told(&sum, 1025, 740, 25);
 }
 
-/* A contact that slides from rest and is bent back at the end. Its rate is zero at the start, which is no event, and at the
- * end, where the acceleration has turned it. */
+/* A contact that slides from rest and is bent back. Its rate is zero at the start, which is no event, and at the end. */
 static void test_who_slides_from_rest_comes_back_to_it(void) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};
@@ -261,8 +259,7 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
     told(&sum, 1340, 1085, 15);
 }
 
-/* A sticking friction with a growing load breaks loose at its limit, and so does a pulled stop. A load at its limit at the
- * start exceeds it at once. */
+/* A sticking friction breaks loose at its limit, and so does a pulled stop. A load at its limit at the start exceeds it then. */
 static void test_a_load_meets_its_limit(void) {
     uint64_t seed = 205;
     tally sum = {0, 0, 0, 0};

@@ -105,8 +105,7 @@ static void test_the_least_that_lets_nobody_pass(void) {
     TEST_ASSERT_TRUE(compared >= MECHANISMS / 2U);
 }
 
-/* Two stops are passed. The first pushes a body onto the other, which has not pushed. It is hit too, by a body that slides
- * along the first. */
+/* Two stops are passed. The first pushes a body onto the other, which is hit without a push, by a slide along the first. */
 static void test_who_is_met_without_a_push_is_hit(void) {
     for (int slope = -3; slope <= 3; slope++) {
         for (int beyond = 1; beyond <= 3; beyond++) {

@@ -1,5 +1,4 @@
-/* test_fixed.c: core/fixed.h's integers against 64-bit ones: both products, rounding, reciprocals, sines against the real
- * build's, and conversions from and to reals. */
+/* test_fixed.c: core/fixed.h's integers against 64-bit ones: products, rounding, reciprocals, sines, conversions of reals. */
 #include <math.h>
 
 #include "core/angle.h"

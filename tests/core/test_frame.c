@@ -103,8 +103,7 @@ static void test_no_room(void) {
     }
 }
 
-/* Every single bit flip, and bursts of up to 32 bits, are detected. One that moves the frame's end leaves no valid frame. The
- * next frame is read. */
+/* Every single bit flip, and bursts of up to 32 bits, are detected, also if the frame's end moves. The next frame is read. */
 static void test_flips(void) {
     seed = 3;
     for (unsigned length = 0; length < 64; length += 9) {
@@ -122,8 +121,7 @@ static void test_flips(void) {
     }
 }
 
-/* Frames cut short, or with missing bytes, are rejected. The next may be lost with it if the zero between them is missing; the
- * one after that is read. */
+/* Frames with missing bytes are rejected. A missing zero may lose the next one too; the one after that is read. */
 static void test_truncations(void) {
     seed = 4;
     for (unsigned round = 0; round < 300; round++) {

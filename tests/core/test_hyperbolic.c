@@ -1,5 +1,4 @@
-/* test_hyperbolic.c: the core's hyperbolic functions, like the others in test_functions.c: edges, order, symmetry, identities,
- * and equal bits on every machine. */
+/* test_hyperbolic.c: the core's hyperbolic functions: edges, order, symmetry, identities, and equal bits on every machine. */
 #include "edges.h"
 
 void suite_hyperbolic(void);

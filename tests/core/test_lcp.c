@@ -1,5 +1,5 @@
-/* test_lcp.c: the box LCP of core/contact/contact_lcp.h on random problems, also with dependent rows: the solution meets its
- * conditions, within the cap on rounds. */
+/* test_lcp.c: the box LCP of core/contact/contact_lcp.h, also with dependent rows: its conditions hold within the cap on
+ * rounds. */
 #include "draw.h"
 #include "hand.h"
 
@@ -44,8 +44,7 @@ static void turn(wh_contact_work *w, unsigned k) {
 /* The conditions' allowance for round-off. */
 #define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
 
-/* The members' forces are within their limits, and one at a limit may leave the contact one way only. left[] is its residual,
- * and contacts that give way are reported. */
+/* The members' forces are within their limits, with one-way motion at a limit. left[] is the residual; giving way is reported. */
 static bool meets_its_conditions(const wh_contact_work *w, const uint8_t *member, unsigned count,
                                  const wh_real *wanted, const wh_real *lambda, const wh_real *left,
                                  unsigned giving) {

@@ -1,5 +1,4 @@
-/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a spring with a variable
- * rate. */
+/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a spring of variable rate. */
 #include "draw.h"
 #include "hand.h"
 
@@ -40,8 +39,7 @@ static void test_books_of_the_thrown_block(void) {
     TEST_ASSERT_TRUE(hand_near(error_of(0), WH_R(0.0), 1e-12, 1.5e-5));
 }
 
-/* The coupled impact: loss (1 - e^2) v^2 / (2 (M^-1)_00), impulse on the first coordinate alone. The crossing's assignment is
- * its own entry. */
+/* The coupled impact: loss (1 - e^2) v^2 / (2 (M^-1)_00), impulse on the first coordinate. The crossing has its own entry. */
 static void test_books_of_impacts_and_settings(void) {
     hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
@@ -115,8 +113,8 @@ static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* The spring becomes stiffer, then softer: each change adds (k2 - k1) x^2/2. It is entered in the next step, and the balance is
- * zero until then. */
+/* The spring becomes stiffer, then softer: each change adds (k2 - k1) x^2/2, entered in the next step; the balance stays 0 until
+ * then. */
 static void test_books_of_a_spring_that_is_changed(void) {
     static uint64_t memory[WH_STATE_WORDS(0, 2, 1) + WH_LEDGER_WORDS(2, 3)];
     static const wh_real start[2] = {WH_R(0.5), WH_R(1.0)};
@@ -251,8 +249,7 @@ static void test_books_name_angles_with_their_turns(void) {
     }
 }
 
-/* An angle is set, turns included, or moved without losing digits after many turns. An input changed just before has its own
- * entry. */
+/* An angle is set, turns included, or moved exactly after many turns. An input changed just before has its own entry. */
 static void test_corrected_angles_are_booked(void) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};

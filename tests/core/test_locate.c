@@ -71,8 +71,7 @@ static void test_a_crossing_is_found_where_it_is(void) {
     TEST_ASSERT_TRUE((double)worst <= (WH_DOUBLE ? 1e-14 : 2e-6));
 }
 
-/* The number of evaluations is that of a bracketing search from both sides, far below halving, its fallback. The rest are the
- * step's own. */
+/* The number of evaluations is a bracketing search's, far below halving, its fallback. The others are the step's own. */
 static void test_a_crossing_is_found_with_few_looks(void) {
     uint64_t seed = 412;
     unsigned all = 0;

@@ -290,8 +290,7 @@ static void test_missing_samples(void) {
     }
 }
 
-/* Outliers are left out and counted. Of a turn's 91 samples, eight outliers are a gap; nine, a tenth of the others, are too
- * many. */
+/* Outliers are left out and counted. Of a turn's 91 samples, eight outliers are a gap; nine, a tenth of the rest, are too many. */
 static void test_outliers_are_left_out(void) {
     static const unsigned counts[] = {1, 8, 9, 14};
     settings();
@@ -317,8 +316,7 @@ static void test_outliers_are_left_out(void) {
     }
 }
 
-/* The load changes permanently at some turn, in a few consecutive samples. They are outliers once, a gap, then the new
- * expectation. */
+/* The load changes for good at some turn, within a few samples. They are outliers once, a gap, then the new expectation. */
 static void test_what_stays_is_expected(void) {
     settings();
     made_up made = plain;

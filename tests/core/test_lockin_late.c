@@ -1,5 +1,4 @@
-/* test_lockin_late.c: the lock-in's result does not depend on its samples' delays, on the turn's start between samples, or on
- * data from before a reset. */
+/* test_lockin_late.c: the lock-in's result does not depend on samples' delays, a turn's start between samples, or earlier data. */
 #include "core/angle.h"
 #include "core/rig/lockin.h"
 #include "core/rig/rig.h"
@@ -141,8 +140,7 @@ static void test_late_samples_change_nothing(void) {
     }
 }
 
-/* After a reset at any point the results are as from the start. Only the first turn's length check, and with it the second
- * turn's expectation, may remain. */
+/* After a reset at any point the results are as from the start, except for the first turn's length check and its effects. */
 static void test_what_was_forgotten_changes_nothing(void) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];

@@ -1,5 +1,4 @@
-/* test_noise.c: noise by seed and index has the same integers everywhere and the promised distribution. WH_TEST_SMALL takes
- * fewer draws. */
+/* test_noise.c: noise by seed and index: equal integers everywhere, and the promised distribution. WH_TEST_SMALL: fewer draws. */
 #include "core/noise.h"
 
 #include "unity.h"
@@ -39,8 +38,7 @@ static void test_fixed_values(void) {
     }
 }
 
-/* Mean 0, second moment 1, fourth moment 3, as for a Gaussian, to 0.1 %. The estimates' errors by a Gaussian's moments: 1, sqrt
- * 2, sqrt 96. */
+/* Moments 0, 1 and (fourth) 3, as for a Gaussian, to 0.1 %. The estimates' errors by a Gaussian's moments: 1, sqrt 2, sqrt 96. */
 static void test_moments(void) {
     for (uint32_t seed = 1; seed <= 4; seed++) {
         int64_t sum = 0;

@@ -114,8 +114,7 @@ static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
     }
 }
 
-/* A set-point that needs gravity fed forward, with an observer that never becomes valid: the ramp takes its full time and
- * trips. */
+/* A set-point that needs gravity fed forward, and an observer that is never valid: the ramp takes its full time and trips. */
 static void test_a_ramp_takes_no_longer_than_it_may(void) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);

@@ -201,8 +201,7 @@ static void test_lost_marks_take_it_away(void) {
 
 /* --- its effect on the measurement ----------------------------------------------------------------------- */
 
-/* Gravity's remainder, of either sign, follows from the split alone at the given inertia; it is forgotten when the feed
- * ends. */
+/* Gravity's remainder, of either sign, follows from the split alone at the given inertia, and is reset when the feed ends. */
 static void test_what_is_left_is_found_from_the_split(void) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
@@ -245,8 +244,7 @@ static void test_what_is_left_is_found_from_the_split(void) {
     }
 }
 
-/* The turn of the change does not count. A motor that cannot brake leaves the difference between the drive's voltage and
- * gravity's torque, at any speed. */
+/* The turn of the change does not count. A motor that cannot brake leaves drive voltage minus gravity's torque, at any speed. */
 static void test_the_lockin_is_told(void) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -287,8 +285,7 @@ static double second_of_pulse(double k) {
     return sum * 2.0 / 4096.0;
 }
 
-/* A motor that cannot brake leaves a torque twice a turn. The rotor's answer is that of inertia and slope: J theta'' + c theta'
- * = -W cos 2 theta, for any slope. */
+/* A motor that cannot brake leaves a torque twice a turn. Inertia and slope answer: J theta'' + c theta' = -W cos 2 theta. */
 static void test_the_answer_to_a_pulse(void) {
     uint64_t seed = 77;
     for (unsigned i = 0; i < 60U; i++) {

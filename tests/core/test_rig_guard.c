@@ -63,8 +63,7 @@ static void test_over_speed_trips(void) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
-/* For any known last pulses: a turn that is too fast trips as soon as nothing contradicts it, and so do two fast
- * intervals in a row. */
+/* A turn that is too fast trips as soon as no known pulse contradicts it, and so do two fast intervals in a row. */
 static void test_over_speed_trips_when_it_is_sure(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     for (unsigned i = 0; i < 96U; i++) {

@@ -1,5 +1,5 @@
-/* test_rig_life_random.c: invariants of the rig's controller under random orders and inputs, new set-points during a run, and a
- * result that survives a trip. */
+/* test_rig_life_random.c: the rig's controller under random orders and inputs, new set-points, and a result that outlives a
+ * trip. */
 #include <stddef.h>
 
 #include "draw.h"

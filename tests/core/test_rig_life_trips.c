@@ -110,8 +110,7 @@ static void check_reset(wh_trip trip) {
     TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* the rotor's motion is unknown */
 }
 
-/* In each phase of a run, and armed: off in the same step, latched, through a reset, until the rotor rests and the cause is
- * gone. */
+/* In each phase of a run, and armed: off in the same step, latched, through a reset, until rest and the cause is gone. */
 static void test_trips_latch(void) {
     for (unsigned i = 0; i < 3; i++) {
         for (wh_rig_phase phase = WH_PHASE_NONE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -188,8 +187,7 @@ static void stop(stop_way way) {
     }
 }
 
-/* In every phase the motor is off in the same step and stays off until the rotor rests. Then `arm` is allowed again, unless the
- * stop input is still pressed. */
+/* In every phase the motor is off in the same step until the rotor rests. Then `arm` is allowed unless stop is still pressed. */
 static void test_stop_is_at_once(void) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
         even_reach(&even, phase);
@@ -284,8 +282,7 @@ static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
     }
 }
 
-/* After any rest, a hand's pulses are not compared with earlier ones: the timer wraps after 72 minutes, and more than half of
- * that reads as a future time. */
+/* After any rest a hand's pulses are not compared with earlier ones: the timer wraps after 72 minutes, half of which is future. */
 static void test_rest_may_last_any_time(void) {
     for (unsigned i = 0; i < 24U; i++) {
         even_start(&even);

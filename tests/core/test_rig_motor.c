@@ -112,8 +112,8 @@ static void draw_motor(void) {
     kind.no_load_radps = motor.no_load_radps;
 }
 
-/* No motor trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model less
- * well, and the result may be doubtful. */
+/* No motor trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model
+ * less well, and the result may be doubtful. */
 static void test_any_motor_with_its_settings(void) {
     seed = 61;
     unsigned good = 0;
@@ -142,8 +142,7 @@ static void test_any_motor_with_its_settings(void) {
     TEST_ASSERT_TRUE(good * 10U > cases * 8U && fed * 10U > cases && refused * 5U < cases);
 }
 
-/* A divider that reads 0.7 to 1.3 times the supply, or a setting that is as wrong: the run ends with a result, or the trip
- * names the cause. */
+/* A divider that reads 0.7 to 1.3 times the supply, or a setting as wrong: a result, or a trip that names the cause. */
 static void test_wrong_settings_are_named(void) {
     seed = 62;
     unsigned named = 0;
@@ -191,8 +190,7 @@ static void test_a_wrong_order_is_named(void) {
     }
 }
 
-/* A coasting rotor: its speed, and its last turn's, are known while pulses alternate. When a sensor fires twice it swings, and
- * the speed is unknown. */
+/* A coasting rotor's speed, also the last turn's, is known while pulses alternate. A sensor that fires twice shows a swing. */
 static void test_the_speed_of_a_rotor_that_coasts(void) {
     seed = 65;
     unsigned known_steps = 0;

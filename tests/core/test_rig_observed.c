@@ -119,8 +119,7 @@ static void test_unfed_nothing_is_observed(void) {
     TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.marked);
 }
 
-/* When a new set-point ends the feed-forward, the measurement's reference changes in the same step, and again when it
- * returns. */
+/* When a new set-point ends the feed-forward, the measurement's reference changes in the same step, and when it returns. */
 static void test_the_reference_knows_who_is_fed(void) {
     arm();
     even.config.feeds = WH_FEED_SLOW;

@@ -54,8 +54,7 @@ static void test_the_rotor_is_the_scenes(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)state.real[0], (float)other.speed_radps);
 }
 
-/* The angle is right to 0.02 degrees around the turn at any speed, freely swinging (by up to 18 %) or fed forward. Speed and
- * friction are right too. */
+/* The angle is right to 0.02 degrees at any speed, freely swinging (by up to 18 %) or fed forward; speed and friction too. */
 static void test_the_rotor_it_knows_is_followed(void) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {

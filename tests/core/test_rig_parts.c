@@ -323,8 +323,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
     }
 }
 
-/* A swing's verdict from its last pass: strays up to a quarter of the fitting pulses, enough half swings, sensor 2 passed, a
- * narrow enough interval. */
+/* A swing's verdict from its last pass: at most a quarter strays, enough half swings, sensor 2 passed, a narrow interval. */
 static void test_verdict_of_a_swing(void) {
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     unsigned times[WH_SWING_WHYS] = {0};

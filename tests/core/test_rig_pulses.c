@@ -1,5 +1,4 @@
-/* test_rig_pulses.c: recognition of true slot pulses: trains of a made-up rotor that gravity swings, with jitter, disturbances,
- * losses and bounces. */
+/* test_rig_pulses.c: true slot pulses of a rotor that gravity swings, among jitter, disturbances, losses and bounces. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -228,8 +227,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 
 #define PLACES 60U
 
-/* In the record a wrong speed stops the run. While it settles, a pulse early by less than the window shows until the true one
- * comes. */
+/* In the record a wrong speed stops the run. While it settles, a pulse early within the window shows until the true one. */
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);

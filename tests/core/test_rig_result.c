@@ -169,8 +169,7 @@ static void test_floors_are_kept(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.5f, (float)(measured.phase_half_rad / DEG));
 }
 
-/* Jittering marks: their standard deviation follows from the second differences of both sensors. None is taken across a turn
- * that does not count. */
+/* Jitter's standard deviation follows from the second differences of both sensors, but not across a turn that does not count. */
 static void test_jitter_is_found(void) {
     scattered_state = UINT64_C(0x5eed0032);
     begin();
@@ -445,8 +444,8 @@ static void test_noise_and_hum_are_no_motion(void) {
     }
 }
 
-/* A drift of 0.4 N or a swing of 0.3 N is motion, of a rotor (1 Hz and more) or a frame (to 8 Hz), with any hum. Noise hides
- * twice of it. */
+/* A drift of 0.4 N or a swing of 0.3 N is motion, of a rotor (from 1 Hz) or a frame (to 8 Hz), with any hum. Noise hides twice
+ * it. */
 static void test_motion_is_seen_through_noise_and_hum(void) {
     scattered_state = UINT64_C(0x5eed0034);
     for (unsigned k = 0; k < 2000; k++) {

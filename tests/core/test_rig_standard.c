@@ -1,5 +1,4 @@
-/* test_rig_standard.c: the standard rig's settings in the units of docs/rig.md, which has their reasons. A change needs an
- * update here and an entry in CHANGELOG.md. */
+/* test_rig_standard.c: the standard rig's settings (reasons: docs/rig.md). A change needs an entry here and in CHANGELOG.md. */
 #include "core/rig/rig.h"
 
 #include "unity.h"

@@ -1,5 +1,4 @@
-/* test_rig_steps.c: the rig's run step by step: each phase's duration and end, exact to the step, from the numbers of
- * docs/rig.md, and the result of a full record. */
+/* test_rig_steps.c: the rig's run step by step: each phase's exact duration and end by docs/rig.md, and a full record's result. */
 #include <stddef.h>
 
 #include "even_rig.h"

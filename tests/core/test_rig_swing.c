@@ -139,8 +139,7 @@ static void test_places_are_found_of_rotors_that_nobody_knows(void) {
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
 }
 
-/* Pulses that scatter more than configured set their own variance, and the intervals are as wide as the number of pulses
- * requires. */
+/* Pulses that scatter more than configured set their own variance, and the intervals are as wide as their number requires. */
 static void test_rough_pulses_have_wide_intervals(void) {
     const wh_rig_config config = standard();
     unsigned covered = 0;

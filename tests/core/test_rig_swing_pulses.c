@@ -1,5 +1,5 @@
-/* test_rig_swing_pulses.c: the stored pulses of a swing against the story that made them. The first guess against the rotor
- * (rotor.c), the work per step, and turning points against many small steps. */
+/* test_rig_swing_pulses.c: a swing's stored pulses, first guess, work per step and turning points. The references are the
+ * pulses' story, the rotor (rotor.c) and many small steps. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
@@ -26,8 +26,7 @@ static bool near(wh_real found, wh_real wanted, wh_real most) {
 
 /* --- stored pulses ------------------------------------------------------------------------------------------- */
 
-/* A rotor that turns and then swings: its pulses in order, the first one backwards past sensor 1, and the number of later
- * passages of it. */
+/* A rotor that turns and then swings: its pulses in order, the first one backwards past sensor 1, and its later passages. */
 #define STORY_MOST 120U
 typedef struct story {
     uint32_t ticks[STORY_MOST];
@@ -112,8 +111,7 @@ static void test_what_is_kept_of_a_swing(void) {
     }
 }
 
-/* A pulse lost while the rotor still turns looks like the first return. Later turns correct that, and the stored swing is as
- * without the loss. */
+/* A pulse lost while the rotor still turns looks like the first return. Later turns correct it: the stored swing is the same. */
 static void test_a_pulse_lost_while_it_turns_changes_nothing(void) {
     static story told;
     seed = 2;
@@ -151,8 +149,7 @@ static wh_real swing_out(const rotor_kind *kind) {
     return first_radps;
 }
 
-/* The speed at the first return, gravity and friction over inertia: within the guess's own uncertainty, the first two within
- * some 10 %. */
+/* The speed at the first return, gravity and friction over inertia: within the guess's uncertainty, the first two to some 10 %. */
 static void test_a_guess_is_as_near_as_it_says(void) {
     unsigned told = 0;
     unsigned near_it = 0;
@@ -199,8 +196,7 @@ static wh_real longer_by(wh_real k2) {
     return WH_R(1.0) / a;
 }
 
-/* A first swing of any width almost up to the top, followed by small ones: its width is guessed from its time alone, by the
- * pendulum's integral. */
+/* A first swing of any width almost to the top, then small ones: its time alone gives its width, by the pendulum's integral. */
 static void test_the_first_swings_width_is_told_by_its_time(void) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
@@ -290,8 +286,7 @@ static void test_a_control_step_does_one_piece_of_the_work(void) {
 
 /* --- turning back ----------------------------------------------------------------------------------------- */
 
-/* A step in which the rotor turns back, or friction holds it there, with its sensitivity to each cause, against many small
- * steps. Forwards and backwards in time. */
+/* A step in which the rotor turns back or friction holds it, with its sensitivities, against small steps in either direction. */
 static void test_a_step_that_turns_back_is_many_small_ones(void) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),

@@ -244,8 +244,7 @@ static wh_real error_squared_at_2s(wh_method method, unsigned count) {
     return x * x + v * v;
 }
 
-/* Half the step divides the error by 2^order. The number of steps keeps the method's error far above round-off, so higher
- * orders take fewer. */
+/* Half the step divides the error by 2^order. The number of steps keeps the error far above round-off. */
 static void expect_order(wh_method method) {
     const unsigned order = wh_methods[method].order;
     const wh_real drowned = sizeof(wh_real) == 8 ? WH_R(5e-13) : WH_R(2e-6);

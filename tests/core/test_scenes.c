@@ -163,8 +163,7 @@ static void test_books_of_the_epicyclic_gear(void) {
         off_centre = larger(off_centre, WH_ABS(state.real[0] + WH_R(0.3) * c - WH_R(0.3)));
         off_work = larger(off_work, WH_ABS(kinetic - work));
     }
-    /* X' (below 8 m/s) walks 9000 steps and is integrated for 9 s; T = 179 J is twice as sensitive to
-     * theta' (22 rad/s, walking). */
+    /* X' (below 8 m/s) walks 9000 steps and is integrated for 9 s; T = 179 J is twice as sensitive to theta' (22 rad/s). */
     TEST_ASSERT_TRUE(off_centre > WH_R(0.0));
     TEST_ASSERT_TRUE(off_centre <= (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4)));
     TEST_ASSERT_TRUE(off_work <= (WH_DOUBLE ? WH_R(1e-6) : WH_R(1.7e-3)));

@@ -99,8 +99,7 @@ static void test_it_is_entered(void) {
     }
 }
 
-/* Where a swing turns back, rates change by no larger share than at its fastest: slow rates get no more there. A faster one
- * sets the new measure. */
+/* Where a swing turns back, rates change by no larger share than at its fastest. A faster one sets the new measure. */
 static void test_the_fastest_so_far_is_the_measure(void) {
     uint32_t seed = 20261130;
     for (unsigned i = 0; i < DRAWN; i++) {

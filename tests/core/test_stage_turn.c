@@ -281,8 +281,7 @@ static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_
     }
 }
 
-/* Up to half a turn per step the lean is small, so the two steps agree to round-off. The waves turn up to three times as much,
- * and d is rarely small. */
+/* Up to half a turn per step the lean is small, so both steps agree to round-off. The waves turn up to three times as much. */
 static void test_fast_angles_step_as_looking_up_does(void) {
     const wh_real h = WH_R(0.0009765625);
     const wh_real most = WH_R(3.14) / h;
@@ -359,8 +358,7 @@ static void test_small_turns_are_sines(void) {
     }
 }
 
-/* Up to eight turns: the error grows with each doubling in proportion. Beyond all turns the result is infinite or NaN, and no
- * step accepts it. */
+/* Up to eight turns the error grows with each doubling. Beyond all turns the result is infinite or NaN, and no step accepts it. */
 static void test_far_turns_are_sines(void) {
     const int32_t each = __STDC_HOSTED__ ? 1 : 9;
     for (int32_t i = -50000; i <= 50000; i += each) {

@@ -1,6 +1,5 @@
-/* test_stage_turn_ledger.c: books with rotated sines (core/step/stage_turn_ledger.h) and stages unrolled by hand, for compilers
- * without an unroll request. The run's bits are those without books. A torque's work is its energy's change. A refused step
- * enters nothing. */
+/* test_stage_turn_ledger.c: books with rotated sines (core/step/stage_turn_ledger.h) and stages unrolled by hand. The run's
+ * bits are those without books. A torque's work is its energy's change. A refused step enters nothing. */
 #include "core/scene.h"
 #define WH_COORDS 2
 #define WH_WAVES 1

@@ -1,5 +1,4 @@
-/* test_station.c: the rig's console: each line has its answer, orders act as without it, and a host that does not read does not
- * disturb the rig. */
+/* test_station.c: the rig's console: each line has its answer, orders act as without it, and a silent host is harmless. */
 #include "core/station/station.h"
 
 #include <string.h>

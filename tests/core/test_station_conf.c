@@ -1,5 +1,4 @@
-/* test_station_conf.c: settings at the console: each in range and in its place of the configuration, changed in idle only,
- * stored, and restored to the bit. */
+/* test_station_conf.c: settings at the console: in range, in their places, changed in idle only, stored, restored to the bit. */
 #include <stddef.h>
 #include <string.h>
 

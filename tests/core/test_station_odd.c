@@ -1,5 +1,4 @@
-/* test_station_odd.c: the station in odd conditions: a full queue, a trip, too long input, a board with a reversed cell,
- * unreadable memory, wrong arithmetic. */
+/* test_station_odd.c: the station with a full queue, a trip, long input, a reversed cell, unreadable memory, wrong arithmetic. */
 #include <string.h>
 
 #include "core/number/arithmetic.h"

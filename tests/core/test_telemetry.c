@@ -1,5 +1,4 @@
-/* test_telemetry.c: frames beside the console's text: all events are in them or counted, answers come through, and the rig acts
- * as without telemetry. */
+/* test_telemetry.c: frames beside the console's text: all events are in them or counted, and the rig acts as without telemetry. */
 #include <string.h>
 
 #include "core/cobs.h"

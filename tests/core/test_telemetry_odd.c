@@ -1,5 +1,4 @@
-/* test_telemetry_odd.c: telemetry of invalid, too large or untimely values: frames and plotter lines without room for them, and
- * cells without a period. */
+/* test_telemetry_odd.c: telemetry of invalid, too large or untimely values, without room for a line, or without a cell. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

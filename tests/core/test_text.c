@@ -104,8 +104,7 @@ static void test_fixed_beyond_its_room(void) {
 #endif
 }
 
-/* A minus sign appears only before a nonzero digit. Values are about half of the last digit, by factors from 2^-30 to 2^4, a
- * tie and its neighbours. */
+/* A minus sign appears only before a nonzero digit. Values: half of the last digit times 2^-30 to 2^4, a tie and neighbours. */
 static void test_fixed_sign(void) {
     uint32_t random = 1;
     unsigned bare = 0;

@@ -1,5 +1,4 @@
-/* test_virtual_rig_halts.c: the rig on its model, from each state: stop pressed, processor reset, host lost. A halted rig does
- * not move by itself. */
+/* test_virtual_rig_halts.c: the rig on its model, from each state: stop, reset, lost host. A halted rig stays halted. */
 #include "on_plant.h"
 
 #include <stddef.h>
@@ -93,8 +92,7 @@ static void test_stop_in_every_state(void) {
     }
 }
 
-/* A stage stuck at a share of the supply, in each state with the motor off. The enable is off within 1.5 s, and the trip names
- * the cause if the rotor turns. */
+/* A stage stuck at a share of the supply, with the motor off: the enable is off within 1.5 s; a turning rotor trips by name. */
 static void test_a_stuck_stage_in_every_off_state(void) {
     seed = 25;
     for (unsigned i = 0; i < draw_cases(24); i++) {
@@ -132,8 +130,7 @@ static void test_stop_of_a_tripped_rig(void) {
 
 /* --- the supply ------------------------------------------------------------------------------------------ */
 
-/* Supply out of range or missing: `arm` is refused. An armed or running rig trips in the next step with the reading in its
- * record. */
+/* Supply out of range or missing: `arm` is refused, and an armed or running rig trips in the next step with the reading. */
 static void test_supplies_out_of_range(void) {
     seed = 24;
     for (unsigned place = 0; place < PLACES; place++) {

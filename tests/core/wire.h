@@ -1,5 +1,4 @@
-/* wire.h: the tests' own decoder of the station's line: text and frames. It follows the text at the head of
- * core/station/telemetry.h; its checksums work bit by bit. */
+/* wire.h: the tests' own decoder of the station's line, from the head of core/station/telemetry.h, with bitwise checksums. */
 #ifndef TESTS_CORE_WIRE_H
 #define TESTS_CORE_WIRE_H
 
