@@ -1,5 +1,4 @@
-/* watchdog.c: a board's watchdog. Kicked in time it is silent. Otherwise it interrupts, not before its time, and then resets.
- * watchdog.sh checks the output. */
+/* watchdog.c: a board's watchdog is silent if kicked in time. Otherwise it interrupts when due, then resets (watchdog.sh). */
 #include "hal/watchdog.h"
 #include "boards/board.h"
 #include "core/text.h"

@@ -24,8 +24,6 @@ static wh_real length[2]; /* step length and its correction */
 
 static double size_of(double x) { return x < 0.0 ? -x : x; }
 
-/* --- many in one call ----------------------------------------------------------------------------------- */
-
 /* A driven pendulum beside a mass on a spring. */
 static void accel(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *input, wh_real *result) {
@@ -108,8 +106,6 @@ static void test_steps_ahead_are_steps(void) {
         }
     }
 }
-
-/* --- by a matrix ------------------------------------------------------------------------------------------ */
 
 #if HAS_REFERENCE
 /* A rotation by a small angle: t is the tangent of half of it. */
@@ -241,8 +237,6 @@ static void test_what_a_matrix_spoils_is_refused(void) {
 }
 
 #if HAS_REFERENCE
-/* --- length correction --------------------------------------------------------------------------------------- */
-
 static void pull(const void *model, const wh_phase *phase, const wh_real *linear,
                  const wh_real *rate, const wh_real *input, wh_real *result) {
     (void)model;

@@ -27,8 +27,6 @@ static void draw(uint64_t *seed, wh_contact_work *w) {
     w->inside = (unsigned)draw_bits(seed) % 32U;
 }
 
-/* --- margins ------------------------------------------------------------------------------------------------ */
-
 /* Bound on the round-off of the others' forces along k. */
 static wh_real others_of(const wh_contact_work *w, unsigned k) {
     wh_real others = WH_R(0.0);
@@ -134,8 +132,6 @@ static void test_margins_are_those_of_their_kinds(void) {
     }
 }
 
-/* --- NaN and infinity ----------------------------------------------------------------------------------------- */
-
 static wh_real draw_none(uint64_t *seed) {
     const wh_real zero = WH_R(0.0) * bench_now.free[0];
     return draw_one_in(seed, 3)   ? zero / zero
@@ -230,8 +226,6 @@ static void test_calm_is_told(void) {
         TEST_ASSERT_TRUE(!wh_contact_calm(&bench_now.system, &m));
     }
 }
-
-/* --- the path ------------------------------------------------------------------------------------------------ */
 
 /* Bezier's form of the cubic with these end values and slopes (for the whole path), by de Casteljau. */
 static double cubic(double s, double from, double slope0, double to, double slope1) {

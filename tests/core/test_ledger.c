@@ -76,8 +76,6 @@ static void test_books_do_not_touch_the_run(void) {
     TEST_ASSERT_TRUE(hash[0] == hash[1]);
 }
 
-/* --- an input in the energy ----------------------------------------------------------------------------- */
-
 /* A body of 1 kg on a spring with the input as its rate. */
 static void spring_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel) {
@@ -149,8 +147,6 @@ static void test_books_of_a_spring_that_is_changed(void) {
         }
     }
 }
-
-/* --- books with an angle ----------------------------------------------------------------------------------- */
 
 /* A shaft of 1 kg m^2 under a torque of 1/2 N m. Its account contains its angle, turns included, and two inputs, each in one of
  * the energies: 1/2 r^2 + a th + b. */

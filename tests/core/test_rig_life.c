@@ -35,8 +35,6 @@ static void stand_in(wh_life state) {
     TEST_ASSERT_TRUE(even.rig.state == state);
 }
 
-/* --- the table ------------------------------------------------------------------------------------ */
-
 /* An event's effect by state (idle, armed, running, stopping, tripped): the next state's first letter, or the refusal.
  * Refusals: - not armed, a armed, r running, s stopping, t tripped, n no trip, x not running. */
 typedef struct expectation {
@@ -124,8 +122,6 @@ static void test_every_event_in_every_state(void) {
         }
     }
 }
-
-/* --- refusals -------------------------------------------------------------------------------------- */
 
 static wh_refusal arm(void) { return even_order(&even, WH_EVENT_ARM, WH_R(0.0)); }
 
@@ -257,8 +253,6 @@ static void test_unknown_and_internal_events_are_refused(void) {
         TEST_ASSERT_TRUE(even.rig.state == state);
     }
 }
-
-/* --- armed ------------------------------------------------------------------------------------------ */
 
 static void test_armed_lasts_a_minute(void) {
     stand_in(WH_LIFE_ARMED);
