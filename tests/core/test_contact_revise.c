@@ -74,7 +74,7 @@ static void expect_hold(const revised *r) {
     expect_near(stops ? r->rate[0] + WH_R(0.25) * r->rate[1] : r->rate[0], s.real[2]);
 }
 
-/* Passed by g and put back: x0 by g, alone if it is the stop's pin, else a free x1 moves by (1/M)_01/(1/M)_00 = -1/2 of that. */
+/* Passed by g and put back: x0 by g, alone if it is the stop's pin. Else a free x1 moves by (1/M)_01/(1/M)_00 = -1/2 of that. */
 static void expect_places(const revised *r) {
     const bool passed = r->stop_moved && r->gap < WH_R(0.0);
     const bool held = !(r->hold_moved && !r->keeps);

@@ -93,7 +93,7 @@ static void go_on(const rotor_kind *kind, rotor_state *rotor, unsigned steps) {
     }
 }
 
-/* A friction of up to 0.1 N m that vanishes anywhere lets the rotor climb, from 0.7 times the inertia on: the loop's business. */
+/* A friction of up to 0.1 N m that vanishes anywhere lets the rotor climb, from 0.7 times the inertia on. The loop handles it. */
 static void test_a_load_that_goes_away_is_no_runaway(void) {
     seed = 9;
     for (unsigned trial = 0; trial < 60U; trial++) {

@@ -444,8 +444,7 @@ static void test_noise_and_hum_are_no_motion(void) {
     }
 }
 
-/* A drift of 0.4 N or a swing of 0.3 N is motion, of a rotor (from 1 Hz) or a frame (to 8 Hz), with any hum. Noise hides twice
- * it. */
+/* A drift of 0.4 N or a swing of 0.3 N, plus twice the noise, is motion: of a rotor (from 1 Hz) or a frame (to 8 Hz), with hum. */
 static void test_motion_is_seen_through_noise_and_hum(void) {
     scattered_state = UINT64_C(0x5eed0034);
     for (unsigned k = 0; k < 2000; k++) {
