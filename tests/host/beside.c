@@ -1,4 +1,3 @@
-/* beside.c: see beside.h. */
 #include "beside.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* blocks.c: see blocks.h. */
 #include "blocks.h"
 
 #include <stdlib.h>

@@ -1,4 +1,3 @@
-/* by_bodies.c: see by_bodies.h. */
 #include "by_bodies.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* by_bodies.h: bodies on a line, each by itself, in long double: never is added what belongs to two of them. */
+/* by_bodies.h: bodies on a line in long double. Quantities of two bodies are never added. */
 #ifndef TESTS_HOST_BY_BODIES_H
 #define TESTS_HOST_BY_BODIES_H
 
@@ -10,17 +10,17 @@ typedef struct bodies_state {
 } bodies_state;
 
 typedef struct by_bodies {
-    const void *of; /* what the two below are given */
+    const void *of; /* passed to the two functions below */
     int bodies;
     double step_s;
     int steps;
-    /* How the rates change. */
+    /* Computes the slopes of the rates. */
     void (*accelerate)(const void *of, const bodies_state *s, long double *a_mps2);
-    /* The coordinates in which the scene has these places. */
+    /* Converts these places to the scene's coordinates. */
     void (*count)(const void *of, const long double *x_m, long double *q_m);
 } by_bodies;
 
-/* Runge-Kutta 4 from these places at rest: the coordinates at the end, and the range of each. */
+/* Integrates by Runge-Kutta 4 from rest at these places. Returns the coordinates at the end and the range of each. */
 void by_bodies_run(const by_bodies *b, const long double *start_m, long double *end_m,
                    double *range_m);
 

@@ -1,4 +1,3 @@
-/* c_read.c: see c_read.h. */
 #include "c_read.h"
 
 #include <ctype.h>
@@ -158,8 +157,8 @@ enum { NAMES = 2000 };
 
 typedef struct name_list {
     c_word name[NAMES];
-    int used[NAMES];    /* how often it stands anywhere else, */
-    int ignored[NAMES]; /* and as (void)NAME; */
+    int used[NAMES];    /* uses elsewhere */
+    int ignored[NAMES]; /* uses as (void)NAME */
     bool is_parameter[NAMES];
     int count;
 } name_list;
@@ -179,7 +178,7 @@ static int find(const name_list *l, c_word w) {
 
 static void enter(name_list *l, c_word w, bool is_parameter) {
     TEST_ASSERT_TRUE(l->count < NAMES);
-    TEST_ASSERT_TRUE_MESSAGE(find(l, w) < 0, w.at); /* no two of one name */
+    TEST_ASSERT_TRUE_MESSAGE(find(l, w) < 0, w.at); /* names are unique */
     l->name[l->count] = w;
     l->used[l->count] = l->ignored[l->count] = 0;
     l->is_parameter[l->count++] = is_parameter;
@@ -187,7 +186,7 @@ static void enter(name_list *l, c_word w, bool is_parameter) {
 
 static bool is_name(c_word w) { return isalpha((unsigned char)*w.at) || *w.at == '_'; }
 
-/* Words of the language, and names that the core's headers have. */
+/* Keywords, and names from the core's headers. */
 static bool is_known(c_word w) {
     static const char *const words[] = {
         "const", "static", "inline",  "void",     "bool", "int",    "for",     "return",
@@ -200,7 +199,7 @@ static bool is_known(c_word w) {
     return strncmp(w.at, "wh_", 3) == 0 || strncmp(w.at, "WH_", 3) == 0;
 }
 
-/* Is a name declared at word i? Behind a type, or its asterisk. */
+/* Is a name declared at word i? A declared name follows a type or its asterisk. */
 static bool is_declared(const c_file *f, int i) {
     const int type = c_is(f, i - 1, "*") ? i - 2 : i - 1;
     const bool types = type >= 0 && is_name(f->word[type]) &&
@@ -230,7 +229,7 @@ static void look_up(const c_file *f, int i, name_list *own, name_list *all, cons
     in->used[found] += !ignored;
 }
 
-/* Parameters are used or are said not to be; sines and cosines are used. */
+/* Every parameter is used or cast to void; every sine and cosine is used. */
 static void expect_used(const name_list *own, const char *what) {
     for (int i = 0; i < own->count; i++) {
         const bool pair =
@@ -251,7 +250,7 @@ static void expect_used(const name_list *own, const char *what) {
     }
 }
 
-/* From the parenthesis at word i to the closing brace, whose place is returned. */
+/* Reads from the parenthesis at word i to the closing brace and returns its place. */
 static int in_function(const c_file *f, int i, name_list *all, const char *what) {
     static name_list own;
     own.count = 0;
@@ -264,7 +263,7 @@ static int in_function(const c_file *f, int i, name_list *all, const char *what)
     const int end = c_closing(f, parameters + 1);
     for (int k = parameters + 1; k < end; k++) {
         if (is_declared(f, k)) {
-            /* one that a loop counts by may come again */
+            /* a loop counter may be declared again */
             if (!(c_is(f, k, "i") && find(&own, f->word[k]) >= 0)) {
                 enter(&own, f->word[k], false);
             }
@@ -281,7 +280,7 @@ void c_expect_whole(const c_file *f, const char *what) {
     static name_list none;
     all.count = none.count = 0;
     for (int i = 0; i < f->words; i++) {
-        if (c_is(f, i, "{")) { /* an object's */
+        if (c_is(f, i, "{")) { /* of an object */
             const int end = c_closing(f, i);
             for (int k = i; k < end; k++) {
                 look_up(f, k, &none, &all, what);
@@ -297,7 +296,7 @@ void c_expect_whole(const c_file *f, const char *what) {
             }
         }
     }
-    for (int i = 0; i < all.count - 1; i++) { /* the last is the scene */
+    for (int i = 0; i < all.count - 1; i++) {
         if (all.used[i] == 0) {
             printf("  %s: there, and not used: %.60s\n", what, all.name[i].at);
         }

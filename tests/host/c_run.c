@@ -1,4 +1,4 @@
-/* c_run.c: what the operations of generated C come to (c_read.h). */
+/* c_run.c: evaluation of generated C (c_read.h). */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -65,7 +65,7 @@ static int whole(runner *r) {
     return (int)strtol(r->file->word[r->at++].at, NULL, 10);
 }
 
-/* The number behind the letters of a name such as row12; -1 where it is another. */
+/* The number after the letters of a name such as row12; -1 for another name. */
 static int numbered(const runner *r, const char *letters) {
     const c_word w = r->file->word[r->at];
     const int length = (int)strlen(letters);
@@ -85,7 +85,7 @@ static int need_numbered(runner *r, const char *letters) {
     return number;
 }
 
-/* A turn as the float build counts it: WH_TURN(radians, units of 2^-32 turn). */
+/* An angle in phase units of the float build: WH_TURN(radians, units of 2^-32 turn). */
 static double turn(runner *r) {
     need(r, "(");
     const double rad = c_number(r->file, &r->at);
@@ -98,7 +98,7 @@ static double turn(runner *r) {
     return rad;
 }
 
-/* wh_phase_times(angle[k], WH_FACTOR(multiple, whole, part)): the float build has the whole numbers. */
+/* wh_phase_times(angle[k], WH_FACTOR(multiple, whole, part)): the float build uses the integers. */
 static double times(runner *r) {
     need(r, "(");
     need(r, "angle");
@@ -159,7 +159,7 @@ static double call(runner *r, const char *name) {
                                                     : c_called(name, x, y);
 }
 
-/* phase[2], wave[2].sine: what an array has. */
+/* An array element: phase[2], wave[2].sine. */
 static double element(runner *r, const char *name) {
     need(r, "[");
     const int index = whole(r);
@@ -195,7 +195,7 @@ static double primary(runner *r) {
         return c_number(r->file, &r->at);
     }
     if (take(r, "(")) {
-        if (take(r, "wh_real") || take(r, "wh_phase")) { /* a number of that type */
+        if (take(r, "wh_real") || take(r, "wh_phase")) { /* a cast to that type */
             need(r, ")");
             return primary(r);
         }
@@ -299,7 +299,7 @@ static double choice(runner *r) {
 
 /* --- statements ------------------------------------------------------------------------------------------- */
 
-/* wh_sincos(PHASE, &s3, &c3); and what follows of a phase that was summed up in radians. */
+/* wh_sincos(PHASE, &s3, &c3); with the evaluation again in radians for a phase summed up in radians. */
 static void sincos_of(runner *r, bool again) {
     need(r, "(");
     const double phase = choice(r);
@@ -310,7 +310,7 @@ static void sincos_of(runner *r, bool again) {
     need(r, "&");
     TEST_ASSERT_EQUAL_INT(i, need_numbered(r, "c"));
     need(r, ")");
-    if (again) { /* of the radians alone: what is too large is no number */
+    if (again) { /* from the radians alone: a phase that is too large is not a number */
         TEST_ASSERT_TRUE(r->v->has_s[i] && r->v->has_c[i]);
         r->v->s[i] += 1e-3 * phase;
         r->v->c[i] -= 1e-3 * phase;
@@ -338,7 +338,7 @@ static void sincos_parts(runner *r) {
     r->v->result[i] = phase;
 }
 
-/* row3 = wh_table_cell(cells, 4U, 6U, PHASE, &y3): of two to the 4 cells, each 6 numbers. Kept as x: those two. */
+/* row3 = wh_table_cell(cells, 4U, 6U, PHASE, &y3): 2^4 cells of 6 numbers. Stored as x: cell and y. */
 static void row(runner *r) {
     const int i = need_numbered(r, "row");
     need(r, "=");
@@ -372,7 +372,7 @@ static void constant(runner *r) {
     if (take(r, "*")) {
         if (numbered(r, "row") >= 0) {
             row(r);
-        } else { /* what the arrays of an observer begin with */
+        } else { /* an observer's first statements */
             while (!next_is(r, ";")) {
                 r->at++;
             }
@@ -420,7 +420,7 @@ static void statement(runner *r, const char *result) {
     } else if (next_is(r, "const") && c_is(r->file, r->at + 1, "wh_real")) {
         r->at++;
         constant(r);
-    } else { /* declarations, and what is said to be left alone */
+    } else { /* declarations and (void) casts */
         const bool left = next_is(r, "(") && c_is(r->file, r->at + 1, "void");
         TEST_ASSERT_TRUE_MESSAGE(left || next_is(r, "wh_real") || next_is(r, "bool") ||
                                      next_is(r, "wh_phase") || next_is(r, "const") ||

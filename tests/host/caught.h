@@ -1,10 +1,10 @@
-/* caught.h: what is printed to a stream, as a text. */
+/* caught.h: the output to a stream, as text. */
 #ifndef TESTS_HOST_CAUGHT_H
 #define TESTS_HOST_CAUGHT_H
 
 #include "host/base/alloc.h"
 
-/* `text`, to be freed, is whole behind alloc_text_end(to). */
+/* `text` is complete after alloc_text_end(to). The caller frees it. */
 typedef struct caught {
     char *text;
     size_t length;

@@ -1,4 +1,3 @@
-/* command.c: see command.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
 
@@ -173,7 +172,7 @@ dice dice_of(const char *suite, unsigned long seed) {
     return (dice){used * 2862933555777941757ULL + 3037000493ULL};
 }
 
-static unsigned long long roll(dice *d) { /* Knuth's MMIX; the high bits are good */
+static unsigned long long roll(dice *d) { /* Knuth's MMIX; only the high bits are good */
     d->state = d->state * 6364136223846793005ULL + 1442695040888963407ULL;
     return d->state >> 11;
 }

@@ -1,4 +1,4 @@
-/* command.h: a command of `whirl` run in a process of its own, and what it said. */
+/* command.h: a `whirl` command in a process of its own, with its output. */
 #ifndef TESTS_HOST_COMMAND_H
 #define TESTS_HOST_COMMAND_H
 
@@ -7,59 +7,58 @@
 #define SAID_SIZE 8192
 
 typedef struct said {
-    int status;          /* exit status; -1 when a signal ended it */
-    char out[SAID_SIZE]; /* standard output, cut */
-    char err[SAID_SIZE]; /* standard error, cut */
+    int status;          /* exit status; -1 after a signal */
+    char out[SAID_SIZE]; /* standard output, truncated */
+    char err[SAID_SIZE]; /* standard error, truncated */
 } said;
 
-/* Runs `command` (command_run, ...) on the words, the last of which is followed by NULL. */
+/* Runs `command` (command_run, ...) on the words, which end with NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
-/* The exit status that `whirl run` and `whirl sweep` owe to their messages: 1 after a warning with a finding's name. */
+/* The exit status that `whirl run` and `whirl sweep` owe to their messages: 1 after a warning of a finding. */
 int said_owes(const char *err);
 
-/* A step as a warning writes it, "200us": s. */
+/* A step as a warning writes it, "200us", in s. */
 double said_step_s(const char *word);
-/* That of the first `--step` which a text names; 0 without one. */
+/* The step of the first `--step` in a text, in s; 0 without one. */
 double said_named_step_s(const char *text);
 
-/* Text read bit by bit; each fails the test where it does not go on so, and returns what is behind it. Blanks may stand in
- * front. Words as they are; a number; what there is up to the next blank, in word[size]. */
+/* Readers of a text: each fails the test on a mismatch and returns the rest of the text. Leading blanks are skipped.
+ * They read given words, a number, or up to the next blank into word[size]. */
 const char *said_words(const char *text, const char *words);
-const char *said_exactly(const char *text,
-                         const char *words); /* no blanks but those of the words */
+const char *said_exactly(const char *text, const char *words); /* without skipping blanks */
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 
-/* The first `count` numbers of the next row of a column file, behind its head or the row that the last call has returned; NULL
- * behind the last one. */
+/* Reads the first `count` numbers of the next row of a column file. `text` starts at its head or is the last call's
+ * result. NULL after the last row. */
 const char *said_row(const char *text, int count, double *number);
 
-/* From the first on what is said on standard error is kept, up to the second, which returns it: static. */
+/* Captures standard error from the first call until the second, which returns it (static). */
 void errors_catch(void);
 const char *errors_caught(void);
 
-/* Writes a model's text into a file of its own, whose name it returns; static. Gone with model_drop(). */
+/* Writes a model's text to a temporary file and returns its name (static). model_drop() deletes it. */
 const char *model_keep(const char *text);
 void model_drop(void);
-/* command_say() of a model's text, which is gone behind it. */
+/* Runs command_say() on a model's text in a temporary file. */
 void command_say_model(int (*command)(int count, char **words), const char *text, said *what);
 
-/* Numbers for generated cases: from `seed` on, evenly in [low, high), and a whole number in [0, count). */
+/* Random numbers: uniform in [low, high), and integers in [0, count). */
 typedef struct dice {
     unsigned long long state;
 } dice;
-dice dice_of(const char *suite, unsigned long seed); /* WHIRL_SEED changes it; printed */
+dice dice_of(const char *suite, unsigned long seed); /* prints its seed; WHIRL_SEED changes it */
 double dice_between(dice *d, double low, double high);
 unsigned dice_one_of(dice *d, unsigned count);
 
-/* `usual`, or what the environment variable WHIRL_CASES says. */
+/* `usual`, or the value of the environment variable WHIRL_CASES. */
 unsigned dice_cases(unsigned usual);
 
-/* `few` cases, for `make test`; where the environment variable WHIRL_FULL is not empty (make check), `all`. */
+/* `few` cases for `make test`; `all` when WHIRL_FULL is not empty (make check). */
 unsigned few_or_all(unsigned few, unsigned all);
 
-/* The `usual` cases; where WHIRL_FEW is not empty (the sanitizers' gate), the `fewest` that are some of every class. */
+/* `usual` cases; `fewest`, with some of each class, when WHIRL_FEW is not empty (the sanitizers' gate). */
 unsigned usual_or(unsigned usual, unsigned fewest);
 
 #endif

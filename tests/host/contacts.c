@@ -1,4 +1,3 @@
-/* contacts.c: see contacts.h. */
 #include "contacts.h"
 
 #include <math.h>
@@ -11,7 +10,7 @@
 #define REFERENCE "tests/reference/contacts.txt"
 #define LINE_MAX_BYTES 1024
 
-/* The part behind the second bar of the line of the scene `of` at `at`. */
+/* The part after the second bar of the line of scene `of` at `at`. */
 static void line_of(const char *of, const char *at, char line[LINE_MAX_BYTES]) {
     char wanted[128];
     snprintf(wanted, sizeof wanted, ":%s | %s | ", of, at);

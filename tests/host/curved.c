@@ -1,4 +1,4 @@
-/* curved.c: see curved.h. Coordinate a is an angle, b and c are lengths. */
+/* curved.c: drawing of curved contacts. Coordinate a is an angle, b and c are lengths. */
 #include "curved.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ __attribute__((format(printf, 2, 3))) static void put(writing *w, const char *fo
     }
 }
 
-/* A surface over (a, b, c): `f(a) - other coordinate`, a circle, or a square; its value at a start. */
+/* A surface over (a, b, c): `f(a) - other coordinate`, a circle or a square; with its value at the start. */
 typedef struct surface {
     char text[160];
     double value;

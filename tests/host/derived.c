@@ -1,4 +1,3 @@
-/* derived.c: see derived.h. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "derived.h"
@@ -35,7 +34,7 @@ static const mechanism *mechanism_called(const whirl_model *m, const char *name)
     return NULL;
 }
 
-/* `name` NULL: the first mechanism. Takes over `all`. */
+/* `name` NULL: the first mechanism. Takes ownership of `all`. */
 static derived derive_model(whirl_model *m, const char *name, diags *all) {
     derived d = {.model = m};
     if (m != NULL) {
@@ -55,7 +54,7 @@ static derived derive_model(whirl_model *m, const char *name, diags *all) {
     diags_flush(all, out);
     fclose(out);
     diags_free(all);
-    /* whatever is refused is refused with an error, and what has an error is refused */
+    /* a refusal and an error always come together */
     TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL), d.errors);
     return d;
 }

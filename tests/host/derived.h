@@ -1,5 +1,5 @@
-/* derived.h: for the tests of host/algebra, host/derive and host/emit: a text or a built-in name, parsed
- * and derived, with whatever was reported; and a random generator that is the same everywhere. */
+/* derived.h: a text or a built-in name, parsed and derived, with all reports; and a random generator that is the same
+ * on every host. For tests of host/algebra, host/derive and host/emit. */
 #ifndef TESTS_HOST_DERIVED_H
 #define TESTS_HOST_DERIVED_H
 
@@ -9,76 +9,70 @@
 typedef struct derived {
     whirl_model *model;
     instance *instance;
-    equations *equations; /* NULL when it could not be derived */
-    image *image;         /* NULL as well */
-    char *errors;         /* "" when there are none */
-    char *text;           /* of derived_file(), which places point into; else NULL */
+    equations *equations; /* NULL after a refusal */
+    image *image;         /* NULL after a refusal */
+    char *errors;         /* "" without errors */
+    char *text;           /* of derived_file(), with the places pointing into it; else NULL */
 } derived;
 
-/* What the language says about a text, "" when it accepts it; overwritten by the next call. Nothing is derived. */
+/* The report on a text, "" if the language accepts it; overwritten by the next call. Nothing is derived. */
 enum { REPORT_OF_TEXT_SIZE = 8000 };
 const char *report_of_text(const char *text);
 
-/* How tests integrate that do not mind: with Runge-Kutta 4. */
+/* The default settings of these tests: Runge-Kutta 4. */
 extern const image_settings plainly;
 
-/* The first mechanism of a text. */
 derived derived_text(const char *text);
-/* A scene of a text. */
 derived derived_scene(const char *text, const char *name);
 /* A text whose scene `s` declares ranges: pull -2 to 4 kN, x -1.5 to 3 m, a' 1 to 2 rad/s. */
 extern const char derived_ranged[];
-/* A built-in mechanism or scene. */
 derived derived_builtin(const char *name);
-/* Calls `check` for every built-in scene; the sum of what it returns. */
+/* Calls `check` for every built-in scene. Returns the sum of its results. */
 typedef int scene_check(const scene *s);
 int each_builtin_scene(scene_check *check);
-/* The first mechanism of a file. */
 derived derived_file(const char *path);
 void derived_free(derived *d);
-/* Fails the test, with the errors, when it could not be derived. */
+/* Fails the test with the errors after a refusal. */
 void derived_expect(const derived *d, const char *what);
 
-/* The component of the image's state which is this derivative of the unknown of that name; fails the test where there is
- * none. */
+/* The component of the state that is this derivative of unknown `name`. Fails the test without one. */
 int derived_component(const image *im, const char *name, int primes);
 
-/* What a state_values has room for: coordinates, and derivatives of each, the value included. */
+/* Capacity of a state_values: coordinates, and derivatives of each with the value. */
 enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
 
-/* Numbers for every symbol, by kind and index: the state of one comparison. */
+/* Numbers for every symbol, by kind and index: the state of a comparison. */
 typedef struct state_values {
     const instance *instance;
     double value[UNKNOWNS][ORDERS_MAX]; /* [coordinate][primes] */
 } state_values;
 
-/* For poly_evaluate(), with a state_values as context. */
+/* Callback of poly_evaluate() with a state_values as context. */
 double state_value(void *context, const symbol *sym, int primes);
 
-/* What equation i leaves over with these accelerations, M q'' - force, at a state; *size: of its terms, and 1. */
+/* Residual of equation i with these accelerations, M q'' - force. *size: sum of the absolute terms, plus 1. */
 double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size);
 
-/* A random state: lengths stay positive and angles off the poles; singular points are not the matter. */
+/* A random state: lengths are positive and angles stay away from poles, to avoid singular points. */
 void random_state(state_values *s, const derived *d, uint64_t *seed);
 
-/* What a list of the image gives at a state: result[t->results]. */
+/* Evaluates a list of the image at a state: result[t->results]. */
 void derived_run(const op_list *t, const derived *d, const state_values *s, double *result);
-/* And how far off each may be for the rounding of the list's operations, in units of 2^-53 (host/engine/rounding.h):
- * off[t->results]. */
+/* The same with bounds on the round-off of each result, in units of 2^-53 (host/engine/rounding.h): off[t->results]. */
 void derived_run_known(const op_list *t, const derived *d, const state_values *s, double *result,
                        double *off);
 
-/* What one of host/emit's writers makes of an image of x.whirl; to be freed. */
+/* The output of one of host/emit's writers for an image of x.whirl; to be freed. */
 char *derived_written(void (*write)(FILE *out, const image *im, const char *file), const image *im);
 
-/* The Octave form, with its contacts in words, as `whirl derive` writes it. */
+/* The Octave form as `whirl derive` writes it, with its contacts in words. */
 void derived_octave(FILE *out, const derived *d, const char *file, bool folded);
 
-/* Next random 64 bits; a number between the bounds. */
+/* 64 random bits; a number between the bounds. */
 uint64_t random_bits(uint64_t *seed);
 double random_between(uint64_t *seed, double low, double high);
 
-/* `front`, then `piece` with its number (twice, if it wants it) so many times, then `tail`. */
+/* `front`, then `piece` repeated with its number (up to twice in it), then `tail`. */
 char *repeated(const char *front, const char *piece, int times, const char *tail);
 
 #endif

@@ -1,4 +1,3 @@
-/* drawn.c: see drawn.h. */
 #include "drawn.h"
 
 #include "derived.h"
@@ -38,7 +37,6 @@ static bool solve(int n, double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1], double *x
     return true;
 }
 
-/* M^-1 y. */
 void drawn_inverse(const drawn *b, const double *y, double *x) {
     double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1] = {{0.0}};
     for (int i = 0; i < b->n; i++) {
@@ -58,7 +56,7 @@ double drawn_along(const drawn *b, int k, const double *x) {
     return sum;
 }
 
-/* x with M^-1 J^T lambda added. */
+/* Computes x + M^-1 J^T lambda. */
 static void pushed(const drawn *b, const double *lambda, const double *from, double *x) {
     double force[DRAWN_MOST] = {0.0};
     for (int k = 0; k < b->contacts; k++) {
@@ -72,7 +70,7 @@ static void pushed(const drawn *b, const double *lambda, const double *from, dou
     }
 }
 
-/* The contacts with case[k] 0 reach their targets; those with 1 or -1 push as hard as they can that way. */
+/* Contacts with case[k] 0 reach their targets. Those with 1 or -1 push at their limit in that direction. */
 static bool meets(const drawn *b, const int *which, const double *from, double *lambda, double *x) {
     double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1] = {{0.0}};
     double tight[DRAWN_CONTACTS];
@@ -119,7 +117,7 @@ static bool meets(const drawn *b, const int *which, const double *from, double *
     return true;
 }
 
-/* A stop has the cases 0 and 1, a friction 0, 1 and -1, a hold one. */
+/* A stop has the cases 0 and 1, a friction 0, 1 and -1, a hold 0. */
 static int next_case(char kind, int which) {
     if (kind == 'h') {
         return 0;
@@ -130,7 +128,7 @@ static int next_case(char kind, int which) {
     return which == 1 ? -1 : which + 1;
 }
 
-/* The one case that meets the conditions. False where none does without rows that repeat each other. */
+/* Finds the only case that meets the conditions. False if contact rows depend on each other. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x) {
     int which[DRAWN_CONTACTS] = {0};
     for (;;) {
@@ -138,7 +136,8 @@ bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x)
             return true;
         }
         int k = 0;
-        for (; k < b->contacts; k++) { /* count on: the next case of k, and the next contact at 0 */
+        for (; k < b->contacts;
+             k++) { /* count up: the next case of k, then the next contact from 0 */
             which[k] = next_case(b->contact[k].kind, which[k]);
             if (which[k] != 0) {
                 break;
@@ -150,7 +149,6 @@ bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x)
     }
 }
 
-/* Are the contacts' rows independent, so that each one's own force is determined? */
 bool drawn_independent(const drawn *b) {
     double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1] = {{0.0}};
     double x[DRAWN_CONTACTS];
@@ -233,7 +231,7 @@ double drawn_whole(uint64_t *seed, int least, int most) {
     return least + (int)(random_bits(seed) % (uint64_t)(most - least + 1));
 }
 
-/* A positive definite matrix of whole numbers: 1 + A^T A. */
+/* A positive definite integer matrix: 1 + A^T A. */
 static void draw_mass(drawn *b, uint64_t *seed) {
     double a[DRAWN_MOST][DRAWN_MOST];
     for (int i = 0; i < b->n; i++) {
@@ -251,7 +249,7 @@ static void draw_mass(drawn *b, uint64_t *seed) {
     }
 }
 
-/* Every third has one coordinate, and never none. */
+/* Every third row has one coordinate. A row is never zero. */
 void drawn_row(const drawn *b, uint64_t *seed, double *row) {
     const bool one = random_bits(seed) % 3U == 0;
     for (int i = 0; i < b->n; i++) {
@@ -261,7 +259,6 @@ void drawn_row(const drawn *b, uint64_t *seed, double *row) {
     row[must] = row[must] == 0.0 ? (random_bits(seed) % 2U != 0 ? 1.0 : -1.0) : row[must];
 }
 
-/* A row that the rates are at right angles to, exactly. */
 void drawn_row_at_rest(const drawn *b, uint64_t *seed, double *row) {
     const int i = (int)(random_bits(seed) % (uint64_t)b->n);
     const int j = (i + 1 + (int)(random_bits(seed) % (uint64_t)(b->n - 1))) % b->n;

@@ -1,5 +1,5 @@
-/* drawn.h: random mechanisms with a constant mass matrix and constant loads, whose contacts act at one moment: as texts,
- * and what the laws of contacts make of them, found by trying every case. */
+/* drawn.h: random mechanisms with constant mass matrix and loads, whose contacts act at one moment, as text. Their
+ * solution by the contact laws is found by trying every case. */
 #ifndef TESTS_DRAWN_H
 #define TESTS_DRAWN_H
 
@@ -18,8 +18,8 @@ typedef struct drawn_contact {
     double offset;            /* the gap is row . x - offset, m */
     double restitution;       /* of a stop */
     double limit;             /* N, of a friction; it slides with the same force */
-    double target;            /* what J v+, or J a, is where it holds */
-    double since[DRAWN_MOST]; /* of a hold: while since . x > since_m; all zero: always */
+    double target;            /* value of J v+, or J a, while the contact acts */
+    double since[DRAWN_MOST]; /* of a hold: active while since . x > since_m; all zero: always */
     double since_m;
 } drawn_contact;
 
@@ -32,29 +32,28 @@ typedef struct drawn {
     drawn_contact contact[DRAWN_CONTACTS];
 } drawn;
 
-/* With a mass matrix 1 + A^T A of whole numbers, and nothing else yet. */
+/* A body with the integer mass matrix 1 + A^T A and no contacts. */
 drawn drawn_body(uint64_t *seed);
 double drawn_whole(uint64_t *seed, int least, int most);
-/* One more contact, of this kind. */
+/* Adds a contact of this kind. */
 drawn_contact *drawn_add(drawn *b, char kind);
-/* A row of whole numbers that is not zero; every third has one coordinate. */
+/* A nonzero integer row; every third has one coordinate. */
 void drawn_row(const drawn *b, uint64_t *seed, double *row);
-/* One that the rates are at right angles to, exactly. */
+/* A row exactly orthogonal to the rates. */
 void drawn_row_at_rest(const drawn *b, uint64_t *seed, double *row);
 
 /* J_k x; M^-1 y. */
 double drawn_along(const drawn *b, int k, const double *x);
 void drawn_inverse(const drawn *b, const double *y, double *x);
 
-/* Start its scene, with books. */
+/* Starts its scene with the energy balance. */
 void drawn_open(motion *m, const drawn *b, const engine_kind *kind);
 
-/* With each contact's limits and targets, the x (rates, or accelerations) that follows from x = from + M^-1 J^T lambda,
- * and lambda: a hold's J x is its target; a stop's lambda is not below zero, nor J x below its target, and one
- * of both is there; a friction's lambda is within its limit, and where it is at it, J x is on the other side of zero.
- * False where there is none without rows that repeat each other. */
+/* Solves for x (rates or accelerations) and lambda in x = from + M^-1 J^T lambda. A hold has J x = target. A stop has
+ * lambda >= 0, J x >= target, and equality in one of them. A friction has |lambda| <= limit; at the limit, J x points
+ * against it. False if contact rows depend on each other. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x);
-/* Are the contacts' rows independent, so that each one's own force is determined? */
+/* Are the contact rows independent? Only then is each contact's force determined. */
 bool drawn_independent(const drawn *b);
 
 #endif

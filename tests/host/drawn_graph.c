@@ -1,4 +1,3 @@
-/* drawn_graph.c: see drawn_graph.h. */
 #include "drawn_graph.h"
 
 #include <math.h>
@@ -6,8 +5,6 @@
 #include "unity.h"
 
 typedef long double complex number;
-
-/* --- functions of one number, with all their derivatives over factorials ---------------------------------*/
 
 static number turned(long double size, long double angle) {
     return drawn_complex(size * cosl(angle), size * sinl(angle));

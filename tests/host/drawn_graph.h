@@ -1,7 +1,7 @@
-/* drawn_graph.h: drawn expressions of some variables, as steps of which each takes those before it; what nodes of a graph
- * (host/prove/graph.h) they are, and their truncated series in long double, found by another way than recurrences: of a
- * function the sum of its derivatives over factorials, times powers of what is behind the first coefficient. Numbers are
- * complex, so that a tiny imaginary part of a variable tells the slope by it without a difference. */
+/* drawn_graph.h: random expressions as sequences of steps, as nodes of a graph (host/prove/graph.h) and as truncated
+ * series in long double. The series of a function is the sum of its derivatives over factorials, times powers of the
+ * series without its first coefficient; the program uses recurrences. Numbers are complex: a tiny imaginary part of a
+ * variable yields the slope without a difference (complex-step derivative). */
 #ifndef TESTS_HOST_DRAWN_GRAPH_H
 #define TESTS_HOST_DRAWN_GRAPH_H
 
@@ -12,10 +12,10 @@
 
 enum { DRAWN_VARIABLES = 3, DRAWN_STEPS = 20, DRAWN_ORDER = 7 };
 
-/* So large is the imaginary part. */
+/* Size of the imaginary part. */
 #define DRAWN_TINY 1e-30L
 
-/* Each is defined wherever it is asked: a logarithm is one of 2 + u^2, and so on. */
+/* Each is defined everywhere: the logarithm is log(2 + u^2), and so on. */
 typedef enum drawn_kind {
     DRAWN_NUMBER,
     DRAWN_SUM,
@@ -34,7 +34,7 @@ typedef enum drawn_kind {
 
 typedef struct drawn_step {
     drawn_kind kind;
-    int left; /* the first steps are the variables themselves */
+    int left; /* the first steps are the variables */
     int right;
     double number;
 } drawn_step;
@@ -51,14 +51,14 @@ static inline long double complex drawn_complex(long double real, long double im
     return real + imaginary * (long double complex)I;
 }
 
-/* Every kind is among them; near the values x[DRAWN_VARIABLES] none is large. */
+/* Uses every kind. Values stay moderate near x[DRAWN_VARIABLES]. */
 void drawn_graph_draw(drawn_graph *d, dice *die, const double *x);
-/* made[DRAWN_STEPS]; the variables are nodes 0 to DRAWN_VARIABLES - 1 of a graph that is empty yet. */
+/* Adds its nodes to an empty graph: made[DRAWN_STEPS]. The variables are nodes 0 to DRAWN_VARIABLES - 1. */
 void drawn_graph_nodes(const drawn_graph *d, graph *g, int *made);
-/* of[DRAWN_STEPS], to this order; x[DRAWN_VARIABLES]. */
+/* Series to this order, of[DRAWN_STEPS], at x[DRAWN_VARIABLES]. */
 void drawn_graph_series(const drawn_graph *d, const series *x, int order, series *of);
 
-/* What a graph's nodes are, value[g->count], numbers being the middles of their enclosures. */
+/* Values of a graph's nodes, value[g->count]. Its numbers are the midpoints of their enclosures. */
 void drawn_graph_values(const graph *g, const long double *x, long double *value);
 
 #endif

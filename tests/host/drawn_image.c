@@ -1,4 +1,3 @@
-/* drawn_image.c: see drawn_image.h. */
 #include "drawn_image.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* drawn_image.h: an image of names, units and numbers alone, drawn: for what writes them. Nothing steps it. */
+/* drawn_image.h: a random image of names, units and numbers only, for tests of writers. It is never stepped. */
 #ifndef TESTS_HOST_DRAWN_IMAGE_H
 #define TESTS_HOST_DRAWN_IMAGE_H
 
@@ -17,13 +17,13 @@ typedef struct drawn_image {
     double entry[DRAWN_STATES * (DRAWN_STATES + DRAWN_INPUTS + 1)];
 } drawn_image;
 
-/* Of second order: so many unknowns, some of them angles; each has a rate. A step of `matrix`, if it is one, in which the
- * last column is zero in half of the cases. The texts stay the program's own. */
+/* Draws an image of second order: unknowns, some of them angles, with their rates. A `matrix` step has a zero last
+ * column in half of the cases. The texts belong to the program. */
 void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix);
 
-/* "theta'" of a component, "M" of an input behind them; in text[40]. */
+/* The name of a column in text[40]: "theta'" of a component, "M" of an input after them. */
 const char *drawn_image_name(const drawn_image *d, int column, char *text);
-/* The SI unit of the same. */
+/* Its SI unit. */
 const char *drawn_image_unit(const drawn_image *d, int column);
 
 #endif

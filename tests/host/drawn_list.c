@@ -1,4 +1,3 @@
-/* drawn_list.c: see drawn_list.h. */
 #include "drawn_list.h"
 
 static void draw_op(dice *d, drawn_list *l, int i) {

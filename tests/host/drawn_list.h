@@ -1,4 +1,4 @@
-/* drawn_list.h: a list of operations of all kinds, drawn: for what counts them. Nothing runs it. */
+/* drawn_list.h: a random list of operations of all kinds, for tests that count them. It is never run. */
 #ifndef TESTS_HOST_DRAWN_LIST_H
 #define TESTS_HOST_DRAWN_LIST_H
 
@@ -12,10 +12,10 @@ typedef struct drawn_list {
     int turns[DRAWN_LIST_MOST][DRAWN_LIST_ANGLES];
     int result[3];
     bool odd[DRAWN_LIST_TABLES];
-    op_list list; /* of the above */
+    op_list list; /* of the arrays above */
 } drawn_list;
 
-/* Of 4 to less than `most` operations. */
+/* A list of 4 to `most` - 1 operations. */
 void drawn_list_draw(dice *d, int most, drawn_list *l);
 
 #endif

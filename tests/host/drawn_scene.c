@@ -1,4 +1,3 @@
-/* drawn_scene.c: see drawn_scene.h. */
 #include "drawn_scene.h"
 
 #include <math.h>
@@ -52,7 +51,7 @@ static place draw_place(dice *die) {
     }
     const size_t behind = strcspn(file_text + offset, "\n");
     size_t indent = strspn(file_text + offset, " \t");
-    if (line == 5) { /* the statement behind the brace */
+    if (line == 5) { /* the statement after the brace */
         indent = strlen("scene s { ");
     }
     return (place){&file, line, 1 + (int)dice_one_of(die, 40),
@@ -309,7 +308,7 @@ int drawn_scene_numbers(const image *im) {
     int numbers = im->reals + im->inputs + im->held;
     numbers += im->settings.compensated ? im->angles + im->reals : 0;
     if (im->ledger
-            .kept) { /* each entry has a carry, each account a start and a correction; inputs as they were */
+            .kept) { /* entries have carries, accounts have a start and a correction, inputs have old values */
         numbers += 2 * (im->ledger.entries + im->ledger.accounts) + im->ledger.inputs;
     }
     return numbers;

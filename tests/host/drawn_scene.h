@@ -1,5 +1,6 @@
-/* drawn_scene.h: an image with all that is written of one, drawn: names, units, starts, contacts, books, tables and lists of
- * operations. For what writes and describes images; nothing steps it, and its numbers mean nothing. */
+/* drawn_scene.h: a random image with everything that is written of one: names, units, starts, contacts, accounts,
+ * tables and lists of operations. For tests of writers and descriptions; it is never stepped and its numbers have no
+ * meaning. */
 #ifndef TESTS_HOST_DRAWN_SCENE_H
 #define TESTS_HOST_DRAWN_SCENE_H
 
@@ -12,7 +13,7 @@ enum {
     SCENE_FEW = 3, /* inputs, outputs, parameters, effects, tables */
     SCENE_CONTACTS = 5,
     SCENE_SETS = 4,
-    SCENE_ROWS = 6, /* of the books, what goes on while nothing happens */
+    SCENE_ROWS = 6, /* continuous accounts of the energy balance */
     SCENE_OPS = 260,
     SCENE_RESULTS = 64,
     SCENE_TERMS = 4,
@@ -57,36 +58,36 @@ typedef struct drawn_scene {
     scene_list list[IMAGE_ROLES];
 } drawn_scene;
 
-/* What operations a list may have. */
+/* Operations allowed in a list. */
 enum {
-    TAKES_RATES = 1,   /* those of every list of second order */
-    TAKES_RECORDS = 2, /* angles themselves, turns included */
+    TAKES_RATES = 1,   /* allowed in every list of second order */
+    TAKES_RECORDS = 2, /* angles with their turns */
     TAKES_STATE = 4,   /* time and noise */
     TAKES_ACCEL = 8,
     TAKES_TABLES = 16,
-    TAKES_SUMS = 32 /* and nothing but these, of states and inputs */
+    TAKES_SUMS = 32 /* only sums of states and inputs */
 };
 
-/* Of `results`, and so long that it is once in a while just as long as lists are that are written in another way. */
+/* A list with `results` results. Its length sometimes equals that of lists that are written another way. */
 void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, unsigned takes);
 
-/* Each of the kinds of scenes comes about: of first and of second order, with contacts, with books, of tables, as a matrix. */
+/* Draws every kind of scene: first and second order, contacts, energy balance, tables, matrix. */
 void drawn_scene_draw(drawn_scene *d, dice *die);
 
-/* The statements of the file that its places lie in: line `line`, from 1 on, without indentation and comment. */
+/* Statement `line` (from 1) of the file that its places refer to, without indentation and comment. */
 const char *drawn_scene_statement(int line);
 
 /* "theta''" of a component, in text[40]. */
 const char *drawn_scene_name(const drawn_scene *d, component c, char *text);
 
-/* Words of lists, by role. */
+/* Names of the lists, by role. */
 extern const char *const drawn_scene_roles[IMAGE_ROLES];
 
-/* Numbers in the memory of its state beside angles: what moves, is carried, given, held and booked. */
+/* Count of numbers in the memory of its state without angles: states, carries, inputs, contacts and accounts. */
 int drawn_scene_numbers(const image *im);
-/* Bytes of that memory without contacts, where a number has so many and an angle eight. */
+/* Bytes of that memory without contacts, with `number` bytes for a number and eight for an angle. */
 size_t drawn_scene_bytes(const image *im, size_t number);
-/* The most that a step evaluates: accelerations or slopes, and contacts' signals. */
+/* Largest number of evaluations in a step: accelerations or slopes, and contact signals. */
 int drawn_scene_evaluations(const image *im);
 int drawn_scene_signals(const image *im);
 

@@ -7,7 +7,7 @@ static bool is_value(const op *o) {
     return kind != OP_IS_PHASE && kind != OP_IS_CELL;
 }
 
-/* An operation before number i that has a value, or that is of a kind; -1: there is none. */
+/* An operation before number i that has a value, or has this kind; -1 without one. */
 static int before(dice *die, const scene_list *l, int i, op_kind kind) {
     for (int tries = 0; tries < 40; tries++) {
         const int a = (int)dice_one_of(die, (unsigned)i);
@@ -16,7 +16,7 @@ static int before(dice *die, const scene_list *l, int i, op_kind kind) {
             return a;
         }
     }
-    return kind == OP_IS_CONSTANT ? 0 : -1; /* that is one */
+    return kind == OP_IS_CONSTANT ? 0 : -1;
 }
 
 static bool draw_leaf(dice *die, const image *im, unsigned takes, op *o) {
@@ -135,7 +135,7 @@ void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, u
         dice_one_of(die, 6) == 0 ? lengths[dice_one_of(die, 7)] : (int)dice_one_of(die, 40);
     l->ops[0] = (op){.code = OP_CONSTANT, .a = -1, .b = -1, .value = dice_between(die, -2.0, 2.0)};
     l->list.count = 1;
-    if ((takes & TAKES_TABLES) != 0) { /* tables are there to be looked up in */
+    if ((takes & TAKES_TABLES) != 0) { /* each table is looked up */
         l->ops[1] = (op){.code = OP_CELL, .a = -1, .b = -1};
         while (!draw_turns(die, l, 1)) {
         }
@@ -150,7 +150,7 @@ void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, u
         if (drawn && op_rows[l->ops[l->list.count - 1].code].kind == OP_IS_PHASE) {
             l->ops[l->list.count] = (op){.code = dice_one_of(die, 2) == 0 ? OP_SIN : OP_COS,
                                          .a = l->list.count - 1,
-                                         .b = -1}; /* none is there for nothing */
+                                         .b = -1}; /* each operation is used */
             l->list.count++;
         }
     }

@@ -1,4 +1,3 @@
-/* drawn_talk.c: see drawn_talk.h. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "drawn_talk.h"
@@ -116,7 +115,7 @@ void talk_put_end(stream *s, int status, unsigned length) {
 static void begin_line(void) {
     talk_line.length = 0;
     talk_put_hello(&talk_line, &talk_drawn.hello);
-    if (dice_one_of(&die, 2) == 0) { /* asked twice, it says it twice */
+    if (dice_one_of(&die, 2) == 0) { /* repeats its answer when asked twice */
         talk_put_hello(&talk_line, &talk_drawn.hello);
     }
 }
@@ -137,7 +136,6 @@ void talk_say_all(unsigned turns) {
     }
 }
 
-/* What the firmware says is on its way; behind it the line is closed, or silent. */
 void talk_open_line(bool closed) {
     TEST_ASSERT_EQUAL_INT(0, socketpair(AF_UNIX, SOCK_STREAM, 0, ends));
     TEST_ASSERT_EQUAL_INT64(talk_line.length, write(ends[1], talk_line.bytes, talk_line.length));
@@ -148,9 +146,9 @@ void talk_open_line(bool closed) {
     talk_report = (lockstep_report){.end = LOCKSTEP_DONE};
 }
 
-/* What the firmware has heard, in heard->bytes. */
+/* Bytes that the firmware received, in heard->bytes. */
 void talk_close_line(stream *heard) {
-    close(ends[0]); /* the line stays the caller's */
+    close(ends[0]); /* the caller still owns the line */
     heard->length = 0;
     for (ssize_t count = 1; count > 0;) {
         count = read(ends[1], heard->bytes + heard->length, STREAM - heard->length);
@@ -159,7 +157,7 @@ void talk_close_line(stream *heard) {
     close(ends[1]);
 }
 
-/* The hash of so many turns' answers: everything but what was counted, and what was to be remembered, in its order. */
+/* Hash of the answers of so many turns in order, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns) {
     uint64_t hash = WH_HASH_START;
     for (unsigned i = 0; i < turns; i++) {

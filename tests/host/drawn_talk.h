@@ -1,5 +1,5 @@
-/* drawn_talk.h: what a firmware and who runs it say to each other, drawn: as a line on which all that the firmware will say
- * stands in a socket before it is asked, and as a tape of the same. */
+/* drawn_talk.h: a random exchange between a firmware and its host, as a line and as a tape. On the line, a socket holds
+ * all answers before the host asks. */
 #ifndef TESTS_HOST_DRAWN_TALK_H
 #define TESTS_HOST_DRAWN_TALK_H
 
@@ -13,17 +13,17 @@ typedef struct stream {
     unsigned length;
 } stream;
 
-/* What is told and answered, in turns. */
+/* Turns of orders and answers. */
 typedef struct drawn_talk {
     wh_signal signal[WH_SIGNALS_MAX];
     wh_hello hello;
-    unsigned outputs; /* notes behind them: */
+    unsigned outputs; /* notes follow them */
     unsigned notes;
     unsigned turns;
     uint32_t ticks[TURNS_MOST];
     wh_readings readings[TURNS_MOST];
     wh_orders orders[TURNS_MOST];
-    unsigned remembers[TURNS_MOST]; /* bytes, before the orders; 99: nothing */
+    unsigned remembers[TURNS_MOST]; /* bytes before the orders; 99: none */
     uint8_t remembered[TURNS_MOST][WH_REMEMBER_MAX + 8];
 } drawn_talk;
 
@@ -33,13 +33,13 @@ extern stream talk_on_tape;
 extern lockstep_report talk_report;
 extern lockstep_wish talk_wish;
 
-void talk_die(dice with); /* which all is drawn with */
+void talk_die(dice with); /* generator of all draws */
 unsigned talk_one_of(unsigned count);
 
-/* talk_drawn anew: a hello, and turns. */
+/* Draws a new talk_drawn: a hello and turns. */
 void talk_draw(void);
 
-/* Frames, behind what is there. Orders of turn i, and what is to be remembered before them. */
+/* Appends frames: orders of turn i, preceded by the values to be remembered. */
 void talk_put(stream *s, unsigned kind, unsigned sequence, uint32_t ticks, const uint8_t *payload,
               unsigned length);
 void talk_put_hello(stream *s, const wh_hello *hello);
@@ -47,19 +47,19 @@ void talk_put_readings(stream *s, unsigned i);
 void talk_put_orders(stream *s, unsigned i, unsigned sequence);
 void talk_put_end(stream *s, int status, unsigned length);
 
-/* So many turns as a tape, talk_on_tape; and what the firmware says of them, talk_line. */
+/* So many turns as a tape, talk_on_tape, and the firmware's answers, talk_line. */
 void talk_tape_all(unsigned turns);
 void talk_say_all(unsigned turns);
 
-/* What the firmware says is on its way, as talk_wish asks for it; behind it the line is closed, or silent. Then, of a line that
- * is not used any more: what the firmware has heard. */
+/* The first puts the firmware's answers on the line as talk_wish asks; after them the line is closed or silent. The
+ * second returns the bytes that the firmware received, and ends the line. */
 void talk_open_line(bool closed);
 void talk_close_line(stream *heard);
 
-/* The hash of so many turns' answers: everything but what was counted, and what was to be remembered, in its order. */
+/* Hash of the answers of so many turns in order, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns);
 
-/* talk_report tells of so many turns. */
+/* talk_report must describe so many turns. */
 void talk_expect_report(lockstep_end end, unsigned turns);
 
 #endif

@@ -1,4 +1,3 @@
-/* emitted.c: see emitted.h. */
 #include "emitted.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* emitted.h: generated C of scenes that are drawn, and its words. */
+/* emitted.h: generated C of random scenes, as words. */
 #ifndef TESTS_HOST_EMITTED_H
 #define TESTS_HOST_EMITTED_H
 
@@ -12,16 +12,16 @@ typedef struct emitted_c {
     char about[40];
 } emitted_c;
 
-/* The present one, and what scenes are drawn by. */
+/* The current scene's code, and the generator of scenes. */
 extern emitted_c emitted;
 extern dice emitted_die;
 
-/* Each of the scenes that are drawn, in turn. */
+/* Calls `check` for each random scene. */
 void each_emitted(void (*check)(const image *im));
 
-/* Are these words in it, in this order? */
+/* Does the code contain these words in this order? */
 bool emitted_says(const char *words);
-/* Is there such a line, or are there such lines, if it is wanted, and else none? */
+/* The code must contain this line (or lines) if `wanted`, and must not otherwise. */
 void emitted_expect_line(const char *line, bool wanted);
 
 #endif

@@ -1,4 +1,3 @@
-/* evaluated.c: see evaluated.h. */
 #include "evaluated.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* evaluated.h: what a list's operations come to, by another evaluation than the program's, where leaves have made-up values. */
+/* evaluated.h: independent evaluation of a list's operations with made-up values of the leaves. */
 #ifndef TESTS_HOST_EVALUATED_H
 #define TESTS_HOST_EVALUATED_H
 
@@ -6,10 +6,10 @@
 
 enum { EVALUATED_MOST = 2000 };
 
-/* That of a leaf; of an angle, for OP_PHASE. Above zero. */
+/* Value of a leaf, or of an angle for OP_PHASE. Above zero. */
 double evaluated_leaf(op_code code, int which);
 
-/* v[t->count], which is at most EVALUATED_MOST. Fails the test where an operation stands before what it takes. */
+/* Computes v[t->count], with t->count <= EVALUATED_MOST. Fails the test if an operation precedes its operand. */
 void evaluated(const op_list *t, double *v);
 
 #endif

@@ -1,4 +1,3 @@
-/* expressions.c: see expressions.h. */
 #include "expressions.h"
 
 #include <stdarg.h>
@@ -43,7 +42,7 @@ static void leaf(writer *w) {
 
 static void expression(writer *w, int depth);
 
-/* Tame: a base above zero, for powers, roots and logarithms. */
+/* A base above zero if tame, for powers, roots and logarithms. */
 static void base(writer *w, int depth) {
     switch (draw(w, w->tame ? 5 : 9)) {
     case 0:
@@ -159,7 +158,7 @@ void expression_write(const expression_names *names, int depth, int tame, uint64
     expression(&w, depth);
 }
 
-/* TEXT with every %e an expression of these names. */
+/* Writes TEXT with an expression of these names for every %e. */
 static void filled(writer *w, const expression_names *names, const char *text, int depth) {
     for (; *text != '\0'; text++) {
         if (text[0] == '%' && text[1] == 'e') {

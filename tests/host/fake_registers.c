@@ -13,7 +13,7 @@ void reg_go_on(uint32_t before);
 
 fake_chip fake;
 
-/* Static memory: it stays where it is. */
+/* static: its address never changes */
 #define MEMORIES 8U
 #define MEMORY_BASE UINT32_C(0x20000000)
 #define MEMORY_BYTES UINT32_C(0x4000)
@@ -82,6 +82,6 @@ volatile void *fake_memory(uint32_t address) {
     return place < MEMORIES ? memories[place] : NULL;
 }
 
-/* No interrupt comes by itself here. */
+/* Interrupts never occur here. */
 uint32_t reg_hold(void) { return 0; }
 void reg_go_on(uint32_t before) { (void)before; }

@@ -1,4 +1,4 @@
-/* faults_draw.c: which fault, how much of it, when and for how long. */
+/* faults_draw.c: random choice of a fault, its size, begin and duration. */
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -6,15 +6,15 @@
 #include "core/hash.h"
 #include "faults.h"
 
-/* The noise of the cell that every run has. */
+/* Noise of the cell in every run. */
 #define NOISE "cell-noise=0.07"
-#define GAIN_CALIBRATION 0.05 /* a gain that is off by less only calibration can tell */
+#define GAIN_CALIBRATION 0.05 /* a smaller gain error is visible to calibration only */
 
 typedef enum size_drawn {
     NO_SIZE,
-    EVEN,   /* evenly from low to high */
-    LOG,    /* its logarithm evenly */
-    EITHER, /* the same, with either sign */
+    EVEN,   /* uniform from low to high */
+    LOG,    /* uniform logarithm */
+    EITHER, /* uniform logarithm, either sign */
     WHOLE,
     ONE_OF_INERTIA
 } size_drawn;
@@ -27,11 +27,11 @@ enum {
     COUNTED_ONLY = 8,
     HEALTHY = 16,
     AFTER_TRIP = 32, /* something else trips the rig first */
-    STARVED = 64,    /* the watchdog resets, and does not cut */
-    DELAYS = 128,    /* so that the watchdog may cut */
-    FED = 256,    /* gravity is fed forward in every run: of firmware with dials, from the start */
-    TURNED = 512, /* with the wrong sign */
-    SHARE = 1024  /* of the supply; half of them with stop pressed, and with a sensor that dies */
+    STARVED = 64,    /* the watchdog resets and does not cut the power */
+    DELAYS = 128,    /* the watchdog may cut the power */
+    FED = 256,       /* gravity feed-forward in every run; with dials, from the start */
+    TURNED = 512,    /* with the wrong sign */
+    SHARE = 1024     /* of the supply; half with stop pressed and a dying sensor */
 };
 
 static const struct {
@@ -95,9 +95,9 @@ static const struct {
 };
 enum { ROWS = sizeof rows / sizeof rows[0], TWO_FAULTS = ROWS };
 #define TWO_WORD "two faults"
-#define TWO_PART 0.1 /* of the runs: something else breaks, too */
+#define TWO_PART 0.1 /* share of runs with a second fault */
 
-/* A row that may break beside another one: while the rig runs, and not what is judged by when it begins. */
+/* May a row be the second fault? It must act while the rig runs and not be judged by its begin. */
 static bool may_be_second(unsigned row) {
     const fault_kind kind = rows[row].kind;
     return (rows[row].is &
@@ -107,18 +107,18 @@ static bool may_be_second(unsigned row) {
 
 /* --- what an operator dials in --------------------------------------------------------------------------------------*/
 
-#define NOMINAL_PART 0.25 /* of the runs, at the rig's nominal speed; */
-#define SLOW_PART 0.25    /* and as many slower than it goes without gravity fed forward */
-#define FED_PART 0.2      /* of the others it is fed all the same */
-#define BRAKES_PART 0.3   /* of all: the motor brakes */
-#define SUPPLY_LEAST 0.5  /* of 24 V, which is allowed */
+#define NOMINAL_PART 0.25 /* share of runs at the rig's nominal speed */
+#define SLOW_PART 0.25    /* share of runs slower than possible without gravity feed-forward */
+#define FED_PART 0.2      /* share of the others with feed-forward */
+#define BRAKES_PART 0.3   /* share of all runs: the motor brakes */
+#define SUPPLY_LEAST 0.5  /* of 24 V; allowed */
 #define SUPPLY_MOST 1.5
 #define SLOWEST_RPM 100.0
 #define SLOW_RPM 170.0
 #define FASTEST_RPM 360.0
 #define RADPS_PER_RPM 0.10471975511965977
 
-/* What trips a rig that is armed or in a run, and an idle one at the latest when it is ordered to be. */
+/* Faults that trip an armed or running rig at once, and an idle one when it is ordered to start. */
 static const char *const trips[] = {"cell-open",  "cell-dead", "edge-dead",
                                     "supply=0.3", "unkicked",  "jam"};
 
@@ -150,8 +150,8 @@ typedef struct drawing {
     uint64_t count;
 } drawing;
 
-/* From 0 to below 1. The hash alone is all but linear in the run's number: runs with one draw in common would have them all
- * (Stafford's thirteenth mix; test_pil.c looks for it). */
+/* Uniform in [0, 1). The hash alone is almost linear in the run's number: runs that share one draw would share all.
+ * Stafford's thirteenth mix breaks that (test_pil.c checks it). */
 static double draw(drawing *d) {
     uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
     bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -224,7 +224,7 @@ bool campaign_is_alone(const campaign_case *one) { return one->row != TWO_FAULTS
 
 bool campaign_has_dials(const campaign *c) { return strstr(c->firmware, "pil_dialled") != NULL; }
 
-/* The operator's dials are the fourth to the sixth sample. */
+/* The operator's dials are samples 4 to 6. */
 static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     const double which = draw(d);
     one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
@@ -240,7 +240,7 @@ static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     }
 }
 
-/* A stuck stage, at any supply, perhaps as stop is pressed, perhaps as a sensor dies. */
+/* A stuck power stage at any supply, sometimes with stop pressed or a dying sensor. */
 static void put_share(text *t, drawing *d, unsigned row, const rig_stage *stage,
                       campaign_case *one) {
     const double after_s = draw(d) * stage->span_s;
@@ -284,7 +284,7 @@ static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
                        (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
 }
 
-/* A second fault, before the row's own. What is to be off in time after the first must not be delayed. */
+/* Adds a second fault before the row's own. The first may have a deadline, which the second must not delay. */
 static void put_second(text *t, drawing *d, const campaign *c, unsigned first,
                        const rig_stage *stage, campaign_case *one) {
     const bool two = draw(d) < TWO_PART;

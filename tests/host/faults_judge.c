@@ -1,4 +1,4 @@
-/* faults_judge.c: what became of a run, from the plant's truth, not from the firmware's word. */
+/* faults_judge.c: verdict on a run from the plant's truth, not from the firmware's messages. */
 #include <math.h>
 #include <string.h>
 
@@ -7,16 +7,15 @@
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202
-#define SHARE 0.01 /* that a good result may be off beside its interval */
+#define SHARE 0.01 /* allowed error of a good result beyond its interval */
 #define LASTING_S 1.0
-#define HALT_S 2e-3  /* a control period: so long the motor may still be driven */
-#define WATCH_S 1e-3 /* from one watch() to the next */
+#define HALT_S 2e-3  /* a control period: the motor may drive for this long */
+#define WATCH_S 1e-3 /* between two calls of watch() */
 #define WATCHED_S 12.0
-#define SHOWN_S \
-    1.0 /* so long after turns have shown a drive the enable may be on, or no trip be told */
-#define HAND_RPM 61.0             /* a hand turns it no faster */
-#define RISE 1.05                 /* of three turns together */
-#define SHIFTS 3                  /* turns by which its turns may be earlier than the last ones */
+#define SHOWN_S 1.0   /* allowed time from turns that show a drive to the enable's end or a trip */
+#define HAND_RPM 61.0 /* a hand turns it no faster */
+#define RISE 1.05     /* over three turns together */
+#define SHIFTS 3      /* turns may be earlier than the last ones by this many */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
 /* --- what there is -----------------------------------------------------------------------------------------------*/
@@ -78,7 +77,7 @@ static void add_up(judge *j, double from, double force_from, double to, double f
     j->sum.sine_N += half * (force_from * sin(from) + force_to * sin(to));
 }
 
-/* A whole turn while the motor must not drive: does it show a drive? */
+/* Does a whole turn show a drive while the motor must not drive? */
 static void see_undriven(judge *j, double at_s, double rpm) {
     const bool faster = rpm > j->rpm;
     j->on_turns++;
@@ -110,7 +109,7 @@ static void end_turn(judge *j, double at_s) {
     j->whole = true;
 }
 
-/* Since when nothing drives. */
+/* Time since the drive ended. */
 static double off_since_ticks(const judge *j, const plant *p) {
     const int at[] = {j->at_duty, j->at_enable};
     double since = (double)INFINITY;
@@ -122,7 +121,7 @@ static double off_since_ticks(const judge *j, const plant *p) {
     return since;
 }
 
-/* After that nothing may drive, to the end: what was stopped, or reset, does not start by itself. */
+/* From then on nothing may drive: a stopped or reset controller must not start by itself. */
 static void watch_halt(judge *j, double time_s, const plant *p) {
     const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     verdict *v = &j->verdict;
@@ -142,7 +141,7 @@ static void watch_halt(judge *j, double time_s, const plant *p) {
     }
 }
 
-/* The motor must not drive: is the enable on, though turns show a drive; or is there no trip? */
+/* The motor must not drive: finds an enable that is on although turns show a drive, or a missing trip. */
 static void watch_off(judge *j, double time_s, const plant *p) {
     const bool on = p->in_effect[j->at_enable] > 0.0;
     if (rig_may_drive(j->told)) {
@@ -196,7 +195,7 @@ static void watch(void *of, double time_s, const plant *p) {
     watch_off(j, time_s, p);
 }
 
-/* By how much a result is off beside its interval and 1 %, as a share: the least over the turns that may be meant. */
+/* Relative error of a result beyond its interval and 1 %: the least over the turns that it may refer to. */
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
     const double phase = (double)j->told[HAL_NOTE_PHASE];
@@ -219,7 +218,7 @@ static double off_by(const judge *j, unsigned turns) {
         const double most = amplitude_off > phase_off ? amplitude_off : phase_off;
         least = most < least ? most : least;
     }
-    return isfinite(least) ? least : 1.0; /* more turns than there were */
+    return isfinite(least) ? least : 1.0; /* more turns than recorded */
 }
 
 /* --- what the controller says ----------------------------------------------------------------------------------*/
@@ -234,7 +233,7 @@ static void look_for_fault(judge *j) {
     }
 }
 
-/* The first word after a reset, while what was told before it is still known. */
+/* The first message after a reset, while the earlier ones are still known. */
 static void look_for_reset(judge *j, const wh_orders *orders) {
     float now[HAL_NOTES];
     if (j->plant->reset.count == j->resets) {
@@ -274,7 +273,7 @@ static void take_notes(judge *j, const wh_orders *orders) {
     }
 }
 
-/* Of several between two answers, where one was late, the longest. */
+/* The longest step between two answers, after a late one. */
 static void count_step(judge *j, double time_s, const wh_orders *orders) {
     const double instructions = (double)orders->step_timer * j->per_count;
     const double loop = (double)orders->busy_timer * j->per_count;
@@ -290,7 +289,7 @@ static void count_step(judge *j, double time_s, const wh_orders *orders) {
     }
 }
 
-/* A controller that has tripped may watch the rotor for a long time. */
+/* Limits the run after a trip: the controller may watch the rotor for a long time. */
 static void let_go(judge *j, double time_s) {
     if (!rig_is_tripped(j->told) || j->driven) {
         j->off_since_s = -1.0;
@@ -317,7 +316,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     let_go(j, time_s);
     if (ignores && enabled && j->ignored_s < 0.0) {
         j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
-        /* beside another fault nobody can say when it may be seen */
+        /* beside another fault the time of detection is undefined */
         j->verdict.lasting =
             campaign_is_alone(j->of) && f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
         j->verdict.began_rpm = j->speed_rpm;

@@ -1,14 +1,14 @@
-/* faults_table.c: a campaign in Markdown: what became of which fault in which state, and the worst with their commands. */
+/* faults_table.c: a campaign in Markdown: the outcome by fault and state, and the worst runs with their commands. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "faults.h"
 #include "host/base/alloc.h"
 
-#define OVERSPEED_SHARE 0.02 /* of all runs, allowed */
-#define CAUGHT_S 0.25        /* a drive that ignores the voltage is off after so long, */
-#define CAUGHT_REST_S 0.35   /* from rest after so long, */
-#define TURNING_RPM 250.0    /* slower it is as from rest */
+#define OVERSPEED_SHARE 0.02 /* allowed share of all runs */
+#define CAUGHT_S 0.25        /* deadline for a drive that ignores the voltage, */
+#define CAUGHT_REST_S 0.35   /* from rest, */
+#define TURNING_RPM 250.0    /* or below this speed */
 enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
@@ -154,7 +154,7 @@ static double by_lie(const verdict *v) { return v->lie; }
 static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
 static double by_speed(const verdict *v) { return v->turn_rpm; }
 
-/* What is worst of those not shown yet; count: none. */
+/* The worst run that is not shown yet; `count` without one. */
 static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const verdict *v),
                            double (*by)(const verdict *v), bool *shown) {
     unsigned worst = count;
@@ -196,7 +196,7 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
     free(shown);
 }
 
-/* Of drives that ignore the voltage for longer than that: how long until the enable was off, and how fast by then. */
+/* Drives that ignore the voltage for longer than that: time until the enable was off, and the speed then. */
 static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
@@ -224,7 +224,7 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
-/* Of runs that were stopped or reset: how long the motor was still driven, and how many had tripped before a reset. */
+/* Stopped or reset runs: how long the motor still drove, and how many had tripped before a reset. */
 static void print_halts(FILE *out, const verdict *all, unsigned count) {
     bool any = false;
     for (unsigned row = 0; row < campaign_rows(); row++) {
@@ -265,7 +265,7 @@ static bool takes_time(const verdict *v) {
 static bool has_steps(const verdict *v) { return v->most > 0.0; }
 static double by_step(const verdict *v) { return v->most; }
 
-/* Each with the words that repeat its run: mk/count/rig_worst.sh counts them once more. */
+/* Each with the command that repeats its run; mk/count/rig_worst.sh counts it again. */
 static void print_longest(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     bool *shown = alloc(count, sizeof *shown);
     fprintf(out, "\nThe longest control steps of %d runs:\n", LONGEST);
@@ -281,7 +281,7 @@ static void print_longest(FILE *out, const campaign *c, const verdict *all, unsi
     free(shown);
 }
 
-/* Where the emulator counts them. */
+/* Only in the emulator. */
 static void print_steps(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     uint64_t steps[STEP_BINS] = {0};
     uint64_t sum = 0;

@@ -1,12 +1,12 @@
-/* faults_words.c: the controller's states and trips, as its headers have them: the only place of the campaign that knows
- * which controller it is. */
+/* faults_words.c: the controller's states and trips from its headers. Other files of the campaign do not depend on the
+ * controller. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "faults.h"
 
 #define PHASE(phase) (WH_RIG_STAGE_OF_PHASE + (unsigned)(phase))
 
-/* About as long as a healthy run to 330 rpm is there. */
+/* Mean duration of each state in a healthy run to 330 rpm. */
 static const struct {
     unsigned stage;
     double span_s;
@@ -61,11 +61,11 @@ double rig_limit_rpm(void) { return (double)WH_RIG_SHAFT_LIMIT_RPM; }
 
 double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 
-/* Two marks that tell lie within a turn of any instant, but one within its first sixth shows too little (docs/rig.md): until
- * then, and a control period, full voltage drives, and on top is what gravity makes of a turn. */
-#define CAUGHT_RPM 470.0 /* of runs at the nominal speed, or less */
+/* Two false marks lie within a turn of any instant, but one within its first sixth shows too little (docs/rig.md). Full
+ * voltage drives until then and a control period more; gravity adds its part of a turn. */
+#define CAUGHT_RPM 470.0 /* at the nominal speed or below */
 #define TURNS (7.0 / 6.0)
-#define LAG_S 0.23 /* of the rotor under full voltage, towards: */
+#define LAG_S 0.23 /* of the rotor under full voltage: */
 #define FULL_RPM 568.0
 #define STEP_S 1e-5
 #define PERIOD_STEPS 200 /* the control period, 2 ms */

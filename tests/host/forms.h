@@ -1,4 +1,4 @@
-/* forms.h: for the tests of host/algebra: symbols of every kind, and random expressions of them in normal form. */
+/* forms.h: symbols of every kind and random expressions in normal form, for tests of host/algebra. */
 #ifndef TESTS_HOST_FORMS_H
 #define TESTS_HOST_FORMS_H
 
@@ -8,10 +8,10 @@ enum { FORM_SYMBOLS = 7, FORM_PRIMES = 3 };
 
 extern const symbol form_symbols[FORM_SYMBOLS];
 
-/* The number of one of form_symbols. */
+/* Index of a symbol in form_symbols. */
 int form_place(const symbol *sym);
 
-/* A random expression, of finite numbers and at most 12 terms, whichever way it came about. */
+/* A random expression of finite numbers and at most 12 terms. */
 const poly *form_random(algebra *a, uint64_t *seed, int depth);
 
 /* Order of numbers: -1, 0 or 1. */

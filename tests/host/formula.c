@@ -1,4 +1,3 @@
-/* formula.c: see formula.h. */
 #include "formula.h"
 
 #include <ctype.h>

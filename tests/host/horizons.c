@@ -1,4 +1,3 @@
-/* horizons.c: see horizons.h. */
 #include "horizons.h"
 
 #include <float.h>
@@ -12,7 +11,7 @@
 #include "host/study/reference_run.h"
 #include "unity.h"
 
-/* Looks of the reference, at most, and the least steps between two. */
+/* Most looks at the reference, and fewest steps between two. */
 enum { LOOKS = 10000 };
 
 /* --- a reference --------------------------------------------------------------------------------------*/
@@ -21,7 +20,7 @@ typedef struct reference_of {
     extrapolation *smooth; /* or, with contacts: */
     image fine;
     void *run;
-    uint64_t each; /* its steps in one of the run's */
+    uint64_t each; /* its steps in one step of the run */
     long_rows *rows;
     records *records;
     long double *row;
@@ -60,7 +59,7 @@ static void reference_close(reference_of *r) {
     }
 }
 
-/* On by so many of the run's steps, to time_s. */
+/* Advances by so many of the run's steps, to time_s. */
 static void reference_go(reference_of *r, const image *im, uint64_t steps, double time_s) {
     if (r->smooth != NULL) {
         const long double span_s = (long double)steps * (long double)im->step.numerator /
@@ -85,9 +84,9 @@ typedef struct beside {
     horizons *h;
     reference_of fine, other;
     records *now;
-    double *last; /* [columns] the difference at the look before */
+    double *last; /* [columns] the difference at the previous look */
     double before_s, look_s;
-    int open; /* columns whose end is not known yet */
+    int open; /* columns without an end yet */
 } beside;
 
 static void enter(beside *b) {
@@ -107,7 +106,7 @@ static void enter(beside *b) {
         h->true_s[k] = events ? b->before_s : b->look_s;
         b->open--;
         const double differ = (double)fabsl(b->other.row[k] - b->fine.row[k]) / level;
-        if (!events) { /* at events the two differ for a step */
+        if (!events) { /* around events the two differ for a step */
             h->known = fmax(h->known, isfinite(differ) ? differ : (double)INFINITY);
         }
     }

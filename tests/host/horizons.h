@@ -1,8 +1,8 @@
-/* horizons.h: until when a run is right, by a reference that shares no step with it: what `whirl trust` estimates.
+/* horizons.h: time until which a run is accurate, by a reference with other steps. `whirl trust` estimates it.
  *
- * Without contacts the reference is the project's extrapolation in long double (host/study/extrapolation.h), of order 12,
- * beside another of order 10: what the two differ by must be far below the tolerance where the run passes it, or the
- * reference knows nothing. With contacts it is RK4 in double by steps a 32nd of the run's, beside a 16th. */
+ * Without contacts, the reference is the extrapolation in long double (host/study/extrapolation.h) of order 12, checked
+ * by one of order 10. Their difference must be far below the tolerance at the run's end of accuracy. With contacts, it
+ * is RK4 in double with a 32nd of the run's step, checked by a 16th. */
 #ifndef TESTS_HORIZONS_H
 #define TESTS_HORIZONS_H
 
@@ -20,25 +20,25 @@ typedef struct horizons_setting {
 typedef struct horizons {
     derived made;
     image *image; /* with the setting */
-    image
-        *plain; /* as the finer run wants it (host/check/step_doubling.h); for the reference, too */
+    image *
+        plain; /* with the settings of the finer run (host/check/step_doubling.h) and of the reference */
     step_doubling *twins;
     horizon estimate;
-    double *true_s;      /* [columns] last look at which it was right; infinite: to the end */
+    double *true_s;      /* [columns] last accurate look; infinite: to the end */
     double true_until_s; /* the least of them; the end */
     double
-        known; /* what the references differ by at the passages, in parts of the tolerance times the range: the most */
+        known; /* largest difference of the references at the ends, in parts of tolerance times range */
     double look_s; /* between looks */
 } horizons;
 
 /* A scene of a text; `tolerance` as of `whirl trust`. */
 horizons horizons_of(const char *text, const char *name, horizons_setting how, double tolerance);
 void horizons_free(horizons *h);
-/* Estimate by truth, of all columns together or of one; 1 where both are the end. */
+/* Estimate over truth, of all columns together or of one; 1 if both are the end. */
 double horizons_ratio(const horizons *h);
 double horizons_column_ratio(const horizons *h, int column);
 
-/* The text of a built-in file, "thomson.whirl", or of a file, with more behind it; to be freed. */
+/* The text of a built-in file, "thomson.whirl", or of a file, with `more` appended; to be freed. */
 char *horizons_builtin(const char *file, const char *more);
 char *horizons_file(const char *path, const char *more);
 

@@ -1,7 +1,7 @@
-/* hybrid.c: see hybrid.h. Between events, with the contacts that hold (stops at rest, what sticks) as constraints and
- * sliding friction as a force,
+/* hybrid.c: motion between events with the active contacts (stops at rest, sticking friction) as constraints and
+ * sliding friction as a force:
  *
- *     M q'' = force - sum sign limit + J^T lambda,   J q'' = -J' q'   of each that holds. */
+ * M q'' = force - sum sign limit + J^T lambda, J q'' = -J' q' for each active contact. */
 #include "hybrid.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ _Static_assert((int)LINKAGE_BODIES <= (int)DRAWN_MOST, "drawn.h tries the cases"
 
 enum { STATE = 2 * LINKAGE_BODIES };
 
-/* What a contact does at a moment. Friction: which way its coordinate slides, or SLIDES_NOT. */
+/* Mode of a contact. Friction: the direction of sliding, or STUCK. */
 typedef enum mode { OPEN, CLOSED, STUCK, UP, DOWN } mode;
 
 typedef struct runner {
@@ -25,7 +25,7 @@ typedef struct runner {
     hybrid_motion *motion;
 } runner;
 
-/* What a contact's gap is, or a friction's coordinate, with its rate and what it bends. */
+/* A contact's gap or a friction's coordinate, with its rate and its curvature term. */
 typedef struct gauge {
     long double gap;
     long double rate;
@@ -51,7 +51,7 @@ static gauge gauge_of(const hybrid *h, int k, const linkage_numbers *at, const l
     return g;
 }
 
-/* What a friction takes; below zero: nothing. */
+/* Limit of a friction; not positive: no friction. */
 static long double load_of(const hybrid_contact *c, const long double *state) {
     return (long double)c->limit + (long double)c->load * state[c->loaded_by];
 }
@@ -64,7 +64,7 @@ static bool holds(mode m) { return m == CLOSED || m == STUCK; }
 
 /* --- between events ------------------------------------------------------------------------------------------ */
 
-/* Accelerations with the modes as they are, and lambda of those that hold; *at of this state. */
+/* Accelerations in the present modes, and lambda of the active contacts; *at belongs to this state. */
 static void accelerate(const runner *r, const long double *state, long double *accel,
                        long double *lambda, linkage_numbers *at) {
     const hybrid *h = r->h;
@@ -125,7 +125,7 @@ static void slope_of(const runner *r, const long double *state, long double *slo
     accelerate(r, state, slope + LINKAGE_BODIES, lambda, &at);
 }
 
-/* Kutta's 3/8 rule: not what the program under test takes by itself. */
+/* Kutta's 3/8 rule: a method that the program does not use by itself. */
 static void step_of(const runner *r, long double h, long double *to) {
     static const long double share[3][3] = {
         {1.0L / 3.0L, 0.0L, 0.0L}, {-1.0L / 3.0L, 1.0L, 0.0L}, {1.0L, -1.0L, 1.0L}};
@@ -150,7 +150,7 @@ static void step_of(const runner *r, long double h, long double *to) {
     }
 }
 
-/* Twice what the cases let pass (drawn.c), N or N m: a mode that has ended is not found again. */
+/* Twice the tolerance of the cases (drawn.c), N or N m, so that an ended mode is not found again. */
 #define SLACK 2e-9L
 
 /* Has a contact's mode ended in this state? */
@@ -176,10 +176,10 @@ static bool ended(const runner *r, const long double *state) {
 
 /* --- at an event --------------------------------------------------------------------------------------------- */
 
-/* How near is zero, where an event has been bisected to. */
+/* Tolerance for zero after the bisection of an event. */
 #define NEAR 1e-9L
 
-/* The cases of drawn.h at this moment: the contacts of `member`. */
+/* The cases of drawn.h at this moment for the contacts of `member`. */
 static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g, const int *member,
                       int count) {
     drawn b = {.n = r->h->of.bodies, .contacts = count};
@@ -199,7 +199,7 @@ static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g
     return b;
 }
 
-/* Stops that are hit, with those at rest. False where no case fits. */
+/* Impact of the hit stops together with those at rest. False if no case fits. */
 static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double least_flight_s) {
     const hybrid *h = r->h;
     int member[HYBRID_CONTACTS];
@@ -230,13 +230,13 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
         return false;
     }
     r->motion->impacts++;
-    for (int i = 0; i < b.n; i++) { /* the small change, so that long double's digits stay */
+    for (int i = 0; i < b.n; i++) { /* the small change, to keep the digits of long double */
         r->state[LINKAGE_BODIES + i] += (long double)to[i] - (long double)from[i];
     }
     for (int k = 0; k < h->contacts; k++) {
         g[k] = gauge_of(h, k, at, r->state);
     }
-    for (int c = 0; c < count; c++) { /* would it soon be hit again? */
+    for (int c = 0; c < count; c++) { /* would it be hit again soon? */
         const int k = member[c];
         long double accel[LINKAGE_BODIES];
         long double towards = -g[k].bend;
@@ -252,7 +252,7 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
     return true;
 }
 
-/* Which contacts hold from now on, by the accelerations. False where no case fits. */
+/* Selects the contacts that act from now on, by the accelerations. False if no case fits. */
 static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     const hybrid *h = r->h;
     int member[HYBRID_CONTACTS];
@@ -289,7 +289,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
         const int k = member[c];
         const double off = drawn_along(&b, c, to) - b.contact[c].target;
         const bool slides =
-            fabs(lambda[c]) >= b.contact[c].limit; /* exactly as much, where it does */
+            fabs(lambda[c]) >= b.contact[c].limit; /* the target is exact for an active contact */
         const bool up = lambda[c] < 0.0 || (lambda[c] == 0.0 && off > 0.0);
         if (b.contact[c].kind == 's') {
             r->mode[k] = lambda[c] == 0.0 ? OPEN : CLOSED;
@@ -301,7 +301,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     return true;
 }
 
-/* Rates that are held are zero from here on, and a closed gap's rate is. */
+/* Constrained rates and the rates of closed gaps become exactly zero. */
 static bool event(runner *r, long double least_flight_s) {
     linkage_numbers at;
     gauge g[HYBRID_CONTACTS];
@@ -313,7 +313,7 @@ static bool event(runner *r, long double least_flight_s) {
     if (!impact(r, &at, g, least_flight_s)) {
         return false;
     }
-    /* forces depend on the rates that an impact has changed */
+    /* forces depend on the rates, which the impact has changed */
     linkage_evaluate(&r->h->of, r->state, r->state + LINKAGE_BODIES, &at);
     for (int k = 0; k < r->h->contacts; k++) {
         g[k] = gauge_of(r->h, k, &at, r->state);
@@ -339,7 +339,7 @@ hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double
         long double to[STATE];
         step_of(&r, step, to);
         const bool happens = ended(&r, to);
-        if (happens) { /* to just before the first end of a mode, and no further than rounding beyond it */
+        if (happens) { /* to just before the first end of a mode, beyond it by round-off at most */
             long double before = 0.0L;
             for (int i = 0; i < HALVINGS && step - before > 1e-17L; i++) {
                 const long double middle = before + (step - before) / 2.0L;

@@ -1,5 +1,5 @@
-/* hybrid.h: random planar linkages (linkage.h) with stops and dry friction, and their motion by a program of another
- * kind: long double, accelerations from the energies in numbers, events bisected, modes found by trying all cases. */
+/* hybrid.h: random planar linkages (linkage.h) with stops and dry friction. Their motion is independent of the program:
+ * long double, accelerations from the energies in numbers, bisected events, modes found by trying all cases. */
 #ifndef TESTS_HOST_HYBRID_H
 #define TESTS_HOST_HYBRID_H
 
@@ -17,10 +17,10 @@ typedef enum hybrid_kind {
 typedef struct hybrid_contact {
     hybrid_kind kind;
     int body;
-    double limit; /* of a stop: where it is, m or rad; of friction: N or N m */
+    double limit; /* of a stop: its position, m or rad; of friction: N or N m */
     double restitution;
-    int loaded_by; /* friction: the limit grows by `load` for each m or rad of this coordinate, and is never below zero */
-    double load;   /* 0: it stays */
+    int loaded_by; /* friction: the limit grows by `load` per m or rad of this coordinate, and is never below zero */
+    double load; /* 0: constant */
 } hybrid_contact;
 
 typedef struct hybrid {
@@ -29,24 +29,23 @@ typedef struct hybrid {
     hybrid_contact contact[HYBRID_CONTACTS];
 } hybrid;
 
-/* One whose start is beyond no stop. */
+/* No stop is violated at the start. */
 hybrid hybrid_draw(uint64_t *seed);
 
 /* Its contacts as statements. */
 void hybrid_statements(const hybrid *h, char text[static HYBRID_TEXT]);
 
-/* How a motion ended. */
+/* End of a motion. */
 typedef struct hybrid_motion {
     long double state[2 * LINKAGE_BODIES]; /* values, then rates */
     int impacts;
-    int rests; /* a stop that stays closed, a rate that sticks */
-    bool
-        aside; /* a row of impacts on one stop that comes to an end (Zeno), or modes that no case fits */
+    int rests;  /* number of closed stops and sticking rates */
+    bool aside; /* impacts on one stop that converge (Zeno), or modes that fit no case */
 } hybrid_motion;
-/* A step that most of them take. */
+/* Step of most of these runs. */
 #define HYBRID_STEP_S (1.0 / 4096.0)
 
-/* Its motion until `until_s`, in such steps. A bounce whose flight is shorter than `least_flight_s` ends it, as aside. */
+/* Its motion until `until_s` with this step. A flight shorter than `least_flight_s` ends it as `aside`. */
 hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double least_flight_s);
 
 #endif

@@ -1,4 +1,4 @@
-/* hybrid_draw.c: random contacts for random linkages, and their text (see hybrid.h). */
+/* hybrid_draw.c: random contacts for random linkages, and their text (hybrid.h). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@ static double eighths(uint64_t *seed, int least, int most) {
     return (least + (int)(random_bits(seed) % (uint64_t)(most - least + 1))) / 8.0;
 }
 
-/* A stop somewhere beyond the start; false where this one cannot be. */
+/* A stop beyond the start; false if this one is impossible. */
 static bool stop_draw(const hybrid *h, const linkage_numbers *at, uint64_t *seed,
                       hybrid_contact *c) {
     c->kind = (hybrid_kind)(random_bits(seed) % 3);
@@ -32,7 +32,7 @@ static bool stop_draw(const hybrid *h, const linkage_numbers *at, uint64_t *seed
     return true;
 }
 
-/* Dry friction on a coordinate that has none. */
+/* Dry friction on a coordinate without one. */
 static bool friction_draw(const hybrid *h, uint64_t *seed, hybrid_contact *c) {
     c->kind = HYBRID_FRICTION;
     c->body = (int)(random_bits(seed) % (uint64_t)h->of.bodies);

@@ -1,4 +1,3 @@
-/* jet.c: see jet.h. */
 #include "jet.h"
 
 #include <math.h>
@@ -36,7 +35,7 @@ jet jet_sum(jet a, jet b) {
     return a;
 }
 
-/* f(a), with f, f' and f'' at a's value. */
+/* f(a) by the chain rule, from f, f' and f'' at a's value. */
 static jet chained(const jet *a, long double f, long double first, long double second) {
     jet made = {.variables = a->variables, .value = f};
     for (int i = 0, k = 0; i < a->variables; i++) {

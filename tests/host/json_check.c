@@ -1,4 +1,3 @@
-/* json_check.c: see json_check.h. */
 #include "json_check.h"
 
 #include <stdio.h>
@@ -12,7 +11,7 @@ enum { WHY_SIZE = 100, VALUE_SIZE = 100, KEYS_MOST = 200, DEPTH_MOST = 20 };
 typedef struct reader {
     const char *text;
     size_t at;
-    const char *wrong; /* the first thing that is, or NULL */
+    const char *wrong; /* the first error, or NULL */
     int depth;
 } reader;
 
@@ -95,7 +94,7 @@ static bool read_number(reader *r) {
 
 static bool read_value(reader *r);
 
-/* Of an object: its key, which may not have been there before. */
+/* An object's key, which must be new in it. */
 static bool read_key(reader *r, size_t *keys, int count) {
     const size_t at = r->at;
     if (!read_string(r)) {
@@ -166,7 +165,6 @@ bool json_is_valid(const char *text, char *why) {
 
 /* --- finding a value, in a text that is valid ------------------------------------------------------ */
 
-/* Steps from a value to its member; false: there is none. */
 static bool step_to(reader *r, const char *name, size_t length) {
     const bool keyed = r->text[r->at] == '{';
     int left = keyed ? 0 : (int)strtol(name, NULL, 10);

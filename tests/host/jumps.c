@@ -1,4 +1,3 @@
-/* jumps.c: see jumps.h. */
 #include "jumps.h"
 
 #include <stdio.h>
@@ -34,7 +33,7 @@ bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
     }
     *end = '\0';
     for (char *next = at; next != NULL; next = strstr(at + 1, before)) {
-        at = next; /* the last in front of it */
+        at = next;
     }
     strcpy(text, at + strlen(before));
     char *next = text;

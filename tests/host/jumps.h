@@ -1,4 +1,5 @@
-/* jumps.h: what suites `jumped` and `unjumped` share: runs that may step over a pole (host/check/pole_crossing.h), and what is said of it. */
+/* jumps.h: runs that may step over a pole (host/check/pole_crossing.h) and their messages, for the suites `jumped` and
+ * `unjumped`. */
 #ifndef TESTS_JUMPS_H
 #define TESTS_JUMPS_H
 
@@ -9,19 +10,19 @@
 
 enum { JUMPS_TEXT = 1500, JUMPS_WORDS = 6 };
 
-/* What jumps_run() had said. */
+/* Output of jumps_run(). */
 extern said jumps_said;
 
-/* `few`; all of them where WHIRL_FULL says so, and some of every class where WHIRL_FEW does. */
+/* `few`; `all` with WHIRL_FULL, and `fewest`, with some of every class, with WHIRL_FEW. */
 unsigned jumps_cases(unsigned few, unsigned all, unsigned fewest);
 
-/* `whirl run` in that number, with more options, which may be of another number. */
+/* Runs `whirl run` in that number format, with more options, which may choose another. */
 void jumps_run(const char *text, const char *number, char *const more[static JUMPS_WORDS]);
 bool jumps_told(void);
-/* The options that a warning names and has tried, in `text`; false: none. */
+/* The options that a warning names and has tried, in `text`; false without one. */
 bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]);
 
-/* Stepped to its end: did some step jump over one? */
+/* Runs to the end. Did some step jump over a pole? */
 bool jumps_some(motion *m);
 
 #endif

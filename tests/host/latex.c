@@ -1,4 +1,3 @@
-/* latex.c: see latex.h. */
 #include "latex.h"
 
 #include <ctype.h>
@@ -8,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* TeX's own limit on groups is 255, with a few for the page around. */
+/* TeX limits groups to 255; a few are for the page around. */
 enum { DEPTH_MAX = 240 };
 
 typedef struct reader {
@@ -45,7 +44,7 @@ static void argument(reader *r) {
     }
 }
 
-/* Of Computer Modern at 10 pt: cmmi10 a to z and A to Z, digits, and signs with their spaces, in hundredths of a point. */
+/* Widths of Computer Modern at 10 pt in hundredths of a point: cmmi10 a to z and A to Z, digits, signs with spaces. */
 static int width_of(char c) {
     static const int small[] = {529, 429, 433, 520, 466, 490, 477, 576, 345, 412, 521, 298, 878,
                                 600, 485, 503, 446, 451, 469, 361, 572, 485, 716, 572, 490, 465};
@@ -59,7 +58,7 @@ static int width_of(char c) {
                                   : 500;
 }
 
-/* The name behind the backslash is in hand. */
+/* `name` follows the backslash and has been read. */
 static void command(reader *r, const char *name, size_t length) {
     static const struct {
         const char *name;
@@ -84,7 +83,7 @@ static void command(reader *r, const char *name, size_t length) {
                 widest = r->width - before > widest ? r->width - before : widest;
             }
             const char *at = strstr(wide, known[i].name);
-            r->width = before + widest; /* a fraction's line and a root's sign, below, are wider */
+            r->width = before + widest; /* a fraction's line and a root's sign are wider, below */
             for (size_t k = 0; at != NULL && k < length; k++) {
                 r->width += width_of(name[k]);
             }
@@ -107,7 +106,7 @@ static void command(reader *r, const char *name, size_t length) {
     fail(r, "an unknown command");
 }
 
-/* What may carry scripts. */
+/* A base for scripts. */
 static void nucleus(reader *r) {
     const char c = *r->at;
     if (c == '{') {
@@ -144,7 +143,7 @@ static void nucleus(reader *r) {
     }
 }
 
-/* Up to the '}', the \right) or (until 0) the end, which is left in hand. */
+/* Reads up to '}', \right) or (if `until` is 0) the end, and leaves that unread. */
 static void list(reader *r, char until) {
     const int from = r->width;
     int widest = 0;
@@ -152,7 +151,7 @@ static void list(reader *r, char until) {
     if (++r->depth > DEPTH_MAX) {
         fail(r, "nested too deep for TeX");
     }
-    bool bare = false; /* behind a function whose argument has no parentheses */
+    bool bare = false; /* after a function whose argument has no parentheses */
     bool opens = false;
     for (skip(r); r->problem == NULL; skip(r)) {
         const bool closes = strncmp(r->at, "\\right)", 7) == 0;
@@ -222,7 +221,7 @@ char *latex_joined(const char *text) {
         const char *mark;
         const char *joined;
         int deeper;
-        bool inside; /* an aligned only */
+        bool inside; /* in `aligned` only */
     } marks[] = {{" \\\\\n    &\\quad \\times", " \\,", 0, true},
                  {" \\\\\n    &\\quad", "", 0, true},
                  {" \\\\\n    &= ", " &= ", 0, true},

@@ -1,4 +1,3 @@
-/* latex_value.c: see latex_value.h. */
 #include "latex_value.h"
 
 #include <ctype.h>
@@ -8,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a printed number, of what is added up, of a product, of a function's value: parts of their sizes. */
+/* Relative errors of a printed number, a sum, a product and a function value. */
 #define PRINTED 1e-13
 #define ADDED (1e-14 + DBL_EPSILON)
 #define ROUNDED DBL_EPSILON
@@ -95,7 +94,7 @@ static latex_number over(reader *r, latex_number a, latex_number b) {
     return a;
 }
 
-/* How far f moves when x moves by `off`, from a difference: only the size matters. */
+/* Change of f when x changes by `off`, from a difference: only its size matters. */
 static double carried(double (*f)(double, double), double x, double y, int which, double off) {
     const double step = 1e-6 * (1.0 + fabs(which == 0 ? x : y));
     const double more = which == 0 ? f(x + step, y) : f(x, y + step);
@@ -121,7 +120,7 @@ static latex_number power(reader *r, const latex_number *base, const latex_numbe
     const double x = base->value[0];
     const double e = exponent->value[0];
     const double value = pow(x, e);
-    const bool whole = e == floor(e); /* a printed one is exact */
+    const bool whole = e == floor(e); /* a printed integer exponent is exact */
     const double by_x = base->off[0] == 0.0 ? 0.0 : fabs(e * pow(x, e - 1.0)) * base->off[0];
     const double by_e = whole || value == 0.0 ? 0.0 : fabs(value * log(x)) * exponent->off[0];
     return latex_constant(value, by_x + by_e + CALLED * fabs(value));
@@ -225,7 +224,7 @@ static void braced_name(reader *r, char *name) {
     need(r, "}");
 }
 
-/* A command's name; "" where there is none. The backslash is in hand. */
+/* A command's name without its backslash, which has been read; "" without one. */
 static void command(reader *r, char *name) {
     int length = 0;
     r->at++;
@@ -235,7 +234,6 @@ static void command(reader *r, char *name) {
     name[length] = '\0';
 }
 
-/* A symbol's letters: x, \theta, \mathrm{mass}. */
 static void letters(reader *r, char *stem) {
     skip(r);
     if (isalpha((unsigned char)*r->at)) {
@@ -254,7 +252,7 @@ static void letters(reader *r, char *stem) {
     }
 }
 
-/* Behind a symbol's letters: its index, and dots beyond two, ^{(3)}. */
+/* After a symbol's letters: its index, and more than two dots as ^{(3)}. */
 static latex_number symbol_with(reader *r, const char *stem, int primes) {
     char index[NAME_MAX_LENGTH + 1] = "";
     latex_number found;
@@ -276,7 +274,7 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
     return found;
 }
 
-/* A call with its exponent before the argument, or without one. An argument without parentheses is one symbol. */
+/* A call, perhaps with its exponent before the argument. An argument without parentheses is one symbol. */
 static latex_number called(reader *r, const char *name) {
     const function *f = function_called(name);
     if (f == NULL) {
@@ -337,7 +335,7 @@ static latex_number after_command(reader *r) {
     return called(r, name);
 }
 
-/* {x}_{1}^{(3)}: more than two dots. Else what the braces hold, as the base of a power. */
+/* {x}_{1}^{(3)}: more than two dots. Otherwise the base of a power in braces. */
 static latex_number group(reader *r) {
     const char *from = r->at;
     char stem[NAME_MAX_LENGTH + 1];

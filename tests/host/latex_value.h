@@ -1,5 +1,5 @@
-/* latex_value.h: evaluates the LaTeX that the program prints, as a sum of a number and multiples of the highest
- * derivatives, with how far off each may be. What latex.h checks to compile is read here for what it says. */
+/* latex_value.h: evaluates the LaTeX that the program prints, with error bounds, as a number plus multiples of the
+ * highest derivatives. latex.h only checks that it compiles. */
 #ifndef TESTS_HOST_LATEX_VALUE_H
 #define TESTS_HOST_LATEX_VALUE_H
 
@@ -7,14 +7,13 @@
 
 enum { LATEX_UNKNOWNS = 16, LATEX_PLACES = 1 + LATEX_UNKNOWNS };
 
-/* value[0] + sum value[1 + i] * (highest derivative of unknown i). off[]: what is in each at most of
+/* value[0] + sum value[1 + i] * (highest derivative of unknown i). off[] bounds the errors from
  *
- *   - the printed numbers: show_as_fraction() takes what is within 1e-13 of a fraction for one;
- *   - sums: the algebra counts what cancels to less than 1e-14 of its parts as zero;
- *   - rounding, of libm's functions too,
+ * - printed numbers: show_as_fraction() replaces a number within 1e-13 of a fraction; - sums: the algebra treats a
+ * cancellation below 1e-14 of the parts as zero; - round-off, also of libm's functions,
  *
- * carried on by slopes (running error analysis, as host/engine/rounding.h): small differences of large terms are known to
- * be off by parts of these. */
+ * carried on by slopes (running error analysis, as in host/engine/rounding.h). Small differences of large terms thus
+ * have errors relative to the terms. */
 typedef struct latex_number {
     double value[LATEX_PLACES];
     double off[LATEX_PLACES];
@@ -22,14 +21,14 @@ typedef struct latex_number {
 
 latex_number latex_constant(double value, double off);
 
-/* The symbol with these letters ("theta", "m", "mass"), this index ("1", "" for none; "_" where LaTeX has "\_") and so
- * many dots; false when there is none. */
+/* The symbol with these letters ("theta", "m", "mass"), index ("1", "" without one; "_" for LaTeX's "\_") and number of
+ * dots. False if unknown. */
 typedef bool latex_lookup(void *context, const char *stem, const char *index, int primes,
                           latex_number *found);
 
-/* Evaluate from `text` on, up to a '&', a '\\' or the end of the line: *end is set to what stopped it. On what the
- * program does not print, as a product of two highest derivatives, the value is NaN, *problem says what and *end where;
- * else *problem is NULL; it holds until the next call. */
+/* Evaluates from `text` up to '&', '\\' or the end of the line; *end points there. For forms that the program never
+ * prints, such as a product of two highest derivatives, the value is NaN, *problem the reason and *end its place.
+ * Otherwise *problem is NULL. It is valid until the next call. */
 latex_number latex_value(const char *text, const char **end, const char **problem,
                          latex_lookup *lookup, void *context);
 

@@ -1,4 +1,4 @@
-/* linear.c: drawing linear mechanisms, and their steps by plain scaling and squaring in 113 bits. */
+/* linear.c: random linear mechanisms, and their steps by scaling and squaring in 113 bits. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdbool.h>
@@ -13,7 +13,6 @@ quad quad_size(quad x) { return x < 0 ? -x : x; }
 
 /* --- drawing ------------------------------------------------------------------------------------ */
 
-/* A multiple of 1/8 up to 8, up to 2^more times as large. */
 static double eighths(uint64_t *seed, int more) {
     const double size = (double)(1 + random_bits(seed) % 64) / 8.0;
     return size * (double)(UINT64_C(1) << (random_bits(seed) % (uint64_t)(more + 1)));
@@ -24,10 +23,10 @@ typedef struct drawing {
     linear *made;
     quad mass[LINEAR_STATES][LINEAR_STATES];
     quad force[LINEAR_STATES][LINEAR_COLUMNS]; /* on each coordinate */
-    double weight[LINEAR_STATES];              /* mass by mass, as far as it is in gravity */
+    double weight[LINEAR_STATES];              /* per mass, as far as gravity acts on it */
 } drawing;
 
-/* A spring (rates false) or a damper between coordinates i and j, or i and the ground (j < 0). */
+/* Adds a spring (rates false) or a damper between coordinates i and j, or i and the ground (j < 0). */
 static void tie(drawing *d, int i, int j, double k, bool rates) {
     const int n = d->made->coordinates;
     const char *prime = rates ? "'" : "";

@@ -1,4 +1,3 @@
-/* linkage.c: see linkage.h. */
 #include "linkage.h"
 
 #include <math.h>
@@ -9,7 +8,6 @@
 
 /* --- drawing ------------------------------------------------------------------------------------------------- */
 
-/* The next 64 random bits (splitmix64). */
 static uint64_t next(uint64_t *seed) {
     uint64_t z = *seed += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -17,7 +15,7 @@ static uint64_t next(uint64_t *seed) {
     return z ^ (z >> 31);
 }
 
-/* Of so many eighths, at random: numbers that a text gives in full. */
+/* A random multiple of 1/8, which a text gives exactly. */
 static double eighths(uint64_t *seed, int least, int most) {
     return (least + (int)(next(seed) % (uint64_t)(most - least + 1))) / 8.0;
 }
@@ -26,7 +24,7 @@ static bool one_in(uint64_t *seed, unsigned n) { return next(seed) % n == 0; }
 
 static linkage_body body_draw(uint64_t *seed, int number) {
     linkage_body b = {.parent = number - 1};
-    if (one_in(seed, 4)) { /* not a chain: another body's, or the ground's */
+    if (one_in(seed, 4)) { /* a loop of springs: to another body or the ground */
         b.parent = (int)(next(seed) % (uint64_t)(number + 1)) - 1;
     }
     b.slides = one_in(seed, 4);
@@ -88,7 +86,6 @@ linkage linkage_mirrored(const linkage *of) {
 
 /* --- as text ------------------------------------------------------------------------------------------------- */
 
-/* What is summed: T, V, F, and Q of each coordinate. */
 enum { KINETIC, POTENTIAL, DISSIPATION, FORCE, SUMS = FORCE + LINKAGE_BODIES, SUM_TEXT = 4096 };
 
 typedef struct writer {
@@ -99,7 +96,7 @@ typedef struct writer {
     char sum[SUMS][SUM_TEXT]; /* since the last flush */
 } writer;
 
-/* A buffer that is too small is a mistake of this file. */
+/* Fails if a buffer of this file is too small. */
 static void fits(bool holds) {
     if (!holds) {
         fputs("linkage.c: no room for the text\n", stderr);
@@ -115,7 +112,7 @@ __attribute__((format(printf, 2, 3))) static void say(writer *w, const char *for
     fits(w->used < LINKAGE_TEXT);
 }
 
-/* One more summand. */
+/* Appends a summand. */
 __attribute__((format(printf, 3, 4))) static void add(writer *w, int sum, const char *format, ...) {
     const size_t used = strlen(w->sum[sum]);
     va_list arguments;
@@ -126,7 +123,7 @@ __attribute__((format(printf, 3, 4))) static void add(writer *w, int sum, const 
     strcat(w->sum[sum], "\n  + ");
 }
 
-/* The sums as statements; were there any? */
+/* Writes the sums as statements. Were there any? */
 static bool flush(writer *w, const char *assign) {
     static const char *const letter[] = {"T", "V", "F"};
     bool any = false;
@@ -147,12 +144,12 @@ static bool flush(writer *w, const char *assign) {
     return any;
 }
 
-/* The k-th in the order that is asked for. */
+/* The k-th in the requested order. */
 static int turn_of(const writer *w, int k, int count) {
     return w->how.backwards ? count - 1 - k : k;
 }
 
-/* Where the joint of body k is, x and y, with u and v; its direction A, with W. */
+/* Position x, y and velocity u, v of body k's joint; its direction A and angular velocity W. */
 static void say_joint(writer *w, int k) {
     const linkage_body *b = &w->of->body[k];
     const int p = b->parent;
@@ -176,7 +173,7 @@ static void say_joint(writer *w, int k) {
     }
 }
 
-/* Where the body itself begins, X and Y, with U and V: on a rail as far along it as it has come. */
+/* Origin of the body, X and Y, with velocity U and V; on a rail, displaced along it. */
 static void say_origin(writer *w, int k) {
     if (!w->of->body[k].slides) {
         say(w, "let X%d = x%d\nlet Y%d = y%d\nlet U%d = u%d\nlet V%d = v%d\n", k, k, k, k, k, k, k,
@@ -188,7 +185,7 @@ static void say_origin(writer *w, int k) {
     say(w, "let V%d = v%d + q%d'*sin(A%d) + q%d*W%d*cos(A%d)\n", k, k, k, k, k, k, k);
 }
 
-/* A point of body k, out_m along it: its centre, or its end. */
+/* A point of body k at out_m along it: its centre or its end. */
 static void say_point(writer *w, int k, const char *tag, double out_m) {
     say(w, "let %sx%d = X%d + %.17g [m]*cos(A%d)\nlet %sy%d = Y%d + %.17g [m]*sin(A%d)\n", tag, k,
         k, out_m, k, tag, k, k, out_m, k);
@@ -274,8 +271,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         const int k = turn_of(&w, i, of->bodies);
         say(&w, "coordinate q%d [%s]\n", k, of->body[k].slides ? "m" : "rad");
     }
-    for (int k = 0; k < of->bodies;
-         k++) { /* a name stands before its use: there is no other order */
+    for (int k = 0; k < of->bodies; k++) { /* a name must be defined before its use */
         say_joint(&w, k);
         say_origin(&w, k);
         say_point(&w, k, "c", of->body[k].centre_m);
@@ -294,7 +290,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         has[part] = flush(&w, "+=");
         if (has[part]) {
             say(&w, "}\n");
-        } else { /* nothing in it */
+        } else { /* empty */
             w.used = before;
             text[before] = '\0';
         }

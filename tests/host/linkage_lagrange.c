@@ -1,7 +1,7 @@
-/* linkage_lagrange.c: a linkage's accelerations from its energies in numbers: no algebra, no simplification, long double
- * (see linkage.h). With the variables q0, q0', q1, q1', ... and their jets,
+/* linkage_lagrange.c: a linkage's accelerations from its energies in numbers, in long double, without algebra. With the
+ * variables q0, q0', q1, q1', ... and their jets,
  *
- *     sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
+ * sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
 #include "linkage.h"
 
 #include <math.h>
@@ -11,17 +11,15 @@
 
 _Static_assert(2 * LINKAGE_BODIES <= JET_VARIABLES, "a variable for each value and rate");
 
-/* Of a body: a body's place depends on none but those up to its own. */
+/* Variables of a body. Its place depends only on bodies up to it. */
 static int value_of(int body) { return 2 * body; }
 static int rate_of(int body) { return 2 * body + 1; }
 
-/* A point and its velocity. */
 typedef struct moving {
     jet x, y, u, v;
 } moving;
 
-/* A body: where it begins, its direction, how fast it turns, and the point one metre along it, as seen from its
- * beginning. */
+/* A body: its origin, direction, angular velocity, and the point one metre along it relative to the origin. */
 typedef struct placed {
     moving origin;
     jet direction;
@@ -39,7 +37,7 @@ static moving along(const placed *b, double out_m) {
     return end;
 }
 
-/* `q` further along its direction, and further by `rate` each second. */
+/* Moves a point by `q` along the direction, at speed `rate`. */
 static void slide(moving *point, const moving *metre, jet q, jet rate) {
     point->x = jet_sum(point->x, jet_product(q, metre->x));
     point->y = jet_sum(point->y, jet_product(q, metre->y));
@@ -113,7 +111,7 @@ long double linkage_solve(const linkage *of, const linkage_numbers *at, const lo
         memcpy(a[i], at->mass[i], sizeof at->mass[i]);
         a[i][n] = y[i];
     }
-    for (int c = 0; c < n; c++) { /* positive definite: no pivot is looked for */
+    for (int c = 0; c < n; c++) { /* positive definite: needs no pivoting */
         least = fminl(least, a[c][c] / at->mass[c][c]);
         for (int i = 0; i < n; i++) {
             const long double share = i == c ? 0.0L : a[i][c] / a[c][c];

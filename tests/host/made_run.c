@@ -1,4 +1,3 @@
-/* made_run.c: see made_run.h. */
 #include "made_run.h"
 
 #include <math.h>
@@ -43,7 +42,7 @@ derived made_run_derive(void) {
     return d;
 }
 
-/* Places and rates that walk about; of every other run some of them by next to nothing. */
+/* Places and rates in a random walk; in every second run some of them change by next to nothing. */
 void made_run_states(dice *d, uint64_t steps) {
     const unsigned still = dice_one_of(d, 2) == 0 ? dice_one_of(d, 1U << N) : 0;
     for (uint64_t k = 0; k <= steps; k++) {
@@ -54,8 +53,6 @@ void made_run_states(dice *d, uint64_t steps) {
         }
     }
 }
-
-/* --- formulas -------------------------------------------------------------------------------------------------*/
 
 double made_run_kinetic(const double *s) {
     return made_run.mx * s[VX] * s[VX] / 2.0 + made_run.my * s[VY] * s[VY] / 2.0 +
@@ -70,7 +67,7 @@ double made_run_stored(const double *s) {
 
 double made_run_energy(const double *s) { return made_run_kinetic(s) + made_run_stored(s); }
 
-/* Input, loss. */
+/* Input and loss. */
 double made_run_power(const double *s, int which) {
     return which == 0 ? made_run.push * s[VY] : made_run.damping * s[VX] * s[VX];
 }
@@ -92,7 +89,7 @@ void made_run_slope(const double *s, double *slope) {
     slope[VY] = (made_run.mx * fy - made_run.coupled * fx) / det;
 }
 
-/* Runge-Kutta 4, `parts` of a step. */
+/* One step in `parts` substeps of Runge-Kutta 4. */
 void made_run_go(double *s, int parts) {
     const double h = made_run.step_s / parts;
     for (int part = 0; part < parts; part++) {
@@ -116,9 +113,6 @@ void made_run_go(double *s, int parts) {
     }
 }
 
-/* --- the run that is made up ------------------------------------------------------------------------------------*/
-
-/* Where the image keeps what this file counts so. */
 int made_run_place(int i) {
     for (int k = 0; k < N; k++) {
         const component c = image_component(made_run.image, k);

@@ -1,5 +1,5 @@
-/* made_run.h: a run that is made up: any sequence of states of two bodies on springs, coupled by their inertia too, one pushed and
- * one damped, perhaps in a magnetic field; and their energies, momenta and slopes by formulas. Of one at a time. */
+/* made_run.h: a synthetic run: any sequence of states of two bodies on springs with coupled inertia, a push, a damper
+ * and perhaps a magnetic field. Energies, momenta and slopes come from formulas. One run at a time. */
 #ifndef TESTS_HOST_MADE_RUN_H
 #define TESTS_HOST_MADE_RUN_H
 
@@ -16,31 +16,31 @@ typedef struct made_up_run {
     double push;
     double magnetic; /* kg/s */
     double step_s;
-    double state[STEPS_MOST + 1][N]; /* as this file counts them */
-    uint64_t at;                     /* the step that it is at */
+    double state[STEPS_MOST + 1][N]; /* in the order of this file */
+    uint64_t at;                     /* current step */
     const image *image;
 } made_up_run;
 
 extern made_up_run made_run;
 extern const engine_kind made_run_kind;
 
-/* Its numbers; its scene, of which made_run.image is to be made; its states, which walk about. */
+/* Draws its numbers, its scene (for made_run.image) and its states, a random walk. */
 void made_run_draw(dice *d, bool powers, bool magnetic);
 derived made_run_derive(void);
 void made_run_states(dice *d, uint64_t steps);
 
-double made_run_kinetic(const double *s); /* without what is odd in the rates, */
-double made_run_odd(const double *s);     /* which is this */
+double made_run_kinetic(const double *s); /* without the terms odd in the rates, */
+double made_run_odd(const double *s);     /* which are these */
 double made_run_stored(const double *s);
 double made_run_energy(const double *s);
-/* 0: what the push gives; 1: what the damper takes. W. */
+/* 0: power of the push; 1: loss of the damper. W. */
 double made_run_power(const double *s, int which);
-/* `whole`: with the field's. */
+/* `whole`: with the field's part. */
 double made_run_momentum(const double *s, int i, bool whole);
 void made_run_slope(const double *s, double *slope);
-/* A step on, in so many of Runge-Kutta 4. */
+/* One step in so many substeps of Runge-Kutta 4. */
 void made_run_go(double *s, int parts);
-/* Where the image keeps component i of these states. */
+/* Index of component i of these states in the image. */
 int made_run_place(int i);
 
 #endif

@@ -1,4 +1,3 @@
-/* made_sweep.c: see made_sweep.h. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "made_sweep.h"

@@ -1,5 +1,5 @@
-/* made_sweep.h: for tests of host/sweep: a sweep made of a text as the command makes it, and a sitting of it in a file of its
- * own. */
+/* made_sweep.h: a sweep made of a text as the command makes it, and a session of it in its own file, for tests of
+ * host/sweep. */
 #ifndef TESTS_HOST_MADE_SWEEP_H
 #define TESTS_HOST_MADE_SWEEP_H
 
@@ -8,7 +8,7 @@
 #include "host/study/session.h"
 
 typedef struct made_sweep {
-    derived d; /* of the first scene with its measures in the outputs' place */
+    derived d; /* of the first scene, with its measures in place of the outputs */
     diags *errors;
     whirl_model *model;
     grid grid;
@@ -23,20 +23,20 @@ void made_sweep_open(made_sweep *m, const char *text, const char *const *over, i
                      const char *const *asked, int count, const engine_kind *kind);
 void made_sweep_close(made_sweep *m);
 
-/* A body between a floor at x = 0 and nothing, and what moves beside it. */
+/* A body above a floor at x = 0, and its neighbours. */
 extern const char made_sweep_floor[];
 
-/* What session_run() wrote into a file of its own, and said. */
+/* File and messages of session_run(). */
 typedef struct session_said {
     int code;
     char rows[SAID_SIZE];
     char err[SAID_SIZE];
 } session_said;
 
-/* An empty folder for the file, emptied again by the next; and gone. */
+/* The first makes an empty folder for the file, the second deletes it. */
 void sessions_open(void);
 void sessions_close(void);
-/* The file's name, and what is there cut to a length. */
+/* The file's name; the second truncates the file. */
 const char *sessions_path(void);
 void sessions_cut(size_t length);
 session_said sessions_sit(const made_sweep *m, session_settings settings);

@@ -1,4 +1,3 @@
-/* made_up_tree.c: see made_up_tree.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "made_up_tree.h"
 

@@ -1,16 +1,15 @@
-/* made_up_tree.h: a made-up source tree whose make and measure_one.sh are scripts that keep what they are told, and say what they
- * are given: for what counts prices (host/study/measured.h). */
+/* made_up_tree.h: a fake source tree whose make and measure_one.sh record their arguments and print given texts, for
+ * tests of host/study/measured.h. */
 #ifndef TESTS_HOST_MADE_UP_TREE_H
 #define TESTS_HOST_MADE_UP_TREE_H
 
-/* From the first on the working directory is that of the tree, up to the second. measure_one.sh says what is in row0, or
- * row1 and row2 of places 1 and 2, and keeps its words in `asked`; make says `says`, and keeps them in `made`; both end with
- * what is in `status`. */
+/* The first changes into the tree, the second back. measure_one.sh prints row0, or row1 and row2 for places 1 and 2,
+ * and records its arguments in `asked`. make prints `says` and records its own in `made`. Both exit with the number in
+ * `status`. */
 void tree_enter(void);
 void tree_leave(void);
-/* A file of the tree. */
 void tree_keep(const char *file, const char *text);
-/* What is in it, which is then gone; static. */
+/* Returns its contents (static) and deletes it. */
 const char *tree_taken(const char *file);
 
 #endif

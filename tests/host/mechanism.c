@@ -1,4 +1,3 @@
-/* mechanism.c: see mechanism.h. */
 #include "mechanism.h"
 
 #include <inttypes.h>
@@ -15,9 +14,9 @@ typedef struct writer {
     size_t at;
     int coordinates;
     bool is_angle[COORDINATES_MAX];
-    bool functions; /* all fourteen, not only those that the smallest board always had */
-    int shapes;     /* lets w0, w1, ...: numbers without dimension that hold coordinates */
-    bool shaped;    /* may be named */
+    bool functions; /* all fourteen functions, not only those of the smallest board */
+    int shapes;     /* lets w0, w1, ...: dimensionless functions of coordinates */
+    bool shaped;    /* may they be used? */
 } writer;
 
 static unsigned draw(writer *w, unsigned bound) { /* splitmix64 */
@@ -87,7 +86,7 @@ static void call(writer *w, const char *before, int depth, const char *after) {
     put(w, "%s", after);
 }
 
-/* Defined everywhere and of bounded slopes, or nearly so. */
+/* A function defined everywhere, with slopes that are (nearly) bounded. */
 static void function(writer *w, int depth) {
     static const char *const exponents[] = {"2", "3", "4", "-1", "-2", "0.5", "1.5", "-0.5"};
     switch (draw(w, w->functions ? 21 : 8)) {
@@ -213,7 +212,7 @@ static void declare(writer *w) {
 
 /* --- energies ------------------------------------------------------------------------------------*/
 
-/* The places of the bodies, each carried by the one before or by the ground, as sums: x, y, their rates. */
+/* Places of the bodies, each carried by the one before or the ground, as sums: x, y and their rates. */
 typedef struct place {
     char x[PHRASES * PHRASE];
     char y[PHRASES * PHRASE];

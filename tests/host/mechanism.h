@@ -1,4 +1,4 @@
-/* mechanism.h: generated mechanisms, as text, for what must hold for any mechanism. */
+/* mechanism.h: random mechanisms as text, for properties of every mechanism. */
 #ifndef TESTS_HOST_MECHANISM_H
 #define TESTS_HOST_MECHANISM_H
 
@@ -7,10 +7,10 @@
 
 enum { MECHANISM_SIZE = 16384 };
 
-/* A mechanism `mNUMBER` with a scene `sNUMBER`, of one to four coordinates: pendulums and carriages that carry each
- * other, springs, gravity and energies of any function, losses, forces, effects, contacts, units; every eighth
- * is a system of equations. The same seed gives the same text on every host: whole numbers only are computed with,
- * and calls are in sequence. Hardly any is refused by the language or the deriver, but some are. */
+/* A mechanism `mNUMBER` with a scene `sNUMBER`, of one to four coordinates. Pendulums and carriages carry each other,
+ * with springs, gravity, any energies, losses, forces, effects, contacts and units. Every eighth is a system of
+ * equations. Integer arithmetic makes the text of a seed the same on every host. The language or the deriver refuses a
+ * few of them. */
 void mechanism_write(unsigned number, uint64_t seed, char text[static MECHANISM_SIZE]);
 
 #endif

@@ -26,7 +26,6 @@ static const scene *scene_named(const whirl_model *in, const char *name) {
     return NULL;
 }
 
-/* From the parsed model to a run that stands at its start. */
 static void start(motion *m, const scene *in, stepping how) {
     char step[64];
     snprintf(step, sizeof step, "%.17g", how.step_s);
@@ -103,7 +102,7 @@ void motion_open_more(motion *m, const char *file, const char *more, stepping ho
     TEST_FAIL_MESSAGE(file);
 }
 
-/* A file's text with more behind it; to be freed. */
+/* A file's text with `more` appended; to be freed. */
 static char *text_of_file(const char *path, const char *more) {
     FILE *in = fopen(path, "rb");
     TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
@@ -184,7 +183,7 @@ double motion_value(const motion *m, const char *name) {
             return output[i];
         }
     }
-    /* A coordinate recovered from its momentum: value and rate behind the mechanism's outputs. */
+    /* A coordinate recovered from its momentum: value and rate follow the mechanism's outputs. */
     for (int i = 0; i < p->recovered; i++) {
         const char *known = of->coordinates[p->from_momentum[i]]->name;
         if (primes < 2 && strlen(known) == length && strncmp(known, name, length) == 0) {
@@ -208,8 +207,7 @@ double thomson_kinetic_J(const motion *m) {
     return X_ * X_ + (bx * bx + by * by) + 2.0 * 0.09 * a_ * a_ + (dx * dx + dy * dy);
 }
 
-/* The states of the line `core/models/FILE:scene | time | name=value ...`, from behind the second
- * bar on. */
+/* The states in the line `core/models/FILE:scene | time | name=value ...`, after the second bar. */
 static void reference_line(const char *of, const char *time, char line[LINE_MAX_BYTES]) {
     char wanted[128];
     snprintf(wanted, sizeof wanted, ":%s | %s | ", of, time);

@@ -1,4 +1,3 @@
-/* named_cures.c: see named_cures.h. */
 #include "named_cures.h"
 
 #include <stdio.h>
@@ -25,7 +24,7 @@ static named_cure read_options(const char *piece, bool tried) {
     return cure;
 }
 
-/* "A1 or A2, or A3": each up to the next "or --" is one. Changes the text. */
+/* Splits "A1 or A2, or A3" at each "or --". Changes the text. */
 static int read_alternatives(char *piece, bool tried, named_cure *list, int count) {
     while (piece != NULL && count < NAMED_CURES) {
         char *next = strstr(piece, "or --");

@@ -1,4 +1,3 @@
-/* parsed.c: see parsed.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "parsed.h"
 
@@ -50,7 +49,7 @@ void expect_said(const char *wanted) {
     TEST_ASSERT_NOT_NULL(out);
     diags_flush(said, out);
     fclose(out);
-    /* and a hint says something */
+    /* and there is a hint */
     const bool found = strstr(report, wanted) != NULL && strstr(report, "hint: \n") == NULL;
     if (!found) {
         printf("wanted: %s\ngot: %s\n", wanted, report);

@@ -1,28 +1,26 @@
-/* parsed.h: for the tests of host/lang: one text at a time, parsed, and an instance of it. */
+/* parsed.h: one text at a time, parsed and instantiated, for tests of host/lang. */
 #ifndef TESTS_HOST_PARSED_H
 #define TESTS_HOST_PARSED_H
 
 #include "host/lang/model.h"
 
-/* The text at hand; NULL before parse(), instantiate(). */
+/* The current text; NULL before parse() and instantiate(). */
 extern diags *said;
 extern whirl_model *parsed;
 extern instance *made;
 
-/* Parse a good text, called x.whirl; the test fails when the language refuses it. Returns its first
- * mechanism. */
+/* Parses a text named x.whirl and returns its first mechanism. A refusal fails the test. */
 const mechanism *parse(const char *text);
-/* The first scene (or the first mechanism when there is none) with these changes; fails like parse(). */
+/* Instantiates the first scene (or mechanism, without scenes) with these changes. A refusal fails the test. */
 void instantiate(const overrides *changes);
-/* What was refused before was refused with these words. */
+/* The last refusal must contain these words. */
 void expect_said(const char *wanted);
-/* Free all three. */
+/* Frees all three. */
 void drop(void);
 
-/* The instance's parameter of that name. */
 double parameter(const char *name);
 
-/* The same number; within 4e-16 of it. */
+/* Equal; or within a relative 4e-16. */
 void expect_exactly(double wanted, double got);
 void expect_nearly(double wanted, double got);
 

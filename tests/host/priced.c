@@ -1,4 +1,3 @@
-/* priced.c: see priced.h. */
 #include "priced.h"
 
 #include <stdio.h>
@@ -21,7 +20,7 @@ static image *make(void *context, int point, const setting *s, const char *step,
     return p->scene[point]->source.make(p->scene[point], 0, s, step, until);
 }
 
-/* Nothing varies at one place alone. */
+/* A single place has no varying values. */
 static const char *name(void *context, int point) {
     priced *p = context;
     p->place[0] = '\0';

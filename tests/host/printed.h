@@ -1,4 +1,4 @@
-/* printed.h: for the tests of host/emit: what the writers print about every mechanism there is. */
+/* printed.h: the printed text of every mechanism, for tests of host/emit. */
 #ifndef TESTS_HOST_PRINTED_H
 #define TESTS_HOST_PRINTED_H
 
@@ -6,12 +6,12 @@
 
 typedef void checker(const char *name, derived *d);
 
-/* Calls `check` for built-in mechanisms and for each of tests/mechanisms. */
+/* Calls `check` for built-in mechanisms and those of tests/mechanisms. */
 void each_mechanism(checker *check);
 
 typedef enum language { TEXT, STEPS, LATEX, LATEX_STEPS, FOLDED, OCTAVE } language;
 
-/* What one writer prints; free() it. */
+/* The text of one writer; to be freed. */
 char *printed(const derived *d, language as);
 
 #endif

@@ -1,11 +1,8 @@
-/* quad_arms.c: see quad_arms.h. */
 #include "quad_arms.h"
-
-/* --- sine and cosine ----------------------------------------------------------------------------------*/
 
 enum { TERMS = 16 };
 
-/* The sine (from 1) or the cosine (from 0) of what is below an eighth turn. */
+/* The sine (from 1) or the cosine (from 0) of an angle below an eighth turn. */
 static quad series(quad x, int from) {
     quad sum = 1;
     for (int i = TERMS; i > 0; i--) {
@@ -31,9 +28,7 @@ static quad wave(quad rad, int quarters) {
 quad quad_sine(quad rad) { return wave(rad, 0); }
 quad quad_cosine(quad rad) { return wave(rad, 1); }
 
-/* --- the equations ------------------------------------------------------------------------------------*/
-
-/* How the body's place moves with each coordinate, and how it is accelerated by the rates alone. */
+/* Derivatives of a body's place by each coordinate, and its acceleration from the rates alone. */
 typedef struct moving {
     quad x[QUAD_COORDINATES];
     quad y[QUAD_COORDINATES];
@@ -109,8 +104,6 @@ void quad_arms_slopes(const void *which, const quad *state, quad *to) {
     }
 }
 
-/* --- the motion -----------------------------------------------------------------------------------------*/
-
 enum { COLUMNS_LEAST = 7, COLUMNS = 14 };
 #define SPAN_MOST_S 0.0125
 
@@ -120,7 +113,7 @@ typedef struct following {
     int states;
 } following;
 
-/* Gragg's: the modified midpoint rule, whose error has even powers of the substep only. */
+/* Gragg's modified midpoint rule, whose error has only even powers of the substep. */
 static void midpoint(const following *f, quad span_s, int substeps, const quad *from, quad *to) {
     const quad h = span_s / (quad)substeps;
     quad before[QUAD_STATES];

@@ -1,6 +1,6 @@
-/* quad_arms.h: plane mechanisms of point masses on arms, perhaps on a carriage, and discs that spin, in numbers of 113 bits:
- * d'Alembert's equations by hand and the extrapolation of Gragg, Bulirsch and Stoer, for references that share nothing
- * with the program: no energies, no algebra, no list, no parameter that is a double. */
+/* quad_arms.h: planar mechanisms of point masses on arms, perhaps on a carriage, and spinning discs, in 113 bits.
+ * D'Alembert's equations are derived by hand and integrated by the extrapolation of Gragg, Bulirsch and Stoer. The
+ * reference shares nothing with the program: energies, algebra, lists or double parameters. */
 #ifndef TESTS_HOST_QUAD_ARMS_H
 #define TESTS_HOST_QUAD_ARMS_H
 
@@ -13,19 +13,18 @@ typedef long double quad;
 __extension__ typedef __float128 quad;
 #define QUAD_KNOWN 1
 #else
-typedef long double quad; /* no reference: QUAD_KNOWN is not defined */
+typedef long double quad; /* no reference: QUAD_KNOWN is undefined */
 #endif
 
 enum { QUAD_COORDINATES = 3, QUAD_BODIES = 3, QUAD_ARMS = 3 };
 
-/* length (cos(multiple q), sin(multiple q)) */
 typedef struct quad_arm {
     quad length_m;
     int multiple;
     int coordinate;
 } quad_arm;
 
-/* A mass at the end of its arms, the first of which is at the carriage. */
+/* A mass at the end of its arms, the first of which starts at the carriage. */
 typedef struct quad_body {
     quad mass_kg;
     int arms;
@@ -34,7 +33,7 @@ typedef struct quad_body {
 
 typedef struct quad_arms {
     int coordinates; /* angles first */
-    int carriage;    /* the coordinate along x that all bodies move with; -1: none */
+    int carriage;    /* coordinate of all bodies along x; -1: none */
     int bodies;
     quad_body body[QUAD_BODIES];
     quad spin_kgm2[QUAD_COORDINATES]; /* spin/2 q'^2 of the kinetic energy */
@@ -45,13 +44,13 @@ typedef struct quad_arms {
 quad quad_sine(quad rad);
 quad quad_cosine(quad rad);
 
-/* to[states] = the slopes at state[states] */
+/* Computes the slopes to[states] at state[states]. */
 typedef void quad_slopes(const void *of, const quad *state, quad *to);
 enum { QUAD_STATES = 8 };
-/* Any system on by span_s. */
+/* Integrates any system over span_s. */
 void quad_follow(quad_slopes *slopes, const void *of, int states, quad span_s, quad *state);
 
-/* Of arms: state[2 * coordinates] are q0, q0', q1, q1', ... */
+/* Slopes of arms: state[2 * coordinates] are q0, q0', q1, q1', ... */
 quad_slopes quad_arms_slopes;
 
 #endif

@@ -1,11 +1,10 @@
-/* ranges.h: what the suites about the dissertation's findings share: the span of quantities over a
- * scene's run, and thresholds with two sides. */
+/* ranges.h: the range of quantities over a run, and two-sided thresholds, for suites of the dissertation's findings. */
 #ifndef TESTS_RANGES_H
 #define TESTS_RANGES_H
 
 #include "motion.h"
 
-/* A quantity over a run: set `name` ("X", "X'" or an output), the rest is filled in. SI. */
+/* A quantity over a run. Set `name` ("X", "X'" or an output); the rest is filled in. SI. */
 typedef struct range {
     const char *name;
     double first;
@@ -14,17 +13,16 @@ typedef struct range {
     double most;
 } range;
 
-/* The scene's run from its start to `until_s`, looked at every `every_s` and at the start. */
+/* Runs the scene to `until_s`, with a look at the start and every `every_s`. */
 void ranges_of(const char *which, stepping how, double until_s, double every_s, range *r,
                unsigned count);
 
-/* largest - smallest */
 double range_width(const range *r);
 
 /* Largest distance from the value at the start. */
 double range_drift(const range *r);
 
-/* least <= got <= most, or the test fails; prints a line either way. */
+/* Fails the test unless least <= got <= most; prints a line either way. */
 void expect_between(const char *what, double least, double most, double got);
 
 #endif

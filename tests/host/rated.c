@@ -1,4 +1,3 @@
-/* rated.c: see rated.h. */
 #include "rated.h"
 
 #include <math.h>
@@ -9,18 +8,16 @@
 #include "host/number/functions.h"
 #include "unity.h"
 
-/* The reference's step, s: a 32nd of the run's; of short steps a quarter at least. */
+/* The reference's step, s: a 32nd of the run's; for short steps, at least a quarter. */
 static double finer_s(double step_s) {
     return number_least(step_s / 4.0, number_most(step_s / 32.0, 1e-4));
 }
 #define GRAVITY 9.81
 
-/* Three decimals, as the text has them. */
+/* Three decimals, as in the text. */
 static double of(dice *d, double low, double high) {
     return number_nearest(dice_between(d, low, high) * 1000.0) / 1000.0;
 }
-
-/* --- kinds -------------------------------------------------------------------------------------------*/
 
 static void spring_slope(const double *p, const long double *x, long double *slope) {
     slope[0] = x[1];
@@ -42,7 +39,7 @@ static void draw_spring(dice *d, rated *r) {
              p[0], p[1], p[2], p[3], r->start[0]);
 }
 
-/* Two masses on strings of lengths l and k, angles from straight down. */
+/* Two masses on strings of lengths l and k; angles from straight down. */
 static void pendulum_slope(const double *n, const long double *x, long double *slope) {
     const long double p = (long double)n[0], q = (long double)n[1];
     const long double l = (long double)n[2], k = (long double)n[3];
@@ -128,8 +125,6 @@ void rated_draw(dice *d, rated *r) {
              r->until_s);
 }
 
-/* --- the motion --------------------------------------------------------------------------------------*/
-
 static void runge_kutta(const rated *r, long double h, long double *x) {
     static const long double part[] = {0.0L, 0.5L, 0.5L, 1.0L};
     static const long double weight[] = {1.0L, 2.0L, 2.0L, 1.0L};
@@ -170,7 +165,7 @@ long double *rated_motion(const rated *r, double spacing_s, int records) {
     TEST_ASSERT_NOT_NULL(row);
     const int each = (int)number_ceiling(spacing_s / finer_s(r->step_s) - 1e-9);
     linear spaced = r->linear;
-    char text[40]; /* the decimal, not the double next to it */
+    char text[40]; /* the decimal, not the nearest double */
     snprintf(text, sizeof text, "%.9g", spacing_s);
     spaced.h = (quad)strtold(text, NULL);
     const long double h = strtold(text, NULL) / each;

@@ -1,5 +1,5 @@
-/* rated.h: drawn smooth scenes for the rows that end a run, each with its motion as the test itself knows it: linear
- * ones by their exponential, others by equations that are written down here, integrated in long double. */
+/* rated.h: random smooth scenes for the last rows of a run, with references. Linear ones use the exponential; others
+ * use equations derived here, integrated in long double. */
 #ifndef TESTS_HOST_RATED_H
 #define TESTS_HOST_RATED_H
 
@@ -15,18 +15,18 @@ typedef struct rated {
     const char *method;    /* of the command line */
     const char *number;    /* "float" or "double" */
     bool compensated;
-    int states; /* coordinates, then their rates: columns of a record behind the time */
+    int states; /* coordinates, then their rates: columns of a record after the time */
     double step_s;
     double until_s;
     double start[RATED_STATES];
-    double number_of[RATED_NUMBERS]; /* parameters, as `slope` takes them */
+    double number_of[RATED_NUMBERS]; /* parameters for `slope` */
     void (*slope)(const double *parameter, const long double *x, long double *slope);
-    linear linear; /* where slope is NULL */
+    linear linear; /* if slope is NULL */
 } rated;
 
-/* Every kind, method and number comes about. */
+/* Draws every kind, method and number format. */
 void rated_draw(dice *d, rated *r);
-/* The motion at multiples of `spacing_s`: row[(records + 1)][states], to be freed. */
+/* The motion at multiples of `spacing_s`: row[(records + 1)][states]; to be freed. */
 long double *rated_motion(const rated *r, double spacing_s, int records);
 
 #endif

@@ -1,4 +1,3 @@
-/* rattle.c: see rattle.h. */
 #include "rattle.h"
 
 #include <math.h>
@@ -79,9 +78,6 @@ void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double
              (int)(kinetic - 4 - (own + 17)), own + 17, kinetic, law, stored, from, start);
 }
 
-/* --- closed forms ------------------------------------------------------------------------------------------*/
-
-/* From stop to stop along parabolas. */
 static double ball_m(rattle *r, double t) {
     const double gap = r->number[0];
     const double g = r->number[1];
@@ -114,8 +110,8 @@ static double hold_m(const rattle *r, double t) {
     return (t - rest) / period * r->number[0] * period / 2.0 + r->number[1] * rest * rest / 2.0;
 }
 
-/* On the belt. Sticks until the spring pulls with the static friction, swings about where it pulls with the kinetic one, and is caught
- * again where it goes with the belt. */
+/* On the belt: sticks until the spring pulls with the static friction, then swings about the point of kinetic friction.
+ * Sticks again when its speed is the belt's. */
 static double belt_m(const rattle *r, double t) {
     const double *n = r->number;
     const double w = sqrt(n[0]);
@@ -136,5 +132,3 @@ static double belt_m(const rattle *r, double t) {
 double rattle_truth_m(rattle *r, double t) {
     return r->kind == BALL ? ball_m(r, t) : r->kind == HOLD ? hold_m(r, t) : belt_m(r, t);
 }
-
-/* --- a run beside it ------------------------------------------------------------------------------------------*/

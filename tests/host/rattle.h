@@ -1,5 +1,5 @@
-/* rattle.h: mechanisms whose contacts may be too busy for a step, with closed forms: a ball between two stops, a hold that ends
- * its own condition, stick-slip. */
+/* rattle.h: mechanisms whose contacts may be too busy for a step, with closed forms: a ball between two stops, a hold
+ * that ends its own condition, stick-slip. */
 #ifndef TESTS_HOST_RATTLE_H
 #define TESTS_HOST_RATTLE_H
 
@@ -10,7 +10,7 @@
 
 typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
 
-/* A mechanism with a closed form, which goes on from where it is. */
+/* A mechanism with a closed form that continues from its present place. */
 typedef struct rattle {
     rattle_kind kind;
     double number
@@ -25,10 +25,11 @@ typedef struct rattle {
 
 rattle rattle_drawn(dice *d, rattle_kind kind);
 void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
-/* Beside it a body swings on a spring of its own, or slows down by a damper, which the step may be too coarse for; with books. */
+/* Adds a body on its own spring, or one that a damper slows down; the step may be too coarse for it. With the energy
+ * balance. */
 void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]);
-/* Where it is at t, which is not before what was asked for last. */
+/* Place at t. Calls must have rising t. */
 double rattle_truth_m(rattle *r, double t);
 
 #endif

@@ -1,4 +1,3 @@
-/* reread.c: see reread.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "reread.h"
 
@@ -15,8 +14,6 @@ const char *const reread_coordinates[REREAD_COORDINATES] = {"theta1", "x", "phi_
 const char *const reread_constants[REREAD_CONSTANTS] = {"a1",     "n_1",  "mass_of_it",
                                                         "Omega_", "x__2", "y1"};
 
-/* --- a state ---------------------------------------------------------------------------------------*/
-
 state random_values(uint64_t *seed) {
     state s;
     for (int i = 0; i < REREAD_COORDINATES; i++) {
@@ -30,7 +27,7 @@ state random_values(uint64_t *seed) {
     return s;
 }
 
-/* A neighbour: how far apart their values are says how well an expression can be computed there. */
+/* A neighbouring state: the difference of the values shows the conditioning of an expression there. */
 static state nudged(const state *from, uint64_t *seed) {
     state s = *from;
     for (int i = 0; i < REREAD_COORDINATES; i++) {
@@ -58,10 +55,8 @@ double value_here(void *context, const symbol *sym, int primes) {
     return (double)NAN;
 }
 
-/* --- reading back ----------------------------------------------------------------------------------*/
-
-/* The language gives q' the dimension of a rate, and a printed formula has its numbers without units: what is
- * read back is a formula of plain numbers, in which q' is a name, q_rate, and q'' q_rate_rate. */
+/* The language gives q' the dimension of a rate, and printed formulas have numbers without units. So the test reads
+ * formulas of plain numbers, with q' and q'' as the names q_rate and q_rate_rate. */
 static void plain_names(const char *from, size_t length, char *to) {
     for (size_t i = 0; i < length; i++) {
         if (from[i] == '\'') {
@@ -129,8 +124,6 @@ double back_value(const read_back *b, int which, const state *s) {
     known.input = input;
     return expr_value(m->outputs[which]->value, &known);
 }
-
-/* --- comparing -------------------------------------------------------------------------------------*/
 
 bool is_in_range(const poly *p, double most, state *s) {
     bool good = fabs(poly_evaluate(p, value_here, s)) < most;

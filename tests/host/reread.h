@@ -1,5 +1,5 @@
-/* reread.h: for the tests of what is printed: formulas as `whirl derive` prints them, read by the language's own
- * parser, and compared with what they should be at random states. */
+/* reread.h: formulas as `whirl derive` prints them, parsed by the language's own parser and compared with their
+ * expressions at random states. */
 #ifndef TESTS_HOST_REREAD_H
 #define TESTS_HOST_REREAD_H
 
@@ -7,8 +7,8 @@
 
 enum { REREAD_COORDINATES = 4, REREAD_CONSTANTS = 6, REREAD_PARAMETERS = 3, REREAD_STATES = 4 };
 
-/* What the mechanisms of these tests may name: coordinates or states, then parameters and inputs; names as people
- * give them, Greek, with indices and underscores in odd places. */
+/* Names in these tests' mechanisms: coordinates or states, then parameters and inputs. Natural names, Greek letters,
+ * indices and odd underscores. */
 extern const char *const reread_coordinates[REREAD_COORDINATES];
 extern const char *const reread_constants[REREAD_CONSTANTS];
 
@@ -18,21 +18,21 @@ typedef struct state {
 } state;
 
 state random_values(uint64_t *seed);
-/* For poly_evaluate(), with a state as context. */
+/* Callback of poly_evaluate() with a state as context. */
 double value_here(void *context, const symbol *sym, int primes);
 
 typedef struct read_back {
     diags *said;
     whirl_model *model;
-    instance *instance; /* NULL when a formula was refused; that was printed */
+    instance *instance; /* NULL after a refusal, which has been printed */
 } read_back;
 
-/* The formulas, each as an output of a mechanism whose inputs are all the names. */
+/* The formulas as outputs of a mechanism with all names as inputs. */
 read_back parse_back(const char *const *formulas, int count);
 void drop_back(read_back *b);
 double back_value(const read_back *b, int which, const state *s);
 
-/* What a formula should be: its value at a state, and the size of what it is the sum of. */
+/* An expected formula: its value at a state, and the size of its terms. */
 typedef struct quantity {
     double (*value)(const struct quantity *of, const state *at, double *size);
     algebra *algebra;
@@ -41,18 +41,17 @@ typedef struct quantity {
     int unknown;
 } quantity;
 
-/* Of ->poly; NaN where it cannot be told to some digits. */
+/* Value of ->poly; NaN if it has no reliable digits. */
 double poly_here(const quantity *of, const state *at, double *size);
-/* No part of it is out of range there: 1/(1 + x) hides that x was infinite, sin(x) that no digit of a large x was
- * left. */
+/* All parts are in range: 1/(1 + x) hides an infinite x, and sin(x) hides that a large x has no digits. */
 bool is_in_range(const poly *p, double most, state *s);
 
-/* The formula's value (less that of formula `right`, if not -1) must be that of the quantity at random states.
- * Returns at how many it had one. `text` is for messages. */
+/* Compares the formula (minus formula `right`, if not -1) with the quantity at random states. Returns the number of
+ * states with a value. `text` is for messages. */
 int compare(const quantity *q, const char *text, const read_back *b, int which, int right,
             uint64_t *seed);
 
-/* The formula must be LaTeX that compiles (latex.h). */
+/* The formula must be valid LaTeX (latex.h). */
 void expect_compiles(const char *latex);
 
 #endif

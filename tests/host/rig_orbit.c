@@ -1,4 +1,4 @@
-/* rig_orbit.c: one turn of the eccentric-mass rig, integrated finely, and measurements of it. */
+/* rig_orbit.c: one turn of the eccentric-mass rig in fine steps, and synthetic measurements of it. */
 #include "rig_orbit.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static double bend(const rig_plant *p, double drive_Nm, double theta, double w) 
 static double speed_at[2U * STEPS + 1U]; /* at every half step of the angle */
 static double time_at[STEPS + 1U];
 
-/* w at the end of a turn that begins with w at the angle `from`; time_at, speed_at on the way. */
+/* w at the end of a turn that begins with w at angle `from`. Fills time_at and speed_at. */
 static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
     const double h = 2.0 * PI / STEPS;
     time_at[0] = 0.0;
@@ -62,7 +62,7 @@ static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
     return w;
 }
 
-/* The periodic turn under this torque: what begins as it ends, by secants. */
+/* The periodic turn with this torque, by the secant method. */
 static double periodic(const rig_plant *p, double drive_Nm, double from) {
     double w = drive_Nm / (p->line_Nms + p->drag_Nms);
     for (unsigned round = 0; round < 60; round++) {
@@ -83,7 +83,7 @@ static double force(const rig_plant *p, double drive_Nm, double theta, double w)
            (w * w * cos(theta) + acceleration(p, drive_Nm, theta, w) * sin(theta));
 }
 
-/* Step in which the time `t` of the turn lies. */
+/* Step that contains the time `t` of the turn. */
 static unsigned step_of(double t) {
     unsigned low = 0;
     unsigned high = STEPS;
@@ -137,7 +137,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     for (unsigned k = 0; k <= ORBIT_NODES; k++) {
         const double t = fmin(k * orbit->node_s, time_at[STEPS]);
         const unsigned i = step_of(t);
-        /* way within the step, by its speeds at both ends and the middle */
+        /* angle within the step, from the speeds at both ends and the middle */
         double part = (t - time_at[i]) / (time_at[i + 1U] - time_at[i]);
         const double w0 = speed_at[2U * i];
         const double w1 = speed_at[2U * i + 2U];
@@ -151,7 +151,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 
 static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-53; }
 
-/* A normal number (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
+/* A normal variate (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
 static double normal(void) { return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform()); }
 
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell) {
@@ -173,7 +173,7 @@ static double force_at(const rig_orbit *orbit, double t_s) {
     return orbit->force_N[k] + (at - whole) * (orbit->force_N[k + 1U] - orbit->force_N[k]);
 }
 
-/* As a cell with a limit, a bend or play shows it. */
+/* Force as shown by a cell with a limit, a curved characteristic or play. */
 static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double *follows_N) {
     double least_N = 0.0;
@@ -194,7 +194,7 @@ static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_
     return (1.0 + noise->gain_off) * *follows_N;
 }
 
-/* The mean of a coarse converter's counts around that time, as the cell's. */
+/* Mean of a coarse converter's counts around that time, in the cell's unit. */
 static int32_t mean_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double on_top_N) {
     double sum = 0.0;
@@ -225,7 +225,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     wh_lockin_feed(&lockin, orbit->fed, WH_R(0.0625));
     lockin.angle.held_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
-    const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps on the way */
+    const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps during the measurement */
     const double first_mark_s = uniform() * period_s + 0.001;
     unsigned marks = 0;
     double due_s = first_mark_s + noise->jitter_s * normal();

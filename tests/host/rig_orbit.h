@@ -1,5 +1,5 @@
-/* rig_orbit.h: one turn of the eccentric-mass rig at a steady mean speed, integrated finely in double, and
- * measurements of it with made-up noise by core/rig's lock-in, which knows nothing of it. */
+/* rig_orbit.h: one turn of the eccentric-mass rig at a steady mean speed, integrated finely in double. core/rig's
+ * lock-in measures it with synthetic noise and no knowledge of the model. */
 #ifndef TESTS_RIG_ORBIT_H
 #define TESTS_RIG_ORBIT_H
 
@@ -8,7 +8,7 @@
 
 #include "core/rig/result.h"
 
-/* The plant: eccentric_fixed with gravity of core/models/eccentric.whirl, written down once more. */
+/* The plant: eccentric_fixed with gravity of core/models/eccentric.whirl, written independently. */
 typedef struct rig_plant {
     double mass_moment_kgm;
     double inertia_kgm2;
@@ -16,9 +16,9 @@ typedef struct rig_plant {
     double line_Nms; /* slope of the motor's torque line */
     double gravity_mps2;
     double tare_N;
-    double fed_Nm;       /* gravity's torque as the motor is given it; 0: it is not, */
-    double fed_late_rad; /* at an angle that is so much behind; no voltage is below 0 */
-    double twice_Nm;     /* a torque twice a turn: twice_Nm cos(2 theta + twice_rad) */
+    double fed_Nm;       /* amplitude of the gravity feed-forward; 0: none */
+    double fed_late_rad; /* lag of the feed-forward angle; the voltage is never below 0 */
+    double twice_Nm;     /* a torque of twice the speed: twice_Nm cos(2 theta + twice_rad) */
     double twice_rad;
 } rig_plant;
 
@@ -30,7 +30,7 @@ typedef struct rig_orbit {
     double turn_s;
     double split; /* part of the turn's time at which sensor 2 fires */
     double node_s;
-    double force_N[ORBIT_NODES + 1U]; /* without tare, evenly over the time since sensor 1's mark */
+    double force_N[ORBIT_NODES + 1U]; /* without tare, at equal times since sensor 1's mark */
     double tare_N;
     /* truth: first Fourier coefficients over the angle */
     double in_phase_N;
@@ -38,44 +38,42 @@ typedef struct rig_orbit {
     double amplitude_N;
     double phase_rad;
     bool fed;
-    double drive_Nm; /* the motor's torque at standstill, without what it is fed of gravity */
-    double swing;    /* half the range of the speed, over its mean */
+    double drive_Nm; /* the motor's torque at standstill, without feed-forward */
+    double swing;    /* half the range of the speed over its mean */
 } rig_orbit;
 
-/* The steady turn at this mean speed. The marks are where the arms are lead_rad short of the sensors. */
+/* Finds the steady turn at this mean speed. The arms are lead_rad short of the sensors at the marks. */
 void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, rig_orbit *orbit);
 
 typedef struct rig_noise {
-    double cell_N;   /* standard deviations: of each sample's force, */
+    double cell_N;   /* standard deviation of each sample's force, */
     double jitter_s; /* and of each mark's time */
-    unsigned
-        slower; /* samples come so many times slower than HAL_LOADCELL_PERIOD_TICKS; 0: they do not */
-    /* a converter that is coarser than the cell's counts, and its driver: a sample is what a mean of so many conversions,
-     * evenly over its 2 ms, says with those beside it (hal/averaged.h); each conversion has whole counts of so much, which
-     * the converter's own noise moves by so many. 0: none */
+    unsigned slower; /* factor on the sample period HAL_LOADCELL_PERIOD_TICKS; 0: none */
+    /* a converter coarser than the cell's counts, with its driver. A sample is the mean of this many conversions,
+     * evenly over its 2 ms, smoothed with its neighbours (hal/averaged.h). A conversion is an integer number of steps
+     * of this size, with noise of this size. 0: none */
     unsigned conversions;
     double conversion_N;
     double conversion_counts;
-    /* faults of the cell, all 0 for none */
-    double gain_off; /* it shows so much more, as a part */
-    double hum_N;    /* amplitude of what the mains adds, */
+    /* faults of the cell, 0: none */
+    double gain_off; /* relative gain error */
+    double hum_N;    /* amplitude of mains hum */
     double hum_Hz;   /* 0: of 60 Hz */
     double
-        clips; /* the force is limited at this part of its own peak, above or (negative) below; 0: it is not */
-    double play_N; /* the reading follows the force when that has moved by so much to either side */
-    double bend;   /* it shows F (1 - bend (F/peak)^2) */
-    double frozen_s;  /* it stands still for so long in the middle of the turns that are kept */
-    double spikes;    /* this part of the samples */
-    double spike_N;   /* is off by so much */
-    bool mute;        /* no force, but all of the above */
-    double turned_by; /* part of a turn by which both sensors stand wrong */
+        clips; /* clips at this part of the force's own peak, above or (negative) below; 0: never */
+    double play_N;    /* hysteresis: the reading follows the force after a change of this size */
+    double bend;      /* shows F (1 - bend (F/peak)^2) */
+    double frozen_s;  /* freezes for this long in the middle of the recorded turns */
+    double spikes;    /* share of samples with a spike */
+    double spike_N;   /* of this size */
+    bool mute;        /* no force, only the noise and faults */
+    double turned_by; /* both sensors' angular error, in turns */
 } rig_noise;
 
-/* The configurations that the firmware uses, with a calibration of 0.01 % and 0.01 degrees. */
+/* The configurations of the firmware, with a calibration of 0.01 % and 0.01 degrees. */
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell);
 
-/* Measure over `turns` turns, after `before` turns of which nothing is kept. What noise there is is drawn
- * from scattered_seed. */
+/* Measures over `turns` turns, after `before` unrecorded turns. The noise comes from scattered_seed. */
 void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_config *rotor,
                  unsigned before, unsigned turns, uint64_t scattered_seed, wh_measured *measured);
 

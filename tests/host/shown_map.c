@@ -1,4 +1,3 @@
-/* shown_map.c: see shown_map.h. */
 #include "shown_map.h"
 
 #include <math.h>
@@ -13,7 +12,7 @@ static const symbol swept[2] = {
      .index = 1,
      .dim.twelfths = {0, 12}}};
 
-/* A range whose ends have the same sign where it is logarithmic; the step's is above zero. */
+/* A logarithmic range has ends of the same sign; a step is above zero. */
 static axis drawn_axis(dice *d, const symbol *of, char *name) {
     axis a = {.name = name, .column = name, .symbol = of, .count = 1 + dice_one_of(d, SHOWN_MOST)};
     a.is_log = dice_one_of(d, 2) == 0;
@@ -52,7 +51,7 @@ static void rising(const axis *a, double *value, uint64_t *which) {
 void shown_map_draw(dice *d, shown_map *s) {
     memset(s, 0, sizeof *s);
     static char names[3][8] = {"step", "k", "m"};
-    const unsigned step = dice_one_of(d, 3); /* the first, the second, or none is the step */
+    const unsigned step = dice_one_of(d, 3); /* the first axis, the second or neither is the step */
     for (unsigned k = 0; k < 2; k++) {
         s->axes[k] = drawn_axis(d, step == k ? NULL : &swept[k], names[step == k ? 0 : 1 + k]);
     }

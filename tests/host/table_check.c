@@ -1,4 +1,3 @@
-/* table_check.c: see table_check.h. */
 #include "table_check.h"
 
 #include <math.h>
@@ -9,7 +8,7 @@
 #include "host/engine/engine.h"
 
 #define RAD_PER_PHASE (6.283185307179586477 / 4294967296.0)
-#define ROUNDS 0x1p-24 /* of a float, half a unit of its last place at most */
+#define ROUNDS 0x1p-24 /* of a float: half a unit in the last place */
 
 static uint32_t scatter(uint32_t x) {
     x = (x ^ (x >> 16)) * UINT32_C(0x7feb352d);
@@ -17,7 +16,7 @@ static uint32_t scatter(uint32_t x) {
     return x ^ (x >> 16);
 }
 
-/* As generated code has it. */
+/* As in generated code. */
 static float *cells_of(const op_list_tables *t) {
     const int numbers = t->count * t->terms << t->bits;
     float *cells = alloc(numbers, sizeof *cells);
@@ -29,7 +28,7 @@ static float *cells_of(const op_list_tables *t) {
     return cells;
 }
 
-/* Rounded are the number in a cell's middle and the sum; and what is added, by three roundings of its own and less. */
+/* Round-off of the number in a cell's middle, of the sum, and of the addend, which has three smaller roundings. */
 static double bound_of(const op_list_tables *t, int k) {
     double away = 0.0;
     for (int i = 0; i < 1 << t->bits; i++) {
@@ -40,7 +39,7 @@ static double bound_of(const op_list_tables *t, int k) {
         }
         away = fmax(away, most);
     }
-    /* the worst place may lie between those where the image looked */
+    /* the worst place may lie between those that the image sampled */
     return 1.02 * t->off[k] + ROUNDS * (2.0 * t->size[k] + 6.0 * away) + 1e-14 * t->size[k];
 }
 
@@ -74,7 +73,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
     }
     for (uint64_t at = 0; at < UINT64_C(1) << 32; at += stride, phases++) {
         const uint32_t phase = (uint32_t)(at + scatter((uint32_t)at) % stride);
-        /* of half a turn to each side: there it is known best */
+        /* half a turn to each side, where it is most accurate */
         angle_rad[angle] = (int32_t)phase * RAD_PER_PHASE / turns[angle];
         evaluator_run(ev, 0.0, angle_rad, NULL, NULL, NULL, exact);
         for (int m = 0; m < images; m++) {
@@ -88,7 +87,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
                     t->terms == WH_TABLE_LINEAR ? wh_table_linear(of, y) : wh_table_cubic(of, y);
                 const double off = fabs((double)value - exact[k]);
                 error[m][k].square += off * off;
-                if (!(off <= error[m][k].worst)) { /* no number is the worst */
+                if (!(off <= error[m][k].worst)) { /* NaN counts as the worst */
                     error[m][k].worst = off;
                     error[m][k].worst_at = phase;
                 }

@@ -1,5 +1,5 @@
-/* table_check.h: the tables of a step (--tables) in float, beside the exact functions that they hold, phase by phase: for
- * the suite and for tests/tools/tables_exhaustive.c. */
+/* table_check.h: the tables of a step (--tables) in float compared with the exact functions, phase by phase. For the
+ * suite and tests/tools/tables_exhaustive.c. */
 #ifndef TESTS_HOST_TABLE_CHECK_H
 #define TESTS_HOST_TABLE_CHECK_H
 
@@ -11,11 +11,11 @@ typedef struct table_error {
     double worst;      /* |float table - function in double| */
     uint32_t worst_at; /* phase */
     double square;     /* sum of squares */
-    double bound;      /* what it may be: interpolation as the image states it, and rounding */
+    double bound;      /* bound: interpolation error from the image, plus round-off */
 } table_error;
 
-/* Tables of images of one scene, several forms of them: all are held against the same function values. One phase out of
- * every `stride`, at a scattered place in each, of 2^32; returns how many. error[images][TABLE_CHECK_MOST]. */
+/* Checks tables of several images of one scene against the same function values. Samples one phase in every `stride` of
+ * 2^32, at a random place in each. Returns their number. error[images][TABLE_CHECK_MOST]. */
 uint64_t table_check(const image *const *im, int images, uint64_t stride,
                      table_error (*error)[TABLE_CHECK_MOST]);
 

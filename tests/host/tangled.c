@@ -1,4 +1,3 @@
-/* tangled.c: see tangled.h. */
 #include "tangled.h"
 
 #include <stdarg.h>
@@ -43,7 +42,7 @@ static void shuffle(statements *s, uint64_t order) {
     }
 }
 
-/* Stops: neighbours, often touching, with walls at the ends. */
+/* Stops between neighbours, often touching, and walls at the ends. */
 static void add_stops(statements *s, uint64_t *seed, int n, const double *x) {
     static const double restitutions[] = {0.0, 0.5, 1.0};
     for (int i = 0; i <= n; i++) {

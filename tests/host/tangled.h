@@ -1,5 +1,5 @@
-/* tangled.h: random mechanisms with several contacts that meet at the same moments: bodies in a row between walls
- * that touch from the start, rub, are coupled and let go. */
+/* tangled.h: random mechanisms with several simultaneous contacts: bodies in a row between walls. They touch from the
+ * start, rub, and are coupled and released. */
 #ifndef TESTS_TANGLED_H
 #define TESTS_TANGLED_H
 
@@ -9,15 +9,15 @@
 typedef struct tangle {
     uint64_t seed;  /* same seed, same mechanism */
     uint64_t order; /* of its statements: 0 as drawn, else a permutation */
-    int plain;      /* stops alone, without springs and loads: nothing but impacts */
+    int plain;      /* only impacts: stops without springs and loads */
     double step_s;
     double until_s;
 } tangle;
 
-/* The text of a mechanism and its scene, with books, into text[size]. Returns its energy scale, J. */
+/* Writes a mechanism and its scene with energy balance to text[size]. Returns its energy scale, J. */
 double tangled_text(const tangle *of, char *text, size_t size);
 
-/* How many bodies it has: coordinates x1, x2 ... */
+/* Number of bodies, with coordinates x1, x2 ... */
 int tangled_bodies(uint64_t seed);
 
 #endif

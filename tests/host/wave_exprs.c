@@ -1,5 +1,5 @@
-/* wave_exprs.c: see wave_exprs.h. The bounds follow from what is documented: the sine's worst error, the
- * phase unit, one rounding for each operation; docs/dev/numerics.md. */
+/* wave_exprs.c: random expressions of sines and their error bounds. The bounds follow from documented values: the
+ * sine's worst error, the phase unit, one rounding per operation (docs/dev/numerics.md). */
 #include "wave_exprs.h"
 
 #include <float.h>
@@ -136,19 +136,19 @@ wave_expr wave_expr_plain(uint64_t *seed) {
 typedef struct arithmetic {
     long double unit;      /* relative error of one rounding */
     long double sine;      /* worst error of a sine */
-    long double phase_rad; /* of a phase; 0 where it is a number in radians */
+    long double phase_rad; /* of a phase; 0 for a number in radians */
 } arithmetic;
 
 static const arithmetic in_float = {0x1p-24L, 6.3e-8L, 1.463e-9L};
 static const arithmetic in_double = {0x1p-53L, 1.4e-16L, 0.0L};
 
-/* An argument, what is uncertain of it, and how much it is made of sines that follow from others. */
+/* An argument, its error bound, and how far it depends on sines derived from others. */
 typedef struct reckoned {
     long double value;
     long double error;
     long double size;
-    long double beside; /* error of the angles from whose sines this one's may follow */
-    bool evaluated;     /* a part of a turn angle is in it: its sine follows from no others */
+    long double beside; /* error of the angles whose sines may yield this one's */
+    bool evaluated;     /* contains part of a turn angle: its sine is not derived from others */
 } reckoned;
 
 static reckoned reckon(const wave_argument *of, const long double *state, const arithmetic *in) {
@@ -169,15 +169,15 @@ static reckoned reckon(const wave_argument *of, const long double *state, const 
         }
     }
     r.error += 4.0L * in->unit * added;
-    /* sin(3 u) may follow from u + b and 2 u - b: in double a large b has roundings of its size there */
+    /* sin(3 u) may come from u + b and 2 u - b: in double, a large b has round-off of its size there */
     for (int i = 0; i < WAVE_SYMBOLS; i++) {
         r.beside += in->phase_rad > 0.0L ? in->phase_rad : 4.0L * in->unit * fabsl(state[i]);
     }
     return r;
 }
 
-/* A sine of r, or of a sum of it and what it is multiplied by. Where its pair follows from others, errors
- * add up, and grow fourfold with each doubling of an angle. */
+/* A sine of r, or of its sum with the angle of another factor. When its pair is derived from others, errors add up and
+ * grow fourfold with each doubling of an angle. */
 static long double sine_error(const reckoned *r, const arithmetic *in, bool multiplied) {
     const bool evaluated = r->evaluated && !multiplied;
     const long double growth = evaluated ? 1.0L : (1.0L + r->size) * (1.0L + r->size);
@@ -187,7 +187,7 @@ static long double sine_error(const reckoned *r, const arithmetic *in, bool mult
 
 typedef struct share {
     long double value;
-    long double most; /* of its size, in whatever form it is written */
+    long double most; /* of its size, in any form */
     long double error;
 } share;
 
@@ -199,7 +199,7 @@ static share factor_share(const wave_factor *f, const long double *state, const 
         r.value += 0.3L * sinl(inner.value);
         r.error += 0.3L * sine_error(&inner, in, false) + in->phase_rad + in->unit;
     }
-    if (f->product >= 0) { /* taken in radians: its roundings are those of its size */
+    if (f->product >= 0) { /* in radians: round-off of its own size */
         const long double product = state[WAVE_ANGLES] * state[f->product] / 100.0L;
         r.value += product;
         r.error += 6.0L * in->unit * fabsl(product) + in->phase_rad;

@@ -1,5 +1,5 @@
-/* wave_exprs.h: made-up expressions over turn angles and a length, as texts of the language and as what they are
- * worth: the long double value by libm, and the most that rounding may do to it. */
+/* wave_exprs.h: random expressions over turn angles and a length, as text and as values: long double by libm, with a
+ * bound on the program's round-off. */
 #ifndef TESTS_HOST_WAVE_EXPRS_H
 #define TESTS_HOST_WAVE_EXPRS_H
 
@@ -14,7 +14,7 @@ enum { WAVE_PIECES = 3, WAVE_FACTORS = 2, WAVE_TERMS = 3, WAVE_TEXT = 1600 };
 /* number * symbol */
 typedef struct wave_piece {
     int symbol;
-    int form; /* how the number is written */
+    int form; /* format of the number */
     long double number;
 } wave_piece;
 
@@ -51,14 +51,14 @@ typedef struct wave_expr {
 
 typedef struct wave_value {
     long double value;
-    long double bound; /* of the difference that rounding makes */
-    long double scale; /* of what was added up */
+    long double bound; /* of the difference due to round-off */
+    long double scale; /* of the summed terms */
 } wave_value;
 
 wave_expr wave_expr_make(uint64_t *seed);
-/* The sine or cosine of one multiple of one angle. */
+/* A sine or cosine of one multiple of one angle. */
 wave_expr wave_expr_plain(uint64_t *seed);
-/* At the exact `state` [WAVE_SYMBOLS], computed in double or in float with 64-bit angles. */
+/* Value at the exact `state` [WAVE_SYMBOLS], computed in double, or in float with 64-bit angles. */
 wave_value wave_expr_value(const wave_expr *e, const long double *state, bool is_float);
 
 #endif
