@@ -1,8 +1,8 @@
-/* test_accuracy.c: how far the double runs are from the truth: seed values, closed forms, invariants.
+/* test_accuracy.c: accuracy of double runs against seed values, closed forms and invariants.
  *
- * Where a bound has two sides, the lower one says that the method's own error shows: a comparison
- * that errs by less than Runge-Kutta's truncation compares something with itself. "Printed" numbers
- * were computed independently of Whirl with SymPy and high-order integration and carry 12 digits. */
+ * A lower bound requires the method's own error to be visible. An error below Runge-Kutta's truncation would mean that
+ * a run is compared with itself. "Printed" numbers were computed independently of Whirl with SymPy and high-order
+ * integration and have 12 digits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,7 +40,6 @@ static void expect_within(const char *what, double least, double most, double go
 /* --- the particle: free flight --------------------------------------------------------------------- */
 
 static void test_particle_flies_a_parabola(void) {
-    /* The start of spherical_flight, brought to Cartesian coordinates. */
     const double r = 5.0, theta = 1.25, phi = 0.5, r_ = 8.0, theta_ = -0.75, phi_ = 0.5, g = 9.81;
     const double s = sin(theta), c = cos(theta), sp = sin(phi), cp = cos(phi);
     const double vx = r_ * s * cp + r * theta_ * c * cp - r * phi_ * s * sp;
@@ -91,8 +90,8 @@ static void test_two_masses_move_alike_in_both_coordinate_sets(void) {
     }
     motion_close(&absolute);
     motion_close(&relative);
-    /* Rounding: one of half a unit in the last place of 0.13 m each step would give 7e-14. Damping
-     * forgets the old ones. Zero would mean that both are the same program. */
+    /* Round-off of half a unit in the last place of 0.13 m each step would give 7e-14; damping forgets old errors. Zero
+     * would mean that both programs are the same. */
     expect_within("S5 both coordinate sets apart by, m", 1e-17, 7e-14, apart);
 }
 
@@ -142,8 +141,7 @@ static void test_driven_hinge_at_5s(void) {
     motion_close(&m);
 }
 
-/* The swing is told by its turning points: at 6 s sharp it is on its way back from one at 5.997 s,
- * and 1.287 rad out. */
+/* Turning points define the swing: at exactly 6 s it is moving back from one at 5.997 s, and 1.287 rad out. */
 static void test_driven_hinge_goes_on_swinging(void) {
     motion m;
     double before = 0.0;
@@ -169,7 +167,7 @@ static void test_driven_hinge_goes_on_swinging(void) {
 
 /* --- Thomson's device -------------------------------------------------------------------------------- */
 
-/* What the run is held against: momentum gives X, work gives T. m = 2, r = 0.3, M = -2. */
+/* The references: momentum gives X, work gives T. m = 2, r = 0.3, M = -2. */
 static double thomson_off_closed_form(const motion *m) {
     const double a = motion_value(m, "theta1");
     const double b = motion_value(m, "theta2");
@@ -205,7 +203,7 @@ static thomson_error thomson_error_of(stepping how) {
     return e;
 }
 
-/* At 1 ms, which is fine enough for the dissertation's figures. */
+/* 1 ms is fine enough for the dissertation's figures. */
 static void test_thomson_at_5s_and_8s_with_1_ms(void) {
     const thomson_error e = thomson_error_of(IN_DOUBLE_STEP(1e-3));
     expect_within("S8 error at 5 s, 1 ms, three positions", 1e-8, 5e-6, e.positions_at_5s);
@@ -215,8 +213,8 @@ static void test_thomson_at_5s_and_8s_with_1_ms(void) {
     expect_within("S8 T - M theta1 to 8 s, 1 ms, J (T reaches 49 J)", 1e-9, 2e-6, e.off_work_J);
 }
 
-/* The scene's step is a fifth of that, where 5^4 = 625 times less is left of the same bounds. The
- * printed positions carry ten decimals. */
+/* A fifth of that step reduces the error by 5^4 = 625, and the bounds with it. The printed positions have ten
+ * decimals. */
 static void test_thomson_at_5s_and_8s(void) {
     const thomson_error e = thomson_error_of(IN_DOUBLE);
     expect_within("S8 error at 5 s, three positions", 1e-10, 5e-6 / 625.0, e.positions_at_5s);
@@ -226,8 +224,8 @@ static void test_thomson_at_5s_and_8s(void) {
     expect_within("S8 T - M theta1 to 8 s, J (T reaches 49 J)", 1e-12, 2e-6 / 625.0, e.off_work_J);
 }
 
-/* To 10 s, beyond what a trajectory is good for: the centre of mass stays, and X keeps within what
- * momentum leaves it, `widest` either side of `middle`. Set B whirls four times as fast. */
+/* To 10 s, when no trajectory is accurate any more: the centre of mass stays, and momentum limits X to `widest` either
+ * side of `middle`. Set B rotates four times as fast. */
 static void thomson_stays(const char *name, double centre, double middle, double widest,
                           double least_width) {
     motion m;
@@ -253,15 +251,14 @@ static void thomson_stays(const char *name, double centre, double middle, double
     expect_within("S8 X to the right, m", least_width, widest + 1e-6, highest - middle);
 }
 
-/* X = centre - r/3 (4 cos theta1 + cos 2 theta1 + cos theta2) lies within centre - 0.6 and
- * centre + 0.4 m. The runs come within 1.4 mm of that on either side; printed for set A: 0.9987 m. */
+/* X = centre - r/3 (4 cos theta1 + cos 2 theta1 + cos theta2) lies between centre - 0.6 and centre + 0.4 m. The runs
+ * come within 1.4 mm of both limits. Printed for set A: 0.9987 m. */
 static void test_thomson_stays_where_it_is(void) {
     thomson_stays("thomson_a", 0.6, 0.5, 0.5, 0.4986);
     thomson_stays("thomson_b", 0.5, 0.4, 0.5, 0.4986);
 }
 
-/* With X recovered from its momentum the other coordinates must move as before, and what is left of
- * the centre of mass's motion is rounding. */
+/* With X recovered from its momentum, the other coordinates move as before. Only round-off moves the centre of mass. */
 static void test_thomson_with_the_carriage_from_its_momentum(void) {
     motion m;
     double off = 0.0;
@@ -278,7 +275,7 @@ static void test_thomson_with_the_carriage_from_its_momentum(void) {
     expect_within("S8 conserved, X off its closed form to 10 s, m", 0.0, 2e-15, off);
 }
 
-/* What an initial change of 1e-9 rad has grown to. Printed: 6e3 by 5 s, 2e4 by 9 s, 1e9 by 10 s. */
+/* Growth of an initial change of 1e-9 rad. Printed: 6e3 by 5 s, 2e4 by 9 s, 1e9 by 10 s. */
 static void test_thomson_is_chaotic(void) {
     static const char *const names[] = {"theta1", "theta2", "X", "theta1'", "theta2'", "X'"};
     static const struct {
@@ -333,11 +330,12 @@ void suite_accuracy(void) {
 }
 
 /* === trust drawn ============================================================================== */
-/* Until when chaotic runs can be trusted, on drawn mechanisms: pendulums of two and three links, on
- * carriages and springs, turning arms, planetary gears with a disc on a hinge; with masses, lengths, springs and starts
- * drawn anew, each in an arithmetic and by a method of its own. `make trust-check` takes thirty and prints them.
+/* Time until which chaotic runs are accurate, on random mechanisms: pendulums of two and three links, on carriages and
+ * springs, turning arms, planetary gears with a disc on a hinge. Masses, lengths, springs, starts, number format and
+ * method vary. `make trust-check` takes thirty and prints them.
  *
- * What a board could do instead, twins in its own arithmetic, is measured on the same mechanisms (docs/dev/stability.md). */
+ * The same mechanisms measure an alternative for boards: twin runs in the board's own arithmetic
+ * (docs/dev/stability.md). */
 
 /* --- drawing ---------------------------------------------------------------------------------------*/
 
@@ -422,7 +420,7 @@ static int on_an_arm(dice *d, char *to) {
         of(d, 0.2, 0.6), of(d, 0, 2), of(d, 2, 3), of(d, -3, 3), of(d, -4, 4));
 }
 
-/* As Thomson's device, with discs of any size. */
+/* Thomson's device with discs of any size. */
 static int planet(dice *d, char *to) {
     return snprintf(to, TEXT,
                     "mechanism drawn \"planet gear with a disc on its rim\"\ncoordinate a [rad]\n"
@@ -474,7 +472,7 @@ typedef enum board_twin { TWIN_PERTURBED, TWIN_HALF, TWIN_METHOD, TWINS } board_
 static const char *const twin_names[TWINS] = {"start off by one rounding", "half the step",
                                               "another method"};
 
-/* The first time at which two runs in one arithmetic differ by the tolerance, by the truth. */
+/* Time at which two runs in one arithmetic first differ by the tolerance, relative to the truth. */
 static double twin_ratio(const horizons *h, board_twin which) {
     const engine_kind *kind = h->twins->shape->kind;
     image other = *h->image;
@@ -562,10 +560,10 @@ static void test_drawn_mechanisms(void) {
         char what[60] = "";
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
         if (h.known >=
-            0.05) { /* the references part before the run does: they know nothing of it */
+            0.05) { /* the references differ before the run does: they are not accurate enough */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
-            regular++; /* both say so */
+            regular++; /* both accurate to the end */
         } else {
             ratio[count] = horizons_ratio(&h);
             near += ratio[count] >= 0.8 && ratio[count] <= 1.2;

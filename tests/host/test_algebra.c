@@ -1,5 +1,5 @@
-/* test_algebra.c: the normal form: what is equal becomes the same object, what is not stays apart,
- * and values, derivatives and substitutions are right for random expressions. */
+/* test_algebra.c: the normal form: equal expressions become one object and different ones do not. Values, derivatives
+ * and substitutions of random expressions are right. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ void suite_normal_form(void);
 
 typedef struct sides {
     bool same;     /* one object */
-    bool expanded; /* their difference is zero once kept powers are multiplied out */
+    bool expanded; /* their difference is zero after kept powers are expanded */
 } sides;
 
 /* Parses both sides as `let`s and compares their normal forms. */
@@ -130,7 +130,7 @@ static void test_what_differs_somewhere_stays_apart(void) {
     }
 }
 
-/* A cube of a sum stays one. What is equal only when it is multiplied out is told by poly_expanded(). */
+/* A cube of a sum is kept. poly_expanded() finds equality that needs expansion. */
 static void test_kept_powers_are_equal_when_expanded(void) {
     static const pair equal[] = {
         {"(x - y)^3", "x^3 - 3*x^2*y + 3*x*y^2 - y^3"},
@@ -156,7 +156,7 @@ static void test_kept_powers_are_equal_when_expanded(void) {
 
 enum { VARIABLES = 3, NODES = 64 };
 
-/* A tree with its own meaning, computed with libm, independent of the algebra. */
+/* A tree evaluated with libm, independently of the algebra. */
 typedef struct node {
     expr_op op;
     function_id function;
@@ -202,7 +202,7 @@ static int grow(tree *t, uint64_t *seed, int depth) {
     return t->count++;
 }
 
-/* NaN also where a derivative is infinite, and where atan2 has its cut. */
+/* NaN also for infinite derivatives and on the branch cut of atan2. */
 static double applied(const node *n, double a, double b, const double x[VARIABLES]) {
     const double none = (double)NAN;
     switch (n->op) {
@@ -238,7 +238,7 @@ static double applied(const node *n, double a, double b, const double x[VARIABLE
     return none;
 }
 
-/* NaN as soon as anything inside is not finite: 1/0 may have either sign in the normal form. */
+/* NaN if any part is not finite: 1/0 may have either sign in the normal form. */
 static double value_of(const tree *t, int i, const double x[VARIABLES]) {
     const node *n = &t->nodes[i];
     const double a = n->left < 0 ? 0.0 : value_of(t, n->left, x);
@@ -270,8 +270,8 @@ static double variable_value(void *context, const symbol *sym, int primes) {
     return ((const double *)context)[sym->index];
 }
 
-/* A number to judge differences by: what was lost to cancellation shows as a jump between neighbours.
- * False where the expression has no smooth finite value around the point. */
+/* Value and scale for comparisons: a difference between neighbouring points shows the loss by cancellation. False
+ * without a smooth finite value around the point. */
 static bool smooth_value(const tree *t, int top, const double at[VARIABLES], double *value,
                          double *scale) {
     *value = value_of(t, top, at);
@@ -288,7 +288,7 @@ static bool smooth_value(const tree *t, int top, const double at[VARIABLES], dou
     return isfinite(*value) && *scale < 1e6;
 }
 
-/* Five-point central difference; false where two spacings do not agree (a kink, a pole near by). */
+/* Five-point central difference; false if two spacings disagree (a kink or a pole near by). */
 static bool difference(const tree *t, int top, const double at[VARIABLES], int by, double *slope) {
     double estimate[2];
     for (int k = 0; k < 2; k++) {
@@ -346,7 +346,7 @@ static void check_random(uint64_t *seed, int depth, tally *score) {
                 score->slopes++;
             }
         }
-        /* v := w^2 - u/2, then the value where v has that value */
+        /* v := w^2 - u/2, then the value with v equal to that */
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *w = poly_symbol(a, &variables[2], 0);
         const poly *in = poly_sub(a, poly_mul(a, w, w), poly_scale(a, u, 0.5));
@@ -386,8 +386,8 @@ void suite_algebra(void) {
 }
 
 /* === algebra limits =========================================================================== */
-/* What host/algebra takes on and what it leaves: sizes up to which powers and products are
- * multiplied out, what cancels, numbers that are none; magnitudes, powers of expressions and determinants. */
+/* Limits of host/algebra: sizes up to which powers and products are expanded, cancellation, non-numbers, magnitudes,
+ * powers of expressions and determinants. */
 
 /* --- values -------------------------------------------------------------------------------------------- */
 
@@ -401,8 +401,8 @@ static void random_values(double at[FORM_SYMBOLS * FORM_PRIMES], uint64_t *seed)
     }
 }
 
-/* As poly.h says, written down once more: each term's size, without its sine; a power of a sum by the larger of the
- * sum and its parts. */
+/* The definition in poly.h, written independently: each term's size without its sine. A power of a sum counts the
+ * larger of the sum and its parts. */
 static double expected_magnitude(const poly *p, double *at) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -444,7 +444,7 @@ static void test_magnitudes_are_sums_of_sizes(void) {
     TEST_ASSERT_GREATER_THAN_INT(200, differing);
 }
 
-/* x^y and the like: the random expressions of test_algebra.c have powers of numbers only. */
+/* x^y and similar: other random expressions have powers of numbers only. */
 static void test_powers_of_expressions_and_their_slopes(void) {
     uint64_t seed = 5;
     int slopes = 0;
@@ -535,7 +535,7 @@ static void test_each_number_is_changed_and_those_that_vanish_go(void) {
 
 /* --- limits -------------------------------------------------------------------------------------------- */
 
-/* A sum of so many rates, which no power keeps whole. */
+/* A sum of rates, whose powers are expanded. */
 static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < count; i++) {
@@ -547,7 +547,7 @@ static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
     return sum;
 }
 
-/* Powers of a sum are multiplied out while that has at most 64 products; positions' only squares. */
+/* Powers of a sum are expanded up to 64 products; for positions, only squares. */
 static void test_powers_are_multiplied_out_up_to_a_size(void) {
     symbol rates[12];
     for (int count = 2; count <= 12; count++) {
@@ -556,7 +556,7 @@ static void test_powers_are_multiplied_out_up_to_a_size(void) {
             const poly *sum = sum_of_rates(a, rates, count);
             const poly *p = poly_pow(a, sum, exponent);
             double products =
-                1.0; /* of equal ones: (count + exponent - 1 over exponent) are left */
+                1.0; /* equal products merge: (count + exponent - 1 over exponent) remain */
             double left = 1.0;
             for (int i = 0; i < exponent; i++) {
                 products *= count;
@@ -584,7 +584,7 @@ static void test_powers_are_multiplied_out_up_to_a_size(void) {
     algebra_free(a);
 }
 
-/* Sums whose product would have more than 400000 terms are multiplied as wholes, and the value is the same. */
+/* A product of sums with more than 400000 terms stays a product, with the same value. */
 static void test_large_products_stay_products(void) {
     enum { MOST = 633 };
     static symbol rates[MOST];
@@ -600,7 +600,7 @@ static void test_large_products_stay_products(void) {
     }
 }
 
-/* What is too large is given up on, and said so: 10^6 leaves. */
+/* An expression beyond 10^6 leaves reports overflow. */
 static void test_what_grows_without_end_overflows(void) {
     algebra *a = algebra_new();
     const poly *p = poly_symbol(a, &form_symbols[0], 0);
@@ -616,7 +616,7 @@ static void test_what_grows_without_end_overflows(void) {
     algebra_free(a);
 }
 
-/* What is given up on must not depend on the host: objects count for fixed sizes, with 48 bytes in tables. */
+/* The limit must not depend on the host: objects count with fixed sizes, 48 bytes per table entry. */
 static void test_work_is_counted_alike_on_every_host(void) {
     algebra *a = algebra_new();
     enum { ATOM = 72 + 48, MONO = 48 + 48, POLY = 32 + 48, PART = 16, PAIR = 24 + 48, TERM = 2 };
@@ -627,21 +627,21 @@ static void test_work_is_counted_alike_on_every_host(void) {
     before = a->work;
     poly_symbol(a, &form_symbols[1], 0); /* known */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    const poly *sum = poly_add(a, q, r); /* two terms handled, a new sum of two */
+    const poly *sum = poly_add(a, q, r); /* two terms and a new sum of two */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
     before = a->work;
-    const poly *product =
-        poly_mul(a, q, r); /* asked for and remembered, added up as a row of one */
+    const poly *product = poly_mul(a, q, r); /* a remembered product, added as a list of one */
     TEST_ASSERT_EQUAL_UINT64(MONO + 2 * PART + POLY + PART + 2 * TERM + PAIR, a->work - before);
     before = a->work;
     TEST_ASSERT_TRUE(poly_mul(a, r, q) == product);
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    poly_each_number(a, sum, grown, 0.0); /* two terms handled, nothing new */
+    poly_each_number(a, sum, grown, 0.0); /* two terms, no new object */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM, a->work - before);
     algebra_free(a);
 }
 
-/* A row of lets, each naming the one before twice, is worked out once each: two to the sixtieth would not end. */
+/* A chain of lets, each using the previous one twice, is evaluated once per let. Otherwise 2^60 evaluations would never
+ * end. */
 static void test_lets_are_worked_out_once(void) {
     enum { LETS = 60 };
     char text[8192];
@@ -664,7 +664,7 @@ static void test_lets_are_worked_out_once(void) {
     diags_free(all);
 }
 
-/* 0.1 + 0.2 - 0.3 is zero; a ten times larger rest is not. */
+/* 0.1 + 0.2 - 0.3 is zero; a ten times larger difference is not. */
 static void test_what_cancels_to_a_rounding_error_is_zero(void) {
     algebra *a = algebra_new();
     const poly *q = poly_symbol(a, &form_symbols[0], 0);
@@ -683,7 +683,7 @@ static void test_what_cancels_to_a_rounding_error_is_zero(void) {
 
 /* --- determinants --------------------------------------------------------------------------------------- */
 
-/* By permutations, with the sign from their inversions. */
+/* Leibniz formula: permutations with the sign of their inversions. */
 static double leibniz(const double *m, int n, const int *rows, const int *columns, int size) {
     int order[6] = {0, 1, 2, 3, 4, 5};
     double sum = 0.0;
@@ -766,9 +766,8 @@ void suite_algebra_limits(void) {
 }
 
 /* === normal form ============================================================================== */
-/* What poly.h promises of every expression, checked on random ones from outside: the order of
- * terms and factors, sizes and what is known to be inside against a walk through them, one object for equal things,
- * one form whatever was made before. WH_FORMS=N: so many random expressions. */
+/* Promises of poly.h on random expressions, checked independently: order of terms and factors, sizes, known parts, one
+ * object for equal expressions, one form regardless of history. WH_FORMS=N sets the number of expressions. */
 
 /* --- the order, as order.c and algebra.h describe it -------------------------------------------------- */
 
@@ -809,7 +808,7 @@ static int expected_poly_order(const poly *x, const poly *y) {
     return order != 0 ? order : form_order(x->count, y->count);
 }
 
-/* --- what is known of an expression, from a walk through it ------------------------------------------- */
+/* --- properties of an expression, by traversal -------------------------------------------------------- */
 
 typedef struct known {
     uint64_t symbols;
@@ -912,7 +911,7 @@ static void check_form(const poly *p) {
     }
 }
 
-/* What is equal is one object: a copy is found again. */
+/* Equal expressions are one object: a copy is found again. */
 static void check_interned(algebra *a, const poly *p) {
     poly *copy = poly_scratch(p->count);
     copy->count = p->count;
@@ -922,7 +921,7 @@ static void check_interned(algebra *a, const poly *p) {
         const mono *m = p->terms[i].mono;
         TEST_ASSERT_TRUE(mono_make(a, m->factors, m->count, m->trig, m->angle) == m);
     }
-    if (p->count > 0) { /* and what differs is not taken for it */
+    if (p->count > 0) { /* and a different one is another object */
         copy->terms[p->count - 1].coefficient *= 2.0;
         TEST_ASSERT_TRUE(poly_intern(a, copy) != p);
         copy->terms[p->count - 1] = p->terms[p->count - 1];
@@ -972,7 +971,7 @@ static void test_every_expression_keeps_the_form(void) {
     TEST_ASSERT_GREATER_THAN_INT(forms() / 20, waves);
 }
 
-/* Sums and products do not ask who came first; neither does the order between two. */
+/* Sums, products and the order of two do not depend on the order of arguments. */
 static void test_the_order_of_arguments_does_not_matter(void) {
     uint64_t seed = 31;
     for (int i = 0; i < 400; i++) {
@@ -997,7 +996,7 @@ static void test_the_order_of_arguments_does_not_matter(void) {
     }
 }
 
-/* --- one form, whatever was made before ---------------------------------------------------------------- */
+/* --- one form, regardless of history ------------------------------------------------------------------- */
 
 static void write_poly(FILE *out, const poly *p) {
     for (int i = 0; i < p->count; i++) {

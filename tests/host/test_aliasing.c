@@ -1,7 +1,7 @@
-/* test_aliasing.c: forces that are faster than a step. Round frequencies and round steps, so that many steps are whole numbers of
- * periods and every stage sees the same: masses on springs, free ones and low passes, in closed form; small ripples on a slow
- * force, whose drift adds up; frictions whose normal force ripples. A wrong run is warned of and not trusted to the end, a right
- * one is not told to alias, and the remedy that is named does. */
+/* test_aliasing.c: forces faster than a step. Frequencies and steps are round numbers, so that many steps are whole
+ * periods and every stage sees the same force. Masses on springs, free masses and low passes have closed forms. Ripples
+ * on a slow force add up to a drift; frictions have rippling normal forces. Wrong runs must be reported and not trusted
+ * to the end, right ones must not be, and the named remedy must work. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ void suite_pulse_trains(void);
 /* === aliasing ================================================================================= */
 
 #define TURN 6.283185307179586
-/* Of what it does in truth or in the run. */
+/* Part of the true or the computed motion. */
 #define WRONG 0.05
 #define RIGHT 1e-3
 
@@ -42,7 +42,7 @@ static double round_of(dice *d, double low, double high) {
     return digits[dice_one_of(d, 5)] * pow(10.0, floor(dice_between(d, low, high)));
 }
 
-/* `whole`: half a step is whole periods, too, so that the finer run is the same. */
+/* `whole`: half a step is also whole periods, so that the finer run agrees. */
 static driven drawn(dice *d, driven_kind kind, bool whole) {
     driven m = {.kind = kind,
                 .frequency_Hz = round_of(d, 1.0, 4.0),
@@ -100,7 +100,6 @@ static void run_with(const char *text, const named_cure *cure, bool is_float, sa
     model_drop();
 }
 
-/* At the end. */
 static double x_of(const said *what) {
     const char *at = strstr(what->out, "\n  x ");
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what->err);
@@ -151,7 +150,7 @@ static void test_what_is_wrong_is_told(void) {
                 const double left_m = fabs(x_of(&then) - truth(&m, m.until_s));
                 const bool all = trusted(&then);
                 TEST_ASSERT_TRUE_MESSAGE(!told(&then), about);
-                /* of what it did; and of the small motion that is left, where it is trusted */
+                /* error relative to the true motion, and to the small remaining motion if it is trusted */
                 TEST_ASSERT_TRUE_MESSAGE(left_m < WRONG * fabs(is) + range_of(&m), about);
                 TEST_ASSERT_TRUE_MESSAGE(!all || left_m < WRONG * range_of(&m), about);
                 cured++;
@@ -167,7 +166,7 @@ static void test_what_is_wrong_is_told(void) {
     TEST_ASSERT_TRUE(wrong > cases / 5 && 3 * by_this >= wrong && right > cases / 10);
 }
 
-/* `whirl sweep` counts points of which `whirl run` says so. */
+/* `whirl sweep` counts the points that `whirl run` reports. */
 static void test_sweeps_count_it(void) {
     dice d = dice_of("aliasing, swept", 20261201);
     unsigned counted = 0;
@@ -191,7 +190,7 @@ static void test_sweeps_count_it(void) {
     TEST_ASSERT_EQUAL_UINT(3, counted);
 }
 
-/* A slow force and a ripple on it, of whole periods in a step: the ripple's sum grows with the time. */
+/* A slow force with a ripple of whole periods per step: the sum of the ripple grows with time. */
 static void test_small_ripples(void) {
     static const named_cure none;
     dice d = dice_of("aliasing, ripples", 20261129);
@@ -231,7 +230,7 @@ static void test_small_ripples(void) {
     TEST_ASSERT_TRUE(4 * wrong > cases && 8 * right > cases);
 }
 
-/* Pushed by less than the friction holds, or sliding to rest; the normal force ripples in whole periods of a step. */
+/* Pushed below the friction limit, or sliding to rest; the normal force ripples in whole periods per step. */
 static void test_rippling_normals(void) {
     static const named_cure none;
     dice d = dice_of("aliasing, normals", 20261130);
@@ -257,14 +256,14 @@ static void test_rippling_normals(void) {
         if (slides && 2000.0 * step_s > 1.0) {
             TEST_ASSERT_TRUE_MESSAGE(off < 0.02 || (what.err[0] != '\0' && !trusted(&what)), text);
             TEST_ASSERT_TRUE_MESSAGE(off > RIGHT || !told(&what), text);
-        } else if (!still && ripple > 4.0) { /* 3 N, and less than that holds */
+        } else if (!still && ripple > 4.0) { /* 3 N, which is below the limit */
             TEST_ASSERT_FALSE_MESSAGE(trusted(&what), text);
         }
         TEST_ASSERT_FALSE_MESSAGE(still && told(&what), text);
     }
 }
 
-/* Shaken by more than its friction holds, in whole numbers of periods. */
+/* Shaken beyond the friction limit, in whole periods per step. */
 static void test_blocks_with_friction(void) {
     static const named_cure none;
     dice d = dice_of("aliasing, friction", 20261128);
@@ -296,22 +295,22 @@ void suite_aliasing(void) {
 }
 
 /* === pulse trains ============================================================================= */
-/* Forces that are on for a small part of their period, which is in a simple ratio to the step: at every
- * stage they are off, and nothing moves. And forces of so many and a half turns a step, of which stages at quarters of a step make
- * one of half a turn, in steps of half the length, too. The references are closed forms. What is off is told, or not trusted;
- * pulses that the steps resolve are silent. */
+/* Forces that act for a small part of their period, in a simple ratio to the step: they are off at every stage and
+ * nothing moves. Forces with a whole and a half number of turns per step: stages at quarters of a step see half a turn,
+ * also with half the step. References are closed forms. Errors are reported or not trusted; resolved pulses cause no
+ * warning. */
 
 static const char *const methods[] = {"rk4", "rk4", "rk38", "nystroem5", "heun"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 typedef struct verdict_of {
-    double value; /* of what was asked for */
+    double value; /* of the requested state */
     bool warned;
-    bool too_fast; /* more goes on than the stages see */
+    bool too_fast; /* the stages miss part of the force */
     bool trusted;  /* to the end */
 } verdict_of;
 
-/* Runs it, and finds `name` in the final state. */
+/* Runs it and reads `name` from the final state. */
 static verdict_of ask(const char *text, const char *name, const char *method, const char *number) {
     static said what;
     const char *words[] = {model_keep(text), "--method", method, "--number", number, NULL};
@@ -326,7 +325,7 @@ static verdict_of ask(const char *text, const char *name, const char *method, co
     return v;
 }
 
-/* A mass with drag that a force pushes for the part `duty` of its period; where it is at rest at first. */
+/* A mass with drag, pushed for the part `duty` of each period, initially at rest. */
 static void write_train(char *text, size_t size, double pulses_hz, double duty, double phase,
                         double end_s) {
     snprintf(text, size,
@@ -366,7 +365,7 @@ static void test_pulses_between_stages(void) {
     TEST_ASSERT_TRUE(wrong > cases / 3);
 }
 
-/* The rate that the mass has in the end: each pulse adds what is left of it. */
+/* Final speed of the mass: the sum of the decayed contributions of all pulses. */
 static double driven_mps(double pulses_hz, double duty, double phase, double end_s) {
     double sum = 0.0;
     for (int k = 0; (k - 0.5 * duty - phase) / pulses_hz < end_s; k++) {
@@ -377,7 +376,7 @@ static double driven_mps(double pulses_hz, double duty, double phase, double end
     return sum;
 }
 
-/* Of 12 to 3,000 steps a period. */
+/* 12 to 3,000 steps per period. */
 static void test_pulses_that_steps_resolve(void) {
     dice d = dice_of("slow pulses", 6303);
     const unsigned cases = dice_cases(few_or_all(usual_or(10, 4), 400));
@@ -402,7 +401,7 @@ static void test_pulses_that_steps_resolve(void) {
     TEST_ASSERT_EQUAL_UINT(cases, right);
 }
 
-/* A body on a spring, from rest, and a force of k + 1/2 or k turns a step. */
+/* A body on a spring from rest, with a force of k + 1/2 or k turns per step. */
 static void test_turns_and_a_half(void) {
     static const char *const all[] = {"nystroem5", "nystroem5", "nystroem5", "rk4",
                                       "rk38",      "nystroem4", "heun"};

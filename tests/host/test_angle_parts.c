@@ -1,8 +1,8 @@
-/* test_angle_parts.c: outputs and measures that hold parts and multiples of turn angles (cos(th/2),
- * sin(1.5*th), tan(th/3 - 0.37*ph)), thousands of turns from zero, against libm.
+/* test_angle_parts.c: outputs and measures with fractions and multiples of turn angles (cos(th/2), sin(1.5*th),
+ * tan(th/3 - 0.37*ph)), thousands of turns from zero, against libm.
  *
- * WHIRL_RANDOM_OUTPUTS=N takes that many made-up outputs instead of 2000; WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms
- * there, for tests/cli/angle_parts.sh to compile. */
+ * WHIRL_RANDOM_OUTPUTS=N takes N random outputs instead of 2000. WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms, for
+ * tests/cli/angle_parts.sh to compile. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -21,7 +21,7 @@ void suite_angle_parts(void);
 enum { OUTPUTS = 25, STEPS = 40, TEXT_ROOM = 64 + OUTPUTS * (WAVE_TEXT + 32) };
 static const uint64_t first_seed = UINT64_C(20261121);
 
-/* X keeps its momentum 3 X' + a' cos(a)/2. */
+/* X has the constant momentum 3 X' + a' cos(a)/2. */
 static const char front[] =
     "mechanism parts\n"
     "coordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\n"
@@ -50,7 +50,7 @@ static void must(bool good, diags *errors, const char *text) {
     TEST_ASSERT_TRUE(good);
 }
 
-/* `outputs` of the made-up expressions, `plain` or not. */
+/* `outputs` random expressions, `plain` or not. */
 static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
     char *at = s->text;
     at += sprintf(at, "%s", front);
@@ -91,7 +91,7 @@ static void close_sample(sample *s) {
     model_free(s->model);
 }
 
-/* The exact state that the run is in: float angles are integers, 2^32 a turn. */
+/* The exact state of the run: float angles are integers, 2^32 per turn. */
 static void exact_state(const sample *s, const engine_kind *kind, void *run, long double *state) {
     static const long double two_pi = 6.28318530717958647692528676655900577L;
     const image *p = s->image;
@@ -111,9 +111,9 @@ static void exact_state(const sample *s, const engine_kind *kind, void *run, lon
 
 typedef struct tally {
     int compared;
-    int skipped;          /* a tangent so near its pole that rounding is all of it */
-    long double ratio;    /* worst difference, of what rounding may make */
-    long double relative; /* worst difference, of what is added up */
+    int skipped;          /* tangents so near their pole that round-off dominates */
+    long double ratio;    /* worst difference over its round-off bound */
+    long double relative; /* worst difference over the sum of the terms */
 } tally;
 
 static void compare(const sample *s, const engine_kind *kind, void *run, int count, tally *t) {
@@ -144,7 +144,7 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     if (!s->conserves) {
         return;
     }
-    /* X from its momentum, which an output's part of an angle must not disturb */
+    /* X from its momentum, which an output's fraction of an angle must not disturb */
     double angle_rad[WAVE_ANGLES];
     double real[16];
     kind->state(run, angle_rad, real);
@@ -157,7 +157,7 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     TEST_ASSERT_TRUE(fabs(output[count] - X) <= 8.0 * rounding * (1.0 + fabs(momentum * time_s)));
 }
 
-/* The measures of a sweep, from the texts of the outputs: the numbers of the records, as printed. */
+/* A sweep's measures of the outputs must equal the printed records. */
 static void check_sweep(const sample *s, const engine_kind *kind, int count, const double *output) {
     diags *errors = diags_new();
     const char *texts[OUTPUTS];
@@ -257,8 +257,8 @@ static void test_made_up_outputs(void) {
     }
 }
 
-/* One sine or cosine of one multiple of one angle, up to ten thousand turns from zero: in float as good as
- * any sine (6.3e-8; docs/dev/numerics.md), with a phase unit (1.5e-9 rad) for the multiple. */
+/* A sine or cosine of one multiple of one angle, up to ten thousand turns from zero. In float it has the error of any
+ * sine (6.3e-8; docs/dev/numerics.md) plus one phase unit (1.5e-9 rad) for the multiple. */
 static void test_float_sines_of_parts(void) {
     uint64_t seed = first_seed;
     double worst = 0.0;
@@ -273,7 +273,7 @@ static void test_float_sines_of_parts(void) {
         engine_float.outputs(run, output);
         for (int i = 0; i < OUTPUTS; i++) {
             const wave_piece *p = &drawn.expr[i].term[0].factor[0].argument.piece[0];
-            if (p->number != rintl(p->number)) { /* others may follow from each other */
+            if (p->number != rintl(p->number)) { /* others may be derived from each other */
                 const long double value = wave_expr_value(&drawn.expr[i], state, true).value;
                 worst = fmax(worst, fabs((double)((long double)output[i] - value)));
                 parts++;

@@ -1,5 +1,5 @@
-/* test_angle_places.c: every place of the language that can hold a part of an angle: those that act on the motion
- * make the coordinate a real, the others leave the run and their neighbours as they are. */
+/* test_angle_places.c: every place of the language that can contain a fraction of an angle. Those that act on the
+ * motion make the coordinate a real. The others leave the run and the other outputs unchanged. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 void suite_angle_places(void);
 
-/* --- what acts on the motion ---------------------------------------------------------------------*/
+/* --- places that act on the motion -------------------------------------------------------------- */
 
 static const struct {
     const char *text;
@@ -25,7 +25,7 @@ enum { MULTIPLES = sizeof multiples / sizeof multiples[0] };
 
 enum { NOWHERE, IN_STEP, IN_SIGNALS };
 
-/* @ is the multiple; what is found at result 0 of the list is scale * function(multiple) + offset. */
+/* @ is the multiple; result 0 of the list is scale * function(multiple) + offset. */
 static const struct {
     const char *text;
     int list;
@@ -58,7 +58,7 @@ static void check_place(const derived *d, size_t which, double times, const char
         s.value[0][0] = th;
         derived_run(in_step ? d->image->list[IMAGE_STEP] : d->image->list[IMAGE_SIGNALS], d, &s,
                     result);
-        /* th is the only angle, if it is one, and the other accelerations follow */
+        /* th is the only angle, if any, and the other accelerations follow */
         const double got = result[in_step ? d->image->place[0] : 0];
         const double trig_value = places[which].sine ? sin(times * th) : cos(times * th);
         const double wanted =
@@ -69,7 +69,7 @@ static void check_place(const derived *d, size_t which, double times, const char
     }
 }
 
-/* A coordinate is kept as a turn angle if whatever acts on the motion holds whole multiples of it only. */
+/* A coordinate is kept as a turn angle only if all places that act on the motion use integer multiples. */
 static void test_all_that_acts_takes_part(void) {
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         for (int i = 0; i < MULTIPLES; i++) {
@@ -93,7 +93,7 @@ static void test_all_that_acts_takes_part(void) {
     }
 }
 
-/* --- what only looks on --------------------------------------------------------------------------*/
+/* --- places that only observe ------------------------------------------------------------------- */
 
 static const char pendulums[] =
     "mechanism m\ncoordinate th [rad]\ncoordinate ph [rad]\n"
@@ -150,7 +150,7 @@ static void test_outputs_leave_all_else_alone(void) {
     drop();
 }
 
-/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the user takes of it. */
+/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the outputs use. */
 static void test_recovered_angle(void) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     parse(
@@ -175,7 +175,7 @@ static void test_recovered_angle(void) {
         kinds[k]->outputs(run, output);
         const double ph = 0.5 + (-2.0 + 0.37 * 3.0) * 0.05 - 0.37 * (th - 6283.0);
         const double bound =
-            k == 0 ? 4e-12 : 3e-7; /* roundings of 6283 * 0.37; of t, and of sines */
+            k == 0 ? 4e-12 : 3e-7; /* round-off of 6283 * 0.37; of t and of sines */
         TEST_ASSERT_TRUE(fabs(output[0] - sin(ph)) <= bound);
         TEST_ASSERT_TRUE(fabs(output[1] - cos(ph / 2.0)) <= bound);
         TEST_ASSERT_TRUE(fabs(output[2] - sin(th / 2.0 + ph)) <= bound);
@@ -186,7 +186,7 @@ static void test_recovered_angle(void) {
     drop();
 }
 
-/* A state of a system is kept as a turn angle, too; and multiples too large for a phase's factor are none. */
+/* A system's state is kept as a turn angle, too. Multiples too large for a phase factor are not. */
 static void test_systems_and_large_multiples(void) {
     parse(
         "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
@@ -227,7 +227,8 @@ static void test_systems_and_large_multiples(void) {
 
 /* --- the books -----------------------------------------------------------------------------------*/
 
-/* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation has half of th. */
+/* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation contains half of
+ * th. */
 static const char gauge[] =
     "mechanism m\ncoordinate th [rad]\n"
     "T = 0.5 [kg*m^2]*th'^2 + 0.7 [kg*m^2/s]*th'*cos(th/2)\nV = -2 [J]*cos(th)\n";
@@ -247,7 +248,7 @@ static void test_books_of_a_part(void) {
     derived_free(&d);
 }
 
-/* Its momentum changes by what no equation names; the ledger's powers take the whole angle for it. */
+/* No equation contains the fraction, but the momentum changes with it: the ledger's powers use the whole angle. */
 static void test_ledger_takes_a_part(void) {
     char text[1024];
     snprintf(text, sizeof text, "%sscene s { start th = 1000, th' = 3 [rad/s]; until 5 [s] }\n",

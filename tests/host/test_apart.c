@@ -1,5 +1,5 @@
-/* test_apart.c: linkages that holds close and that do not fit where they start (host/check/apart.h): of drawn four-bars, both
- * faults are told, with the energy that vanishes, and the values that are named fit when they are pasted. */
+/* test_apart.c: holds that close linkages and do not fit at the start (host/check/apart.h). On random four-bars, both
+ * faults are reported with the vanishing energy. The proposed values fit after they are pasted. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ typedef struct bars {
     double angle_rad[3];
     double rate[3];
     double at_m[2];    /* of the last joint */
-    double turned_rad; /* b is off by so much */
+    double turned_rad; /* error of b */
 } bars;
 
 static bars bars_draw(dice *d, bool off) {
@@ -68,7 +68,7 @@ static double kinetic_J(const bars *b, const motion *m) {
     return sum;
 }
 
-/* By how much the linkage is open there: along, and across. */
+/* Gap of the linkage: along, and across. */
 static double gap_m(const bars *b, const motion *m, int across) {
     static const char *const names[] = {"a", "b", "c"};
     double sum = -b->at_m[across];
@@ -79,7 +79,7 @@ static double gap_m(const bars *b, const motion *m, int across) {
     return sum;
 }
 
-/* What is said of the start; to be freed. */
+/* The report on the start; to be freed. */
 static char *said_of(motion *m, const char *text) {
     char *told = NULL;
     size_t size = 0;
@@ -108,7 +108,7 @@ static void test_four_bars(void) {
         const double told_J = strtod(takes + strlen("and takes "), NULL);
         TEST_ASSERT_TRUE_MESSAGE(fabs(told_J - lost_J) <= 1e-4 * from_J, text);
         motion_close(&m);
-        /* its values, pasted behind the scene's own */
+        /* the proposed values, pasted after the scene's own */
         char *values = strstr(told, "these fit: start ");
         TEST_ASSERT_TRUE_MESSAGE(values != NULL || b.turned_rad > 0.05, text);
         if (values == NULL) {
@@ -143,8 +143,8 @@ static void test_four_bars(void) {
     }
 }
 
-/* A rod between two balls keeps the length that it has, wherever they are: nothing is off. Of a rod with a length of its own
- * the difference is told. */
+/* A rod between two balls keeps its present length, so any places fit. For a rod of given length the difference is
+ * reported. */
 static void test_rods(void) {
     dice d = dice_of("apart", 2);
     const unsigned cases = dice_cases(60);

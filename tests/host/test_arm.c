@@ -1,5 +1,5 @@
-/* test_arm.c: arms of six joints, derived, against the recursion of Newton and Euler (Luh, Walker and Paul 1980) in world
- * coordinates, which knows neither energies nor their derivatives. */
+/* test_arm.c: arms of six joints: the derived equations against the recursion of Newton and Euler (Luh, Walker and Paul
+ * 1980) in world coordinates, which uses no energies. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -31,10 +31,10 @@ enum { JOINTS = 6 };
 #define G 9.81
 
 typedef struct arm_arm {
-    int axis[JOINTS];          /* of its joint, in its own frame */
-    double offset[JOINTS];     /* of its joint from the one before, along z there, m */
-    double centre[JOINTS];     /* of mass, along z, m */
-    double mass[JOINTS];       /* kg */
+    int axis[JOINTS];      /* of its joint, in its own frame */
+    double offset[JOINTS]; /* of its joint from the previous one, along z there, m */
+    double centre[JOINTS]; /* of mass, along z, m */
+    double mass[JOINTS];
     double inertia[JOINTS][3]; /* about the centre, kg m^2 */
 } arm_arm;
 
@@ -54,7 +54,7 @@ static arm_arm draw_arm(dice *d) {
     return a;
 }
 
-/* The entry of the matrix that takes from frame i to the one before: "cos(q1)", "-sin(q1)", "1" or "0". */
+/* An entry of the matrix from frame i to the previous one: "cos(q1)", "-sin(q1)", "1" or "0". */
 static const char *entry(const arm_arm *a, int i, int row, int column, char text[20]) {
     const int k = a->axis[i];
     if (row == k || column == k) {
@@ -65,7 +65,7 @@ static const char *entry(const arm_arm *a, int i, int row, int column, char text
     return text;
 }
 
-/* As people write it who come from SymPy: turned frames, places of the centres in the world, and their derivatives. */
+/* In the style of SymPy users: rotated frames, world positions of the centres, and their derivatives. */
 static char *text_of(const arm_arm *a) {
     char *text;
     size_t length;
@@ -96,7 +96,7 @@ static char *text_of(const arm_arm *a) {
     fputs("T = (0 [J]", out);
     for (int i = 0; i < JOINTS; i++) {
         fprintf(out, "\n  + %.17g [kg]*(c%d_0'^2 + c%d_1'^2 + c%d_2'^2)/2", a->mass[i], i, i, i);
-        for (int k = 0; k < 3; k++) { /* the rate of axis b along axis c: about axis k */
+        for (int k = 0; k < 3; k++) { /* rate of axis b along axis c: about axis k */
             const int b = (k + 1) % 3;
             const int c = (k + 2) % 3;
             fprintf(
@@ -133,18 +133,18 @@ static double dot(vector a, vector b) {
     return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
 }
 
-/* The torque that each joint must give, N m, with *size what its terms add up to in size. */
+/* Torque of each joint, N m; *size is the sum of the absolute terms. */
 static void torques(const arm_arm *a, const state_values *s, double *torque, double *size) {
     vector frame[JOINTS][3]; /* axes of each link, in the world */
     vector joint[JOINTS];
     vector force[JOINTS]; /* that moves link i, and its moment about the centre */
     vector moment[JOINTS];
-    vector at[JOINTS]; /* the centre */
+    vector at[JOINTS];
     vector axes[3] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
     vector w = {{0}};
-    vector turn = {{0}}; /* angular acceleration */
+    vector turn = {{0}};
     vector p = {{0}};
-    vector lift = {{0, 0, G}}; /* acceleration of the joint, gravity in it */
+    vector lift = {{0, 0, G}}; /* acceleration of the joint, including gravity */
     for (int i = 0; i < JOINTS; i++) {
         const int k = a->axis[i];
         const double q = s->value[i][0];
@@ -226,8 +226,8 @@ static void test_arms_of_six_joints_move_as_newton_and_euler_say(void) {
 void suite_arm(void) { RUN_TEST(test_arms_of_six_joints_move_as_newton_and_euler_say); }
 
 /* === hinged =================================================================================== */
-/* Bodies on hinges, which derivation eliminates by what their hinges see (host/derive/solve.c): random
- * carriages, arms and hinged bodies, whose accelerations must fulfil the equations they were solved from. */
+/* Bodies on hinges, which derivation eliminates (host/derive/solve.c): random carriages, arms and hinged bodies. The
+ * accelerations must satisfy the equations that they were solved from. */
 
 enum { MECHANISMS = 160, STATES = 12, BODIES_MOST = 3 };
 
@@ -235,7 +235,7 @@ static bool chance(uint64_t *seed, int percent) {
     return random_between(seed, 0.0, 100.0) < percent;
 }
 
-/* Written only where it is wanted. */
+/* Writes at random. */
 __attribute__((format(printf, 3, 4))) static void maybe(FILE *out, bool wanted, const char *format,
                                                         ...) {
     va_list arguments;
@@ -246,8 +246,9 @@ __attribute__((format(printf, 3, 4))) static void maybe(FILE *out, bool wanted, 
     va_end(arguments);
 }
 
-/* A carriage, or two directions of it, an arm or none on it, bodies on the arm's end, on each other or on the carriage;
- * gravity, springs, dampers, torques, inputs; angles from the vertical or from the body above. */
+/* A carriage in one or two directions, with or without an arm. Bodies hang on the arm's end, on each other or on the
+ * carriage, with gravity, springs, dampers, torques and inputs. Angles count from the vertical or from the body
+ * above. */
 static char *written(uint64_t *seed) {
     char *text;
     size_t size;
@@ -312,7 +313,7 @@ static char *written(uint64_t *seed) {
     return text;
 }
 
-/* The largest part of an equation that an image's accelerations leave over. */
+/* The largest residual of an equation with the image's accelerations. */
 static double left_over(const derived *d, uint64_t *seed) {
     double worst = 0.0;
     for (int i = 0; i < STATES; i++) {
@@ -357,14 +358,14 @@ static void test_accelerations_fulfil_their_equations(void) {
 void suite_hinged(void) { RUN_TEST(test_accelerations_fulfil_their_equations); }
 
 /* === leans ==================================================================================== */
-/* What a run is measured by (host/check/energy_residual.h) does not depend on what no motion depends on: where the origin
- * is, and which vector potential stands for a magnetic field, as terms of the kinetic energy that are linear in the rates. */
+/* A run's energy residual (host/check/energy_residual.h) must not depend on choices without effect on the motion: the
+ * origin, and the vector potential of a magnetic field, which adds kinetic terms linear in the rates. */
 
 typedef struct charge {
     double mass_kg;
     double field_kgps;
     double speed_mps;
-    double spring_Npm; /* to where it starts */
+    double spring_Npm; /* to its start */
     const char *method;
     double step_s;
 } charge;
@@ -373,7 +374,7 @@ typedef struct charge {
 static const char *const potentials[] = {"B*(x*y' - y*x')/2", "B*x*y'", "-B*y*x'"};
 enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
 
-/* What it says is left over, of the largest entry, and whether it warned; all of it where it leaves all bounds. */
+/* The reported residual relative to the largest entry, and whether it warned; 1 if the run diverges. */
 static double left_over_leans(const charge *c, const char *potential, double x0, bool *warned) {
     char text[700];
     said what;
@@ -428,19 +429,18 @@ static void test_origins_and_potentials(void) {
 void suite_leans(void) { RUN_TEST(test_origins_and_potentials); }
 
 /* === linkages ================================================================================= */
-/* Random planar linkages: what is derived from their energies as text, against the same energies
- * differentiated in numbers (linkage.h): accelerations, and whole motions; and what must not matter: which way up the
- * plane is looked at, the order of the file, whether forces stand in the mechanism or in effects. The books balance.
- * WHIRL_CASES=10000 WHIRL_SEED=...: so many, others. */
+/* Random planar linkages: equations derived from their text against the same energies differentiated numerically
+ * (linkage.h), for accelerations and whole motions. Reflection, the order of the file, and forces in effects instead of
+ * the mechanism must not change the motion. The energy balance must close. WHIRL_CASES=10000 WHIRL_SEED=... chooses
+ * other cases. */
 
 enum { LINKAGES_STATES = 10, STEPS = 100 };
 
 static unsigned cases(void) { return dice_cases(few_or_all(usual_or(6, 3), 200)); }
 
-/* What must not matter is asked of every third of them. */
+/* Share of the cases with the invariance tests. */
 enum { ONE_IN = 3 };
 
-/* The k-th of a seed's. */
 static linkage drawn_linkage(dice *d, unsigned k) {
     uint64_t seed = d->state + 1000003U * k;
     return linkage_draw(&seed);
@@ -455,7 +455,6 @@ static const char *text_of_linkages(const linkage *of, linkage_writing how) {
 static const linkage_writing as_usual = {.forces = LINKAGE_INSIDE};
 static const linkage_writing backwards = {.forces = LINKAGE_INSIDE, .backwards = true};
 
-/* Fails with the text. */
 static void expect(bool holds, const char *what, double figure, const char *text) {
     if (!holds) {
         char line[120];
@@ -467,7 +466,7 @@ static void expect(bool holds, const char *what, double figure, const char *text
 
 /* --- accelerations ------------------------------------------------------------------------------------------- */
 
-/* Which unknown is q0, q1, ... */
+/* Index of unknown q0, q1, ... */
 static int unknown_of(const derived *d, int k) {
     char name[8];
     snprintf(name, sizeof name, "q%d", k);
@@ -480,7 +479,7 @@ static int unknown_of(const derived *d, int k) {
     return 0;
 }
 
-/* How far off the list's accelerations are at random states, of the largest. */
+/* Relative error of the list's accelerations at random states. */
 static double worst_acceleration(const linkage *of, linkage_writing how, uint64_t *seed) {
     derived d = derived_text(text_of_linkages(of, how));
     double worst = 0.0;
@@ -573,8 +572,8 @@ static moved integrated(const linkage *of, double step_s, int steps) {
     return end;
 }
 
-/* Where sines are looked up at each stage a run is the method's, to rounding; where they are turned it is within a
- * hundredth of what that method errs by itself (docs/dev/numerics.md). */
+/* With sines evaluated at each stage, the error is round-off. With rotated sines it is below a hundredth of the
+ * method's own error (docs/dev/numerics.md). */
 static void test_motions_are_those_of_the_energies(void) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
@@ -601,7 +600,7 @@ static void test_motions_are_those_of_the_energies(void) {
     TEST_ASSERT_TRUE(worst > 0.0);
 }
 
-/* --- what must not matter ------------------------------------------------------------------------------------ */
+/* --- invariances --------------------------------------------------------------------------------------------- */
 
 static void test_a_mirror_image_moves_as_the_mirror_image(void) {
     dice d = dice_of("linkages", 14);
@@ -637,8 +636,8 @@ static void test_the_order_of_the_file_does_not_matter(void) {
     printf("  written backwards it is off by at most %.1e\n", worst);
 }
 
-/* What an effect that is off would add leaves no trace, not in a bit; what one adds that is on is the same sum taken in
- * another order, and so are its coefficients' last bits. */
+/* A disabled effect leaves every bit unchanged. An enabled one changes the order of the sum, and so the last bits of
+ * its coefficients. */
 static void test_forces_may_stand_in_effects(void) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
@@ -662,7 +661,7 @@ static void test_forces_may_stand_in_effects(void) {
 
 /* --- books --------------------------------------------------------------------------------------------------- */
 
-/* What is left over of the energy after 100 ms, and how much went through the books. */
+/* The energy residual after 100 ms, and the total turnover of the balance. */
 static double left_over_linkages(const linkage *of, double step_s, double *turnover) {
     enum { ENTRIES_MAX = 200, ACCOUNTS_MAX = 1 + LINKAGE_BODIES };
     double total[ENTRIES_MAX] = {0};
@@ -696,7 +695,8 @@ static void test_the_energy_is_accounted_for(void) {
         const double fine = left_over_linkages(&of, 5e-4, &turnover);
         double least = fine;
         double step_s = 5e-4;
-        while (!(least < 1e-7 * turnover)) { /* too fast for the step: the method's own error */
+        while (!(least <
+                 1e-7 * turnover)) { /* too fast for the step: the method's own error dominates */
             const double coarser = least;
             step_s /= 4.0;
             fast += coarser == fine ? 1U : 0U;
@@ -705,7 +705,7 @@ static void test_the_energy_is_accounted_for(void) {
                    text_of_linkages(&of, as_usual));
         }
         worst = fmax(worst, fine / turnover);
-        if (coarse > 1e-9 * turnover) { /* above rounding: it falls with the step */
+        if (coarse > 1e-9 * turnover) { /* above round-off: it falls with the step */
             known++;
             fell += fine < coarse / 64.0 ? 1U : 0U;
         }
@@ -726,10 +726,10 @@ void suite_linkages(void) {
 }
 
 /* === never singular =========================================================================== */
-/* A mass matrix that is the same everywhere has no singular position, however large and small its masses
- * are, however fast its motions and dampers for the step: nothing that is said of such a run says so. */
+/* A constant mass matrix has no singular position, whatever its masses and however fast the motion or damping. No
+ * message on such a run may report one. */
 
-/* Two or three bodies in a row, each counted from the ground or from the one before. */
+/* Two or three bodies in a row, each counted from the ground or from the previous one. */
 static void write_bodies(dice *d, char *text, size_t size) {
     static const char *const names[] = {"x", "y", "z"};
     const unsigned bodies = 2U + dice_one_of(d, 2);

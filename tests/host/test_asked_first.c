@@ -1,7 +1,6 @@
-/* test_asked_first.c: what is derived does not depend on what was asked before: not on what else was made in the same
- * algebra (symbols in another order, sums, products, functions, derivatives that are thrown away), not on what was
- * printed, and not on other mechanisms derived in the same program. Every built-in scene, and generated mechanisms
- * (WHIRL_CASES of them); the generated C, and where the core lacks a function the Octave form, equal to the byte. */
+/* test_asked_first.c: derivation does not depend on history: other expressions in the same algebra, earlier output, or
+ * other mechanisms derived in the same program. Tests every built-in scene and generated mechanisms (WHIRL_CASES). The
+ * generated C, or the Octave form where the core lacks a function, must be byte-identical. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream() */
 
 #include <inttypes.h>
@@ -59,7 +58,7 @@ static const poly *any_result(algebra *a, const poly *x, const poly *y, const me
     }
 }
 
-/* The first uses of symbols, outputs and energies in any order, and what can be made of them. */
+/* First uses of symbols, outputs and energies in random order, and expressions of them. */
 static void ask(void *context, algebra *a, const instance *inst) {
     uint64_t *from = context;
     const mechanism *m = inst->mechanism;
@@ -99,7 +98,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     fclose(out);
     free(text);
     const int i = (int)draw(from, (unsigned)e->count);
-    if (e->kinetic != NULL) { /* one more derivative, thrown away */
+    if (e->kinetic != NULL) { /* one more derivative, discarded */
         poly_derivative(e->algebra,
                         poly_derivative(e->algebra, e->kinetic, e->unknowns[i].symbol, 1),
                         e->unknowns[i].symbol, 0);
@@ -107,7 +106,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     poly_derivative(e->algebra, equations_force(e, i), e->unknowns[i].symbol, 0);
 }
 
-/* As C; to be freed, NULL when it cannot be derived. */
+/* As C; to be freed. NULL if it cannot be derived. */
 static char *written(const scene *in, before way, uint64_t from) {
     diags *errors = diags_new();
     instance *inst = instance_make(in->mechanism, in, NULL, errors);
@@ -198,7 +197,7 @@ static void test_generated_mechanisms(void) {
     expect_none(wanted);
 }
 
-/* One scene after all others of the program were derived, and are still there. */
+/* One scene, while all others of the program are derived and alive. */
 static void test_among_others(void) {
     static derived others[3];
     char *text = NULL;

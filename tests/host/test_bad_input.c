@@ -1,7 +1,7 @@
 /* test_bad_input.c: broken texts are refused with all their errors, each at its place.
  *
- * Every text in the archives of tests/bad says at its top, in lines `# expect: LINE:COLUMN: TEXT`,
- * which errors it has: all of them, in their order. Run from the root of the project. */
+ * Lines `# expect: LINE:COLUMN: TEXT` at the top of every text in tests/bad list all its errors in order. Run from the
+ * root of the project. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <dirent.h>
@@ -20,7 +20,7 @@ void suite_bad_input(void);
 #define FOLDER "tests/bad"
 enum { TEXTS_MIN = 141, LINE_SIZE = 512 };
 
-/* Make one instance; with `derive`, its equations and lists too, unless something is wrong already. */
+/* Makes one instance and, with `derive`, its equations and lists, unless there are errors already. */
 static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
     instance *made = instance_make(of, in, NULL, all);
     if (derive && made != NULL && diags_count(all) == 0) {
@@ -34,7 +34,7 @@ static void try_instance(const mechanism *of, const scene *in, bool derive, diag
     instance_free(made);
 }
 
-/* Everything that is said about a text; free() it. *errors is their number. */
+/* All messages on a text, to be freed; *errors is their number. */
 static char *full_report_on(const char *file, const char *text, size_t length, bool derive,
                             int *errors) {
     diags *all = diags_new();
@@ -60,7 +60,7 @@ static char *full_report_on(const char *file, const char *text, size_t length, b
     return report;
 }
 
-/* What the language says, without deriving anything. */
+/* The language's messages without derivation. */
 static char *report_on(const char *file, const char *text, size_t length, int *errors) {
     return full_report_on(file, text, length, false, errors);
 }
@@ -92,7 +92,7 @@ static char *read_whole(const char *path, size_t *length) {
     return text;
 }
 
-/* Returns false, and says why, when the errors of one text are not those it announces. */
+/* Returns false and prints the reason if the errors of one text differ from the expected ones. */
 static bool text_fails_as_announced(const char *path, const char *text, size_t length) {
     static const char mark[] = "# expect: ";
     int errors = 0;
@@ -140,7 +140,7 @@ static bool text_fails_as_announced(const char *path, const char *text, size_t l
     return good;
 }
 
-/* Tries the texts of an archive, each below its line "=== NAME"; returns how many there are, and counts failures. */
+/* Tries the texts of an archive, each below its line "=== NAME". Returns their number and counts failures. */
 static int try_archive(const char *path, int *failed) {
     size_t length = 0;
     char *all = read_whole(path, &length);
@@ -205,8 +205,8 @@ static void test_columns_count_characters(void) {
     expect_text("mechanism m\r\ncoordinate X [m]\r\nT = Y\r\n", "x.whirl:3:5: error: unknown name");
 }
 
-/* A carriage return at every place of a file: before a line feed or at the end it is part of the line's end, anywhere
- * else an error of its own, at its place. */
+/* A carriage return before a line feed or at the end of the file is part of the line's end. Anywhere else it is an
+ * error at its place. */
 static void test_lines_end_in_one_way(void) {
     static const char text[] = "mechanism m \"a \xce\xb1 title\" # a remark \"\xce\xb1\"\n"
                                "coordinate X [m/s*s] \"where\"\n"
@@ -274,7 +274,7 @@ static void test_values_that_are_no_numbers(void) {
     expect_text(text, "x.whirl:6:15: error: 'a' is set from itself");
 }
 
-/* `head`, then `piece` so many times, then `tail`; free() it. */
+/* `head`, then `piece` repeated, then `tail`; to be freed. */
 static char *repeat(const char *head, const char *piece, size_t times, const char *tail,
                     size_t *length) {
     *length = strlen(head) + strlen(piece) * times + strlen(tail);
@@ -357,7 +357,6 @@ static void test_a_thousand_errors_are_told_as_twenty(void) {
     free(text);
 }
 
-/* A hundred thousand names must not take quadratic time. */
 static void test_many_names_are_quick(void) {
     const int count = 100000;
     char *text = malloc((size_t)count * 40);
@@ -373,7 +372,7 @@ static void test_many_names_are_quick(void) {
     TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 2.0);
 }
 
-/* No beginning of a good file, and no good file with one byte changed, crashes the language. */
+/* No prefix of a good file, and no good file with one byte changed, crashes the language. */
 static void test_every_beginning_and_every_changed_byte(void) {
     size_t length = 0;
     char *text = read_whole("core/models/epicyclic.whirl", &length);

@@ -1,7 +1,7 @@
-/* test_blame_lists.c: what a run asks when something is no number: every expression that moves it, as it is written, and
- * the slopes of those that are differentiated, where they can be without a value though the expression has one. Sums,
- * products, whole powers and waves cannot. What is asked is counted here by the definition: for each coordinate (and,
- * of energies and losses, each rate) that the expression depends on. */
+/* test_blame_lists.c: expressions that a run checks after a value is not a number: every expression that moves it, and
+ * the slopes of differentiated ones that may be undefined while the expression is not. Sums, products, integer powers
+ * and waves always have slopes. The expected count follows the definition: one slope per coordinate (and rate, for
+ * energies and losses) that the expression depends on. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@
 
 void suite_blame_lists(void);
 
-/* An expression of a (a length over one metre), b (an angle), and their rates v and w; how many of a and b, and of v and w,
- * it depends on, if it may lack a slope, else 0. */
+/* An expression of a (a length over one metre), b (an angle) and their rates v and w. Counts of a and b, and of v and
+ * w, that it depends on; 0 if its slopes always exist. */
 typedef struct sample {
     const char *text;
     int places;
@@ -55,10 +55,10 @@ static derived with_statement(const char *statement) {
     return d;
 }
 
-/* T is asked by itself, and has no slopes to ask. */
+/* T is checked itself, and its slopes always exist. */
 enum { OF_T = 1 };
 
-/* A loss acts by its slopes along the rates alone. */
+/* Losses act only through their slopes by the rates. */
 static void test_slopes_of_energies_and_losses(void) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
@@ -77,7 +77,7 @@ static void test_slopes_of_energies_and_losses(void) {
     }
 }
 
-/* A force is taken as it is. */
+/* Forces act directly, without slopes. */
 static void test_forces_have_no_slopes(void) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         char text[200];
@@ -90,14 +90,14 @@ static void test_forces_have_no_slopes(void) {
     }
 }
 
-/* Gaps and what is held have slopes along the coordinates; a crossing's value, a hold's condition and what friction is
- * made of have none. Contacts come behind the terms, a stop's restitution last of its own. */
+/* Gaps and held expressions have slopes by the coordinates. A crossing's value, a hold's condition and friction's
+ * expressions have none. Contacts follow the terms; a stop's restitution comes last. */
 static void test_slopes_of_contacts(void) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
         const struct {
             const char *form;
-            int values; /* asked as they are written */
+            int values; /* checked as written */
             int late;
             bool slopes;
             bool takes_rates;

@@ -1,6 +1,7 @@
-/* test_blurred.c: bodies on a line, each counted from another, whose masses differ by up to 1e13: of their mass matrix rounding
- * leaves few digits, in double, too, and two runs agree about what both have wrong. The reference never has a matrix: each body
- * by itself, in long double. What is off is told; what is counted from the heavier body is right, and nothing is said. */
+/* test_blurred.c: bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few
+ * digits of their mass matrix, also in double, so two runs can agree on a wrong result. The reference has no matrix:
+ * each body by itself, in long double. Errors must be reported. Coordinates relative to the heavier body are accurate
+ * and cause no warning. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -20,9 +21,10 @@ enum { MOST = BODIES_MOST, STEPS = 2000 };
 typedef struct line {
     int bodies;
     double mass_kg[MOST];
-    double spring_Npm[MOST]; /* between a body and the one before; [0] to the ground */
+    double spring_Npm[MOST]; /* between a body and the previous one; [0] to the ground */
     double start_m[MOST];
-    int order[MOST]; /* each is counted from the one before it here; [0] from the ground */
+    int order
+        [MOST]; /* order of reference: each counts from the previous one; [0] from the ground */
 } line;
 
 /* The coordinates in that order, at the places x. */
@@ -89,14 +91,14 @@ static void run_by_bodies(const line *l, long double *end, double *range) {
     by_bodies_run(&b, start, end, range);
 }
 
-/* --- what is said ------------------------------------------------------------------------------------------------ */
+/* --- messages ---------------------------------------------------------------------------------------------------- */
 
 typedef struct seen {
     bool refused;
     bool warned;
     bool trusted;      /* to the end */
-    double off;        /* the most, of the coordinate's range */
-    double off_of_all; /* the most, of the largest range */
+    double off;        /* largest error relative to the coordinate's range */
+    double off_of_all; /* largest error relative to the largest range */
 } seen;
 
 static seen see(const line *l) {
@@ -129,7 +131,8 @@ static seen see(const line *l) {
         char name[8];
         snprintf(name, sizeof name, "q%d", i);
         const double off = fabs((double)((long double)motion_value(&m, name) - wanted[i]));
-        if (range[i] > 2e-3 * largest) { /* less may be rounding alone, and is told so */
+        if (range[i] >
+            2e-3 * largest) { /* a smaller range may be round-off alone, and is reported as such */
             s.off = fmax(s.off, off / range[i]);
         }
         s.off_of_all = fmax(s.off_of_all, off / largest);
@@ -138,8 +141,8 @@ static seen see(const line *l) {
     return s;
 }
 
-/* Springs of about one stiffness, so soft that nothing is much faster than 20 rad/s: whether one is lost beside another is not
- * asked here. */
+/* Springs of similar stiffness, at most about 20 rad/s: this test does not ask whether a soft spring is lost beside a
+ * stiff one. */
 static line draw(dice *d, double decades) {
     line l = {.bodies = 2 + (int)dice_one_of(d, 2)};
     for (int b = 0; b < l.bodies; b++) {
@@ -154,7 +157,7 @@ static line draw(dice *d, double decades) {
     for (int b = 0; b < l.bodies; b++) {
         l.spring_Npm[b] = least * dice_between(d, 25.0, 200.0);
     }
-    for (int i = l.bodies - 1; i > 0; i--) { /* in any order */
+    for (int i = l.bodies - 1; i > 0; i--) { /* random order */
         const int with = (int)dice_one_of(d, (unsigned)i + 1U);
         const int swap = l.order[i];
         l.order[i] = l.order[with];
@@ -163,7 +166,7 @@ static line draw(dice *d, double decades) {
     return l;
 }
 
-/* Each from the heavier one. */
+/* Each relative to the heavier one. */
 static void count_from_heavier(line *l) {
     for (int i = 1; i < l->bodies; i++) {
         for (int k = i; k > 0 && l->mass_kg[l->order[k]] > l->mass_kg[l->order[k - 1]]; k--) {
@@ -174,7 +177,7 @@ static void count_from_heavier(line *l) {
     }
 }
 
-/* By how much the heaviest that is counted from a lighter one is heavier. */
+/* Largest mass ratio of a body to the lighter one that it is counted from. */
 static double against_the_grain(const line *l) {
     double most = 1.0;
     double lightest = l->mass_kg[l->order[0]];
@@ -226,8 +229,8 @@ static void test_what_is_off_is_told(void) {
     TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
 }
 
-/* The light body's mass varies with the place of the heavy one, so that nothing is folded: rounding, at each step anew, is all
- * that takes its digits. */
+/* The light body's mass depends on the heavy one's place, so nothing is folded: only the round-off of each step takes
+ * digits. */
 static void varying_text(double light_kg, double ratio, double spring_Npm, double start_m,
                          char *text, size_t size) {
     snprintf(text, size,
@@ -238,7 +241,7 @@ static void varying_text(double light_kg, double ratio, double spring_Npm, doubl
              light_kg, light_kg * ratio, spring_Npm, start_m);
 }
 
-/* The two runs that `whirl trust` holds side by side agree in any case. */
+/* The two runs of `whirl trust` agree in any case. */
 static void test_no_trust_in_what_both_have_wrong(void) {
     dice d = dice_of("blurred", 13);
     for (int k = 0; k < 12; k++) {
@@ -265,14 +268,14 @@ static void test_no_trust_in_what_both_have_wrong(void) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
             TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "trusted to the end") == NULL) == is_lost,
                                      what.out);
-            /* what is folded is told of by another number than the run's */
+            /* folding is reported by another number than the run's */
             const bool by_rounding = strstr(what.out, "not to be told") != NULL;
             TEST_ASSERT_TRUE_MESSAGE(is_lost ? by_rounding || varies == 0 : !by_rounding, what.out);
         }
     }
 }
 
-/* Two equations that differ by a share of one of their terms. */
+/* Two equations that differ by a small part of one of their terms. */
 static void test_equations_that_say_nearly_the_same(void) {
     dice d = dice_of("blurred", 12);
     for (int decade = 2; decade <= 14; decade++) {

@@ -1,4 +1,4 @@
-/* test_books.c: the energy's account in a summary: its entries are what closed forms say, with impacts between. */
+/* test_books.c: the energy account of a summary against closed forms, with impacts. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,15 +18,15 @@ void suite_ledger_turns(void);
 
 /* === account ================================================================================== */
 
-/* The number behind `words` in the summary. */
+/* The number after `words` in the summary. */
 static double told(const char *summary, const char *words) {
     const char *at = strstr(summary, words);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, words);
     return strtod(at + strlen(words), NULL);
 }
 
-/* A ball that falls from h and bounces once with restitution e loses m g h (1 - e^2) there: the summary gives that to
- * the contact and what is left over to the numbers, `with ledger` or without, and the bits are the same. */
+/* A ball that falls from h and bounces once with restitution e loses m g h (1 - e^2). The summary assigns that to the
+ * contact and the residual to the numerical error. `with ledger` must not change a bit. */
 static void test_what_contacts_took_is_told_apart(void) {
     dice d = dice_of("bounces", 4004);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -58,9 +58,9 @@ static void test_what_contacts_took_is_told_apart(void) {
     model_drop();
 }
 
-/* What a constant force gave, P (z - h), and what an evenly damped slide lost do not depend on impacts of other
- * coordinates, nor on those between: each entry that is printed is its closed form, and with what contacts took they
- * add up to the change. A rule over the steps' ends misses part of the step with the impact. */
+/* The energy from a constant force, P (z - h), and the loss of an evenly damped slide do not depend on impacts of other
+ * coordinates or on those in between. Each printed entry has its closed form, and with the contacts' part they sum to
+ * the change. Integration between step ends only would miss part of the step with the impact. */
 static void test_entries_across_impacts_are_closed_forms(void) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -97,16 +97,16 @@ void suite_account(void) {
 }
 
 /* === ledger turns ============================================================================= */
-/* Books of energies that are linear in rates. A total derivative of a function of the coordinates,
- * dG/dt, changes no motion, but the momenta by dG/dq, and every dL/dq: then the books need angles of which the
- * equations know only the sines. Closed forms, and generated mechanisms. */
+/* Energy balances of energies linear in rates. A total derivative dG/dt of a function of the coordinates changes no
+ * motion, but the momenta by dG/dq and every dL/dq. The balance then needs angles whose sines alone occur in the
+ * equations. Closed forms and random mechanisms. */
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .ledger = true};
 
 enum { ENTRIES_MAX = 200 };
 
-/* Everything that the ledger says. */
+/* All output of the ledger. */
 typedef struct account_book {
     double total[ENTRIES_MAX];
     double left_over[8]; /* by account */
@@ -120,7 +120,7 @@ static account_book read_book(const motion *m) {
     return book;
 }
 
-/* The entry of dL/dq of the coordinate called `name`. */
+/* The entry of dL/dq of coordinate `name`. */
 static double of_energies(const motion *m, const account_book *book, const char *name) {
     const image_ledger *l = &m->image->ledger;
     for (int i = 0; i < l->smooth; i++) {
@@ -141,7 +141,7 @@ static void test_a_free_wheel(void) {
                                "scene s { start th = 0.5, th' = 7 [rad/s]\nuntil 3 [s] }\n";
     motion m;
     motion_open_text(&m, text, booked);
-    TEST_ASSERT_EQUAL_INT(1, m.image->angles); /* it does turn */
+    TEST_ASSERT_EQUAL_INT(1, m.image->angles); /* it is a turn angle */
     TEST_ASSERT_TRUE(m.image->ledger.turned);
     motion_to(&m, 3.0);
     const account_book book = read_book(&m);
@@ -149,8 +149,7 @@ static void test_a_free_wheel(void) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, book.left_over[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-10, 0.0, book.left_over[1]);
     motion_close(&m);
-    motion_open_text(&m, text,
-                     booked_float); /* over three turns, of which an integer keeps the phase */
+    motion_open_text(&m, text, booked_float); /* over three turns, whose phase is an integer */
     motion_to(&m, 3.0);
     const account_book coarse = read_book(&m);
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 1386.0, of_energies(&m, &coarse, "th"));
@@ -158,8 +157,8 @@ static void test_a_free_wheel(void) {
     motion_close(&m);
 }
 
-/* Two wheels with gyroscopic coupling, L = (a'^2 + b'^2)/2 + B a b': their rates turn with B, a' = v cos(B t), b' = -v
- * sin(B t); p_b = b' + B a stays, p_a = a' changes by dL/da = B b'. */
+/* Two wheels with gyroscopic coupling, L = (a'^2 + b'^2)/2 + B a b'. Their rates rotate with B: a' = v cos(B t), b' =
+ * -v sin(B t). p_b = b' + B a is constant; p_a = a' changes by dL/da = B b'. */
 static void test_gyroscopic_coupling(void) {
     static const char text[] =
         "mechanism wheels\ncoordinate a [rad]\ncoordinate b [rad]\nparameter B = 2 [N*m*s]\n"
@@ -178,8 +177,8 @@ static void test_gyroscopic_coupling(void) {
     motion_close(&m);
 }
 
-/* A charge in a uniform field, in polar coordinates and with the gauge in which its angle stands: A = B r^2/2 dphi +
- * d(c phi^2)/2. It goes round a circle with the angular frequency B/m; h = m v^2/2. */
+/* A charge in a uniform field, in polar coordinates and a gauge that depends on its angle: A = B r^2/2 dphi + d(c
+ * phi^2)/2. It moves on a circle with angular frequency B/m; h = m v^2/2. */
 static void test_a_charge_in_a_uniform_field(void) {
     static const char text[] =
         "mechanism charge\ncoordinate r [m]\ncoordinate phi [rad]\nparameter m = 2 [kg]\n"
@@ -195,7 +194,7 @@ static void test_a_charge_in_a_uniform_field(void) {
         motion_to(&m, 2.0);
         const account_book book = read_book(&m);
         const double phi = motion_value(&m, "phi");
-        /* p_phi stays but for the gauge: its entry is that of c phi phi' */
+        /* p_phi is constant except for the gauge: its entry is that of c phi phi' */
         TEST_ASSERT_DOUBLE_WITHIN(2e-6 / (1 << (4 * k)), 0.7 * phi, of_energies(&m, &book, "phi"));
         left[k] =
             fmax(fabs(book.left_over[0]), fmax(fabs(book.left_over[1]), fabs(book.left_over[2])));
@@ -244,7 +243,7 @@ static void slopes(const gauge *g, double a, double b, double slope[2]) {
     }
 }
 
-/* A double pendulum with drag, a motor and a stop, with and without the total derivative. */
+/* A double pendulum with drag, a motor and a stop, with or without the total derivative. */
 static void open_pendulum(motion *m, const char *rate, stepping how) {
     char text[1500];
     snprintf(text, sizeof text,
@@ -273,7 +272,7 @@ static void compare(const gauge *g, stepping how, double tolerance) {
     const account_book book = read_book(&with);
     slopes(g, 0.3, -0.4, before);
     slopes(g, motion_value(&with, "a"), motion_value(&with, "b"), after);
-    /* d/dt dG/dq' = dG/dq for G's rate: what is entered more is what the momentum has more */
+    /* d/dt dG/dq' = dG/dq for G's rate: the additional entry equals the additional momentum */
     const char *const names[] = {"a", "b"};
     for (int i = 0; i < 2; i++) {
         const double size = 1.0 + fabs(after[i]) + fabs(before[i]);

@@ -1,6 +1,6 @@
-/* test_books_told.c: what `whirl run` says of a run's books at its end, of drawn mechanisms whose coordinates are free, pushed,
- * sprung or damped, each by itself: which momenta are conserved and what they are, and with the ledger what changed each, all
- * by closed form. */
+/* test_books_told.c: the report of `whirl run` on energy and momenta at the end, for random mechanisms with uncoupled
+ * coordinates: free, pushed, sprung or damped. Conserved momenta, their values, and with the ledger the cause of each
+ * change, all by closed form. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -55,10 +55,10 @@ static own_bodies drawn(dice *d) {
     return m;
 }
 
-/* The last first, so that their order is nobody's alphabet. */
+/* In reverse, so that their order is not alphabetical. */
 static char name_of(unsigned i) { return (char)('z' - (int)i); }
 
-/* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": all that are held by this, begun by `begins`; nothing for none. */
+/* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": the sum over all bodies of this kind, after `begins`; empty without any. */
 static void sum_of(const own_bodies *m, held_by by, const char *begins, const char *unit,
                    const char *square, char text[400]) {
     int at = 0;
@@ -98,7 +98,7 @@ static void mechanism_text(const own_bodies *m, char text[2500]) {
     (void)snprintf(text + at, (size_t)(2500 - at), "; step 1 [ms]; until %.3f [s] }\n", m->until_s);
 }
 
-/* m x' at the end, less that at the start. */
+/* Change of m x' over the run. */
 static double change_Ns(const own_body *b, double time_s) {
     const double w = sqrt(b->law / b->mass_kg);
     double end_mps = b->speed_mps;
@@ -163,7 +163,7 @@ static void test_conserved_momenta(void) {
     TEST_ASSERT_TRUE(none > 3U);
 }
 
-/* Of each coordinate: what gave to it, what changed, and that over the time. */
+/* For each coordinate: its causes, its change, and the mean over time. */
 static void test_ledgers(void) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
@@ -202,9 +202,10 @@ static void test_ledgers(void) {
     model_drop();
 }
 
-/* --- of books that are made up ----------------------------------------------------------------------------------------*/
+/* --- synthetic balances
+ * ---------------------------------------------------------------------------------------------- */
 
-/* Every line, whatever is known of it. */
+/* Every line, for any combination of known values. */
 static void test_every_line(void) {
     static const char *const texts[] = {
         "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
@@ -290,7 +291,7 @@ static void test_every_line(void) {
     }
 }
 
-/* Drawn stops, some of which the ball never comes to: these have no line, in no book. */
+/* Random stops, some of which the ball never reaches: those have no line in any account. */
 static void test_contacts_that_gave_nothing(void) {
     dice die = dice_of("books_told", 93);
     enum { STOPS = 4 };
@@ -302,7 +303,7 @@ static void test_contacts_that_gave_nothing(void) {
         int length = snprintf(text, sizeof text,
                               "mechanism ball \"a ball\"\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                               "V = 9.81 [N]*x\n");
-        for (int i = 0; i < STOPS; i++) { /* from 1 m on it falls, and hits the highest alone */
+        for (int i = 0; i < STOPS; i++) { /* from 1 m it falls, and hits only the highest */
             reached[i] = i == (int)(c % STOPS);
             const double below =
                 reached[i] ? dice_between(&die, 0.0, 0.5) : dice_between(&die, 2.0, 9.0);
@@ -330,9 +331,9 @@ void suite_books_told(void) {
 }
 
 /* === energy integral ========================================================================== */
-/* The energy book where T + V is not what balances: mechanisms whose T is not a
- * quadratic form of the rates, whose V has rates, or whose energies name an input that is changed. The
- * energy integral of each is written down by hand (Goldstein, Classical Mechanics, section 2.7). */
+/* The energy account where T + V is not conserved: T is not quadratic in the rates, V contains rates, or an energy
+ * contains a changing input. The energy integral of each is derived by hand (Goldstein, Classical Mechanics, section
+ * 2.7). */
 
 /* A bead on a hoop that turns at the rate w about its upright diameter. */
 #define HOOP(rate) \
@@ -344,7 +345,7 @@ void suite_books_told(void) {
 #define FIELD \
     "mechanism field\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n" \
     "parameter B = 1 [kg/s]\nT = m*(x'^2+y'^2)/2\nV = -B*(x*y'-y*x')/2\n"
-/* A body on a spring, in a slot of a table that turns. */
+/* A body on a spring, in a slot of a turning table. */
 #define SLOT \
     "mechanism slot\ncoordinate x [m]\nparameter m = 1 [kg]\n" \
     "parameter w = 2 [rad/s]\nparameter k = 9 [N/m]\n" \
@@ -354,7 +355,7 @@ void suite_books_told(void) {
     "mechanism fast\ncoordinate x [m]\nparameter m = 1 [kg]\n" \
     "parameter c = 2 [m/s]\nparameter k = 1 [N/m]\n" \
     "T = -m*c^2*sqrt(1 - x'^2/c^2)\nV = k*x^2/2\n"
-/* A puck on a turning table, seen from the table: terms linear in the rates, and a wall. */
+/* A puck on a turning table, in the table's frame: terms linear in the rates, and a wall. */
 #define TABLE \
     "mechanism table\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 2 [kg]\n" \
     "parameter w = 1.5 [rad/s]\nT = m*((x' - w*y)^2 + (y' + w*x)^2)/2\n" \
@@ -395,14 +396,14 @@ typedef double by_hand(const motion *m);
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 
-/* The largest remainders along a run. */
+/* The largest residuals along a run. */
 typedef struct remainders {
-    double summary_J; /* of the books beside the run */
+    double summary_J; /* of the account beside the run */
     double ledger_J;  /* of the run's own */
-    double change_J;  /* of the integral by hand */
+    double change_J;  /* of the integral derived by hand */
 } remainders;
 
-/* Left over in the ledger's account of the energy, J. */
+/* Residual of the ledger's energy account, J. */
 static double ledger_left_J(const motion *m) {
     const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -438,7 +439,7 @@ static remainders book(const char *text, by_hand *energy_J, double step_s) {
     return r;
 }
 
-/* At its step a scene's books leave nothing but the method's error: below 1e-9 J of about 1 J. */
+/* At the scene's step the residual is the method's error: below 1e-9 J of about 1 J. */
 static void expect_closed(const char *text, by_hand *energy_J) {
     const remainders r = book(text, energy_J, 0.0);
     printf("  left over %.1e J in the summary's books, %.1e J in the ledger\n", r.summary_J,
@@ -446,7 +447,7 @@ static void expect_closed(const char *text, by_hand *energy_J) {
     TEST_ASSERT_TRUE(r.summary_J < 1e-9 && r.ledger_J < 1e-9);
 }
 
-/* And it falls with the step as the method's error does: with the 4th power at least. */
+/* It falls with the step like the method's error: at least with the 4th power. */
 static void expect_order(const char *text, by_hand *energy_J, double step_s) {
     remainders r[3];
     for (int k = 0; k < 3; k++) {
@@ -469,7 +470,7 @@ static void test_the_turning_hoop(void) {
     expect_order(text, hoop_at_10, 4e-3);
 }
 
-/* With a torque and a damper, whose work and loss are entries: of some 1e-2 J. */
+/* With a torque and a damper, whose work and loss are entries of some 1e-2 J. */
 static void test_the_turning_hoop_with_motor_and_drag(void) {
     static const char text[] =
         HOOP_AT_10 "input M = 0.06 [N*m]\nQ(th) = M\n"
@@ -511,8 +512,8 @@ static double of_contact(const motion *m, int account, double *left_over) {
     return entry;
 }
 
-/* The wall on the turning table takes what the integral loses: half the mass times the difference of the
- * squared speeds, whatever the terms that are linear in the rates. */
+/* The wall on the turning table takes the loss of the integral: half the mass times the difference of the squared
+ * speeds. Terms linear in the rates do not matter. */
 static void test_a_wall_on_the_turning_table(void) {
     static const char text[] =
         TABLE "scene s { start x = 0.1 [m], x' = 1 [m/s], y' = 0.4 [m/s]\nuntil 0.5 [s] }\n";
@@ -567,8 +568,8 @@ static image *image_of(const char *text, derived *d) {
     return p;
 }
 
-/* An impulse is not mass times the change of the rates where the mass depends on them: refused. What has
- * no impulse, or no such mass, is not. */
+/* An impulse is not mass times the change of rates if the mass depends on them: such stops are refused. Others are
+ * not. */
 static void test_impacts_of_fast_bodies_are_refused(void) {
     static const struct {
         const char *text;
@@ -589,8 +590,8 @@ static void test_impacts_of_fast_bodies_are_refused(void) {
 
 /* --- inputs in the energies ------------------------------------------------------------------------ */
 
-/* The hoop's rate is an input that is changed after every step, as a stick that is moved: the only entry
- * is what the changes gave, -dL/dt, which is -m R^2 sin^2 (w2^2 - w1^2)/2 each. */
+/* The hoop's rate is an input, changed after every step like a stick. The only entry is the energy of the changes,
+ * -dL/dt, or -m R^2 sin^2 (w2^2 - w1^2)/2 each. */
 static void change_the_hoop(const char *text, bool stops) {
     motion m;
     double w = 10.0;
@@ -605,7 +606,7 @@ static void change_the_hoop(const char *text, bool stops) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         const double next = 10.0 + 3.0 * sin(0.02 * step);
         gave_J -= 0.002 * square(sin(motion_value(&m, "th"))) * (next * next - w * w);
-        m.kind->set_input(m.run, 0, next); /* input 1 is a motor's, which stands still */
+        m.kind->set_input(m.run, 0, next); /* input 1 is a motor's, at standstill */
         w = next;
     }
     m.kind->ledger(m.run, total, total + l->entries); /* the last change is not in a step yet */
@@ -633,8 +634,8 @@ static void test_a_hoop_whose_rate_is_changed(void) {
     }
 }
 
-/* Two springs whose rates are inputs, one T + V: each has its entry, (k2 - k1) x^2/2; and a step that is
- * refused loses none of it. */
+/* Two springs whose rates are inputs, in one T + V: each has its entry, (k2 - k1) x^2/2. A refused step loses none of
+ * it. */
 static void test_springs_whose_rates_are_changed(void) {
     static const char text[] =
         "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"
@@ -664,7 +665,7 @@ static void test_springs_whose_rates_are_changed(void) {
     motion_close(&m);
 }
 
-/* Both energies at the start and now, of oscillators whose state says them. */
+/* Both energies at the start and the end, of oscillators with known states. */
 static void test_both_energies_at_both_ends(void) {
     dice d = dice_of("energy_integral", 41);
     for (int i = 0; i < 20; i++) {
@@ -702,7 +703,7 @@ static void test_both_energies_at_both_ends(void) {
     }
 }
 
-/* --- which is booked ------------------------------------------------------------------------------- */
+/* --- choice of the account ------------------------------------------------------------------------- */
 
 static int check_plain(const scene *s) {
     derived d = derived_builtin(s->name);
@@ -712,7 +713,7 @@ static int check_plain(const scene *s) {
     return 1;
 }
 
-/* What is booked is told beside both energies where it is not their sum, and there alone. */
+/* The summary names the booked integral beside both energies only if it differs from their sum. */
 static void expect_told(const image *im) {
     char *text;
     size_t length;
@@ -734,7 +735,7 @@ static void expect_told(const image *im) {
     engine_double.stop(run);
 }
 
-/* T + V is booked where it is the integral: in every built-in scene. */
+/* In every built-in scene with T + V as its integral, T + V is booked. */
 static void test_where_the_integral_is_the_energy(void) {
     static const struct {
         const char *text;

@@ -1,7 +1,7 @@
-/* test_busy.c: contacts with more events than a step takes, or that change at the pace of the steps: `whirl run` warns
- * where the run is off for that, on both sides, and what it says would do is done: then nothing is said and the error is
- * gone. Where no step would do, the scene is changed as it says. Drawn balls between two stops, holds that end their own
- * condition, and stick-slip, against closed forms; and drawn hybrids in coarse steps, against another program. */
+/* test_busy.c: contacts with more events than a step takes, or with changes at the pace of the steps. `whirl run` must
+ * warn exactly if the run is wrong for that reason. The proposed remedy is applied: the warning and the error must
+ * vanish. If no step helps, the scene is changed as proposed. Random balls between two stops, holds that end their own
+ * condition and stick-slip have closed forms; random hybrids in coarse steps have another program as reference. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,16 +16,16 @@
 
 void suite_busy(void);
 
-/* Off by so much of its range, a busy run is told; by less than that, it is not. */
+/* A busy run must be reported if its error exceeds this part of its range, and not below that. */
 #define OFF 0.02
 #define RIGHT 3e-3
 #define CURED 5e-3
-/* What a bounce's moment rounds in float, of the gap: some units of the last place. */
+/* Round-off of a bounce's time in float, in parts of the gap: some units in the last place. */
 #define ROUNDED 1e-6
 
 typedef struct measured {
     bool busy;
-    double off;       /* at every step, of the range */
+    double off;       /* at every step, relative to the range */
     double looked_at; /* at 32 of them */
 } measured;
 
@@ -72,14 +72,14 @@ static void say(const char *text, const char *step, bool is_float, said *what) {
 
 static bool is_told(const said *what) { return strstr(what->err, "warning: ") != NULL; }
 
-/* The step that would do, in the number that is named beside it; false when it names none. */
+/* The proposed step with the number format beside it; false without a proposal. */
 static bool step_said(const said *what, char word[40], bool *is_float) {
     const char *hint = strstr(what->err, "\nhint: --step ");
     *is_float = *is_float && (hint == NULL || strstr(hint, "--number double") == NULL);
     return hint != NULL && sscanf(hint, "\nhint: --step %39s", word) == 1;
 }
 
-/* How often a ball passes its gap, at most: it may do so thousands of times. */
+/* Largest number of bounces, perhaps thousands. */
 static double bounces_of(const rattle *r) {
     return r->kind == BALL ? fabs(r->speed_mps) * r->step_s * r->steps / r->number[0] : 0.0;
 }
@@ -135,9 +135,9 @@ static void test_busy_contacts_are_told_and_cured(void) {
     TEST_ASSERT_TRUE(without <= off / 10);
 }
 
-/* --- where no step would do ---------------------------------------------------------------------------------*/
+/* --- scenes that no step helps ----------------------------------------------------------------------------- */
 
-/* A million events a step and more; what the hint says of the scene is done. */
+/* A million events per step and more; the hint's change of the scene is applied. */
 static void test_where_no_step_helps_the_scene_is_changed(void) {
     dice d = dice_of("busy_scenes", 15002);
     const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
@@ -174,7 +174,7 @@ static void test_where_no_step_helps_the_scene_is_changed(void) {
 
 /* --- hybrids ----------------------------------------------------------------------------------------------------*/
 
-/* The most that a coordinate ends off the other program's, of how far it went; *busy_one: its contacts were. */
+/* Largest error of a coordinate relative to its motion; *busy_one: were its contacts busy? */
 static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double step_s,
                          const char *text, bool *busy_one) {
     motion m;
@@ -194,7 +194,8 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
         }
     }
     double range = 1e-300;
-    for (int i = 0; i < h->of.bodies; i++) { /* of others, too: what hardly moves is no measure */
+    for (int i = 0; i < h->of.bodies;
+         i++) { /* relative to other coordinates, too, since one that hardly moves is no scale */
         range = fmax(range, high[i] - low[i]);
     }
     for (int k = 0; k < h->of.bodies; k++) {

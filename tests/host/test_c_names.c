@@ -1,5 +1,5 @@
-/* test_c_names.c: names that generated code may give to a scene: none that C or C++ compilers know already, nor a word
- * of Octave; by the compilers' own judgement (tests/embed/known_names.sh). */
+/* test_c_names.c: names that generated code may give to a scene: no name known to C or C++ compilers and no word of
+ * Octave. The compilers themselves judge (tests/embed/known_names.sh). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static FILE *opened(const char *name, const char *how) {
     return file;
 }
 
-/* What a command prints, line by line: to `take`; how many there were. */
+/* Passes each line of a command's output to `take`; returns their number. */
 static int each_line(const char *command, void (*take)(const char *line)) {
     char line[LINE];
     int count = 0;
@@ -75,7 +75,7 @@ static void compilers_have_nothing_to_say_of_what_is_free(void) {
     TEST_ASSERT_EQUAL_INT(0, complaints);
 }
 
-/* What a mechanism may well be called, close to a name of the library. */
+/* Natural names of mechanisms, close to names of the library. */
 static void ordinary_names_are_free(void) {
     static const char *const names[] = {"spring",
                                         "strut",
@@ -119,7 +119,7 @@ static void ordinary_names_are_free(void) {
     }
 }
 
-/* Of C23 and of compilers to come, and of targets that are not at hand. */
+/* From C23, coming compilers and other targets. */
 static void names_to_come_are_refused(void) {
     static const char *const names[] = {
         "sinpi",     "acospif",         "fmaximum_numf64x", "exp10m1l",
@@ -132,7 +132,7 @@ static void names_to_come_are_refused(void) {
     }
 }
 
-/* All of <stdint.h> and <inttypes.h> by their parts; and what lacks one of these, or has one too many, is free. */
+/* All names of <stdint.h> and <inttypes.h> by their parts. A name with a part missing or doubled is free. */
 static void names_of_integers_are_refused(void) {
     static const char *const kinds[] = {"", "_least", "_fast"};
     static const char *const kinds_of_macros[] = {"", "_LEAST", "_FAST"};
@@ -183,7 +183,7 @@ static void names_of_integers_are_refused(void) {
     }
 }
 
-/* A function for another type ends with that type's letters, and with nothing behind them but a few that may be _r. */
+/* A function variant for another type ends with that type's letters; only a few may have _r after them. */
 static void variants_of_functions_are_refused(void) {
     static const char *const of[] = {"sin", "lgamma", "exp10", "nextafter", "fmaximum_mag_num"};
     static const char *const types[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",
@@ -197,14 +197,14 @@ static void variants_of_functions_are_refused(void) {
             snprintf(name, sizeof name, "%s%s_r", of[i], types[k]);
             TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
             snprintf(name, sizeof name, "a%s%s", of[i], types[k]);
-            TEST_ASSERT_EQUAL_MESSAGE(i > 0, emit_c_name_is_free(name), name); /* but for asin */
+            TEST_ASSERT_EQUAL_MESSAGE(i > 0, emit_c_name_is_free(name), name); /* except asin */
         }
         for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
             snprintf(name, sizeof name, "%s%s", of[i], others[k]);
             TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
         }
     }
-    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* of nothing */
+    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* no function */
         TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(types[k]), types[k]);
     }
     TEST_ASSERT_TRUE(emit_c_name_is_free("r"));

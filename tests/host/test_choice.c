@@ -1,5 +1,5 @@
-/* test_choice.c: both answers of `whirl choose` (host/study/choice.h) for drawn requests, compared with trying everything;
- * and the table that they are rows of (price_table.h). */
+/* test_choice.c: both answers of `whirl choose` (host/study/choice.h) for random requests, compared with exhaustive
+ * search; and the table of their rows (price_table.h). */
 #include "derived.h"
 
 #include <math.h>
@@ -67,8 +67,8 @@ static void close_request(request *q) {
     derived_free(&q->d);
 }
 
-/* Does this setting keep everything with so many steps in a period? Its price in *worst: the longest steps' cycles a
- * second, the most promised. By itself: nothing of host/study/choice.c takes part. */
+/* Does this setting meet all limits with this number of steps per period? *worst: cycles per second of the longest
+ * steps, the largest promised value. Independent of host/study/choice.c. */
 static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst) {
     bool own;
     const deviation_pace pace = {substeps, 1};
@@ -86,7 +86,6 @@ static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst
     return r.ran && r.usable && 2.0 * r.error <= q->wish.table.error;
 }
 
-/* The request's answer. */
 static choice choose(request *q) {
     table_free(q->made);
     q->made = table_new(&q->trial, &q->wish.table);
@@ -99,7 +98,8 @@ static const table_row *row_of(const request *q, const choice_row *r) {
 
 enum { SUBSTEPS_MOST = 40 };
 
-/* Of all settings (some, but for WHIRL_FULL) and substeps: the least cycles and flash of those that keep everything. */
+/* Exhaustive search over settings (some, unless WHIRL_FULL) and substeps: least cycles and flash that meet all
+ * limits. */
 static void try_all(request *q, double *cycles, double *flash) {
     *cycles = *flash = (double)INFINITY;
     for (int i = 0; i < setting_count(); i += (int)few_or_all(5, 1)) {
@@ -173,7 +173,7 @@ static bool is_same(const table_row *a, const table_row *b) {
            a->result.error == b->result.error && a->price.value == b->price.value;
 }
 
-/* The same effort gives the same rows on any number of processors; less effort gives fewer of them, and says so. */
+/* The same effort gives the same rows on any number of processors. Less effort gives fewer rows and reports that. */
 static void test_rows_depend_on_the_effort_alone(void) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
@@ -204,7 +204,7 @@ static void test_rows_depend_on_the_effort_alone(void) {
     }
 }
 
-/* A weaker error and a faster clock, as the answer says: they fit, and a little less does not. */
+/* The answer's larger error limit or faster clock suffices, and slightly less does not. */
 static void test_what_would_fit_does(void) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
@@ -227,9 +227,9 @@ static void test_what_would_fit_does(void) {
     close_request(&q);
 }
 
-/* --- which settings a scene has ------------------------------------------------------------------------*/
+/* --- settings of a scene ------------------------------------------------------------------------------ */
 
-/* The code that a setting of this scene becomes; NULL: it does not take it. To be freed. */
+/* The code of this setting and scene, to be freed; NULL if the scene does not take the setting. */
 static char *code_of(const request *q, const setting *s, bool *own) {
     char *text;
     size_t length;
@@ -245,7 +245,7 @@ static char *code_of(const request *q, const setting *s, bool *own) {
     return text;
 }
 
-/* Of what a scene takes, a setting is its own where no other makes the same code, and one of each that do. */
+/* A setting is listed exactly if no earlier one makes the same code. */
 static void test_settings_of_a_scene_are_those_that_differ(void) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
@@ -294,7 +294,7 @@ static void test_settings_of_a_scene_are_those_that_differ(void) {
 
 /* --- matrices and tables on the front ------------------------------------------------------------------*/
 
-/* Is another row in the table as cheap as this one, and errs no more? */
+/* Does another row of the table have no more cost and no more error? */
 static bool is_beaten(const table *made, const table_row *row) {
     for (int i = 0; i < made->count; i++) {
         const table_row *other = &made->row[i];
@@ -306,8 +306,8 @@ static bool is_beaten(const table *made, const table_row *row) {
     return false;
 }
 
-/* Springs and dampers at random. The exact matrix errs by rounding alone, by any step: the cheapest row that errs by less than
- * 1e-4 is one, and wherever no other row beats one it is on the front. */
+/* Random springs and dampers. The exact matrix has only round-off at any step, so the cheapest row with an error below
+ * 1e-4 is a matrix. A matrix that no row beats is on the front. */
 static void test_linear_scenes_have_the_matrix_on_their_front(void) {
     dice d = dice_of("choice linear", 503);
     for (unsigned n = 0; n < dice_cases(few_or_all(1, 10)); n++) {
@@ -335,7 +335,7 @@ static void test_linear_scenes_have_the_matrix_on_their_front(void) {
             TEST_ASSERT_TRUE_MESSAGE(row->setting.image.tables == TABLES_NONE, text);
             TEST_ASSERT_TRUE_MESSAGE(!matrix || row->on_front || is_beaten(made, row), text);
             TEST_ASSERT_TRUE_MESSAGE(!matrix || row->result.error < 1e-3, text);
-            /* in fixed point a step without an FPU may cost a third of a matrix' */
+            /* in fixed point without an FPU, a step may cost a third of a matrix step */
             if (row->result.error < 1e-4 && !setting_is_fixed(&row->setting) &&
                 (cheapest == NULL || row->price.value < cheapest->price.value)) {
                 cheapest = row;

@@ -1,5 +1,5 @@
-/* test_cli.c: how many steps a run takes, and when they are, against whole numbers: from nanoseconds to
- * hours a step, and from one step to 50 years. WH_COUNTS=N: so many random pairs. */
+/* test_cli.c: the number and times of a run's steps in integer arithmetic: steps from nanoseconds to hours, runs from
+ * one step to 50 years. WH_COUNTS=N sets the number of random pairs. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,7 +41,7 @@ typedef struct duration {
     char text[64];
 } duration;
 
-/* `digits` of so many places behind the point, of a unit of 1/per s. */
+/* `digits` with so many decimals, in a unit of 1/per s. */
 static duration duration_of(uint64_t digits, int places, const char *of, uint64_t per) {
     duration d = {digits, per, ""};
     char number[32];
@@ -60,7 +60,7 @@ static uint64_t number_behind(const char *in, const char *what) {
     return strtoull(at + strlen(what), NULL, 10);
 }
 
-/* What is emitted counts as the decimals say: round-half-down(until / step), and the step is the decimal. */
+/* The generated code counts as the decimals say: round-half-down(until / step), with the decimal step. */
 static void expect_count(const duration *step, const duration *until) {
     char text[320];
     char message[160];
@@ -72,7 +72,7 @@ static void expect_count(const duration *step, const duration *until) {
     const wide under = (wide)step->digits * until->in;
     const wide wanted = (2 * over + under - 1) / (2 * under);
     if (wanted == 0 || wanted >> 63 != 0) {
-        return; /* refused: not what is tested here */
+        return; /* refused: not tested here */
     }
     diags *errors = diags_new();
     whirl_model *from = model_parse("x.whirl", text, strlen(text), errors);
@@ -113,7 +113,7 @@ static void test_counts_are_exact(void) {
     const uint64_t seed = UINT64_C(0x5eed0010);
     seed_now = seed;
     printf("  %d pairs, seed %" PRIx64 "\n", pairs, seed);
-    /* a year at 1 ms, 50 years at 1 ns; just beyond what 32 bits hold */
+    /* a year at 1 ms, 50 years at 1 ns; just beyond 32 bits */
     static const uint64_t long_s[] = {31536000, 1577880000, 4294968};
     for (unsigned i = 0; i < 3; i++) {
         const duration until = duration_of(long_s[i], 0, "s", 1);
@@ -130,14 +130,14 @@ static void test_counts_are_exact(void) {
         }
         const duration step =
             duration_of(1 + random_below(most), (int)random_below(4), units[k].name, units[k].per);
-        /* so many steps, from one to 50 years of them, and up to a half beside it */
+        /* a number of steps from one to 50 years, off by up to half a step */
         const double span_s = (double)step.digits / (double)step.in;
         const double count = exp(log(1.6e9 / span_s) * (double)random_below(1000) / 1000.0);
         const double end_s = floor(count + 1.0) * span_s;
         if (end_s > 1.6e9 && count > 2.0) {
             continue;
         }
-        int places = 0; /* up to 14 digits, as many as a double holds for certain */
+        int places = 0; /* up to 14 digits, which a double holds exactly enough */
         double digits = end_s;
         while (places < 12 && digits < 1e12) {
             digits *= 10.0;
@@ -160,7 +160,7 @@ static void test_counts_are_exact(void) {
 
 /* --- fractions and times ----------------------------------------------------------------------------- */
 
-/* What units and sums leave on a double is not taken for the step. */
+/* Round-off from units and sums does not change the step. */
 static void test_steps_are_what_was_written(void) {
     const struct {
         double value;
@@ -182,11 +182,11 @@ static void test_steps_are_what_was_written(void) {
     }
 }
 
-/* Any double at all: within 2^-51, and small enough for the core's 64 bits. */
+/* Any double has a fraction within 2^-51 that fits the core's 64 bits. */
 static void test_every_double_has_a_fraction(void) {
     seed_now = UINT64_C(0x5eed0011);
     for (int i = 0; i < 30000; i++) {
-        /* every other one beside a simple number, where fractions are far between */
+        /* every second one near a simple number, where fractions are sparse */
         const double value =
             i % 2 != 0
                 ? nextafter(1.0 / (1.0 + (double)random_below(2000)), 0.0)
@@ -202,7 +202,6 @@ static void test_every_double_has_a_fraction(void) {
     }
 }
 
-/* count * numerator / denominator, rounded once. */
 static void test_times_are_rounded_once(void) {
     seed_now = UINT64_C(0x5eed0012);
     for (int i = 0; i < 30000; i++) {
@@ -213,7 +212,6 @@ static void test_times_are_rounded_once(void) {
         int places;
         const uint64_t digits = (uint64_t)ldexp(frexp(time, &places), 53);
         places -= 53; /* time = digits * 2^places */
-        /* |exact - digits 2^places denominator| <= 2^(places - 1) denominator */
         wide have = (wide)digits * r.denominator;
         wide want = exact;
         wide half = r.denominator;
@@ -228,7 +226,7 @@ static void test_times_are_rounded_once(void) {
     }
 }
 
-/* --every and --from, as of values that were computed in double: beside a step's end by a rounding is at it. */
+/* --every and --from, as values computed in double: within round-off of a step's end, they mean that end. */
 static void test_spacings_and_begins_are_counted_in_steps(void) {
     for (int i = 0; i < 20000; i++) {
         const whole_ratio step =
@@ -264,8 +262,8 @@ void suite_counts(void) {
 }
 
 /* === firstlight =============================================================================== */
-/* Records of a board's first light (host/monitor/light.h), drawn: each is read as its board meant it, with
- * noise before it and a terminal's carriage returns; each cut, changed byte, lost, doubled or swapped line is refused. And
+/* Random records of a board's first light (host/monitor/light.h): each is read as sent, with noise before it and a
+ * terminal's carriage returns. A truncated record, a changed byte, or a lost, doubled or swapped line is refused.
  * `whirl firstlight` on records that differ in one field, and on its page. */
 
 enum { ROOM = 16384 };
@@ -274,7 +272,6 @@ static dice drawn;
 static char record[ROOM];
 static light read_one;
 
-/* The line that ends it. */
 static size_t sealed(char *text) {
     const size_t body = strlen(text);
     snprintf(text + body, ROOM - body, WH_LIGHT_END "%08x\n",
@@ -282,7 +279,6 @@ static size_t sealed(char *text) {
     return strlen(text);
 }
 
-/* A record of any printable values. */
 static size_t draw(char *text) {
     size_t length = (size_t)snprintf(text, ROOM, WH_LIGHT_BEGIN "\n");
     for (int i = 0; i < LIGHT_FIELDS; i++) {
@@ -317,7 +313,7 @@ static void test_whole_records(void) {
     for (unsigned i = 0; i < dice_cases(100); i++) {
         const size_t length = draw(record);
         taken(record, length);
-        size_t count = 0; /* noise, without a begin of its own */
+        size_t count = 0; /* noise that contains no begin */
         for (unsigned k = dice_one_of(&drawn, 300); k > 0; k--) {
             other[count++] = (char)dice_one_of(&drawn, 256);
         }
@@ -351,8 +347,7 @@ static void test_broken_records(void) {
             refused(record, k, "a record cut at byte", k);
             refused(record + k + 1, length - k - 1, "a record from byte", k + 1);
             memcpy(other, record, length);
-            for (unsigned n = 0; n < 12;
-                 n++) { /* each bit, then any byte, then what lines end with */
+            for (unsigned n = 0; n < 12; n++) { /* each bit, then any byte, then line ends */
                 other[k] = n < 8     ? (char)(record[k] ^ 1 << n)
                            : n == 8  ? (char)dice_one_of(&drawn, 256)
                            : n == 9  ? '\n'
@@ -388,7 +383,7 @@ static void test_broken_records(void) {
     }
 }
 
-/* A right CRC does not make a record of what is none: other lines, bytes that are no text, too much of it. */
+/* A valid CRC does not make a valid record: other lines, control bytes, too long a text. */
 static void test_sealed_nonsense(void) {
     static char before[ROOM];
     size_t from[LIGHT_FIELDS + 3];
@@ -398,10 +393,10 @@ static void test_sealed_nonsense(void) {
         const size_t first = sizeof WH_LIGHT_BEGIN;
         const size_t at = first + dice_one_of(&drawn, (unsigned)(length - first));
         switch (dice_one_of(&drawn, 4)) {
-        case 0: /* a control byte, or a line's end */
+        case 0: /* a control byte or a line end */
             record[at] = (char)(1 + dice_one_of(&drawn, 31));
             break;
-        case 1: /* fields are missing */
+        case 1: /* missing fields */
             (void)lines_of(record, from);
             length = from[1U + dice_one_of(&drawn, LIGHT_FIELDS)];
             break;
@@ -416,7 +411,7 @@ static void test_sealed_nonsense(void) {
         }
         record[length] = '\0';
         const size_t whole = sealed(record);
-        if (strcmp(record, before) != 0) { /* a line's end in the place of one */
+        if (strcmp(record, before) != 0) { /* a line end in place of another byte */
             refused(record, whole, "nonsense", i);
         }
     }
@@ -460,7 +455,7 @@ static const char *got(const char *name) {
     return text;
 }
 
-/* A board of its own as it should be: the interpreter's hashes, as the last answer of the command has them. */
+/* The expected value of a new board: the interpreter's hashes, from the command's last answer. */
 static const char *right_value(const char *name, const said *hashes) {
     static const struct {
         const char *name;
@@ -494,7 +489,7 @@ static const char *right_value(const char *name, const said *hashes) {
     return value;
 }
 
-/* The record, with another value of one field. */
+/* The record with one field changed. */
 static void write_record(const said *hashes, const char *other, const char *value) {
     size_t length = (size_t)snprintf(record, ROOM, WH_LIGHT_BEGIN "\n");
     for (int i = 0; i < LIGHT_FIELDS; i++) {
@@ -521,7 +516,7 @@ static void test_command(void) {
     snprintf(files[0], sizeof files[0], "%s", model_keep(""));
     snprintf(files[1], sizeof files[1], "%s.md", files[0]);
     put(files[1], page_head);
-    write_record(NULL, NULL, NULL); /* of zeros: what is expected is told */
+    write_record(NULL, NULL, NULL); /* of zeros: the command prints the expected values */
     ask(&hashes);
     TEST_ASSERT_EQUAL(1, hashes.status);
     TEST_ASSERT_NOT_NULL(strstr(hashes.out, "hashes: 0 of 5 equal\n"));
@@ -539,11 +534,11 @@ static void test_command(void) {
              strstr(record, "end ") + 4);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(got(files[1]), line), got(files[1]));
     TEST_ASSERT_NULL(strstr(got(files[1]), "no row yet"));
-    ask(&what); /* the same once more */
+    ask(&what); /* again */
     TEST_ASSERT_EQUAL(0, what.status);
     TEST_ASSERT_NOT_NULL(strstr(what.out, "has this record already"));
 
-    /* one field that differs, or is none: named, in the row, too */
+    /* a field that differs or is missing is named, also in the row */
     for (int i = 0; i < LIGHT_FIELDS; i++) {
         const char *name = light_names[i];
         const bool judged = strncmp(name, "model.", 6) == 0 || strncmp(name, "hash.", 5) == 0 ||

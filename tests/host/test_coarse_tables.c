@@ -1,5 +1,5 @@
-/* test_coarse_tables.c: energy that coarse tables lose is told with the tables as its cause: drawn slider-cranks. More cells
- * cure it, and no step does. */
+/* test_coarse_tables.c: random slider-cranks whose coarse tables lose energy. The warning names the tables; more cells
+ * cure it and no step does. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +44,7 @@ static void test_tables_are_named_and_more_cells_cure(void) {
         const bool is_fine = what.err[0] == '\0';
         run(text, form, cells, "1ms", &what);
         if (!is_fine || what.err[0] == '\0') {
-            continue; /* the step is too coarse, or nothing is */
+            continue; /* the step is too coarse, or there is no loss */
         }
         told++;
         char twice[60];
@@ -53,7 +53,7 @@ static void test_tables_are_named_and_more_cells_cure(void) {
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
         run(text, form, IMAGE_CELLS_MOST, "30ms",
-            &what); /* it is not they, and no more there are */
+            &what); /* another cause, and more cells do not help */
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "(not tried): no --tables would tell") != NULL,
                                  what.err);
         run(text, form, cells * 128, "1ms", &what);

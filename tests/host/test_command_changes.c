@@ -1,5 +1,5 @@
-/* test_command_changes.c: what every command makes of its changes: a bare number for what is declared in a unit that is
- * not SI is refused, as a name given twice is, and a sweep's measure that overflows has failed. */
+/* test_command_changes.c: changes on every command's line. A bare number for a quantity with a unit other than SI is
+ * refused, and so is a name given twice. A sweep's measure that overflows is a failure. */
 #include "command.h"
 
 #include <stdbool.h>
@@ -18,11 +18,11 @@ static const char model[] =
     "V = 5 [N*m]*th^2/2 + 700 [N/m]*x^2/2\nQ(th) = M\n"
     "scene s { start th = 0.1 [rad]\nuntil 50 [ms] }\n";
 
-/* How a command is told of a change: by --set and --start, or, "accel", by the bare words. */
+/* How a command takes a change: by --set and --start or, for "accel", by bare words. */
 typedef struct way {
     const char *name;
     int (*command)(int count, char **words);
-    const char *more[2]; /* words that it needs */
+    const char *more[2];
     bool bare;
 } way;
 
@@ -86,7 +86,7 @@ static void test_a_name_given_twice_is_refused_by_every_command(void) {
             }
             tell(&ways[w], changes, NAMES, &what);
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
-            const bool same = dice_one_of(&d, 2) == 0; /* also when both say the same */
+            const bool same = dice_one_of(&d, 2) == 0; /* also with the same value */
             snprintf(text[NAMES], sizeof text[NAMES], "%s = %s%s", names[i],
                      same ? strchr(text[i], '=') + 1 : "7 ", same ? "" : units[i]);
             changes[NAMES] = text[NAMES];
@@ -101,12 +101,12 @@ static void test_a_name_given_twice_is_refused_by_every_command(void) {
     model_drop();
 }
 
-/* Finite samples whose measure is too large for a number, and the same ones small enough. */
+/* Finite samples whose measure overflows, and the same ones small enough. */
 static void test_measures_that_overflow_fail_their_points(void) {
     static const struct {
         const char *measure; /* of x swinging over +-1 */
-        double most;         /* of the factor, in 1e308, for which it is finite */
-        double least;        /* for which it is not */
+        double most;         /* of the factor, in 1e308, with a finite measure */
+        double least;        /* with an infinite one */
     } cases[] = {{"mean", 1e-8, 0.1}, {"amplitude", 0.8, 1.5}, {"period", 1e-8, 1.5}};
     dice d = dice_of("overflows", 4302);
     for (unsigned i = 0; i < 30; i++) {

@@ -1,5 +1,5 @@
-/* test_commands.c: parts of the command line that need no process: lists of effects, built-in names, and whether two
- * names are one file where a file system knows no inodes. */
+/* test_commands.c: parts of the command line without a process: lists of effects, built-in names, and file identity on
+ * file systems without inodes. */
 #define _XOPEN_SOURCE 700 /* symlink(), mkdtemp() */
 
 #include "derived.h"
@@ -16,7 +16,7 @@
 
 void suite_commands(void);
 
-/* Standard error into a file, until said() gives it back. */
+/* Captures standard error until said() returns it. */
 static FILE *listening;
 static int before;
 
@@ -146,7 +146,7 @@ static void test_built_in_names(void) {
     static const struct {
         const char *target;
         const char *file; /* NULL: refused */
-        const char *name; /* or what is said */
+        const char *name; /* or the message */
     } all[] = {{"spun", "one.whirl", "spun"},
                {"gear:spun", "one.whirl", "spun"},
                {"gear:slow", "three.whirl", "slow"},
@@ -154,7 +154,7 @@ static void test_built_in_names(void) {
                {"lever:rest", "two.whirl", "rest"},
                {"lever", "two.whirl", "lever"},
                {"lever:lever", "two.whirl", "lever"},
-               {"rod", "one.whirl", "rod"}, /* the scene is meant, as in a file */
+               {"rod", "one.whirl", "rod"}, /* the scene, as in a file */
                {"rod:falls", "one.whirl", "falls"},
                {"rest", NULL, "hint: one of: gear:rest (one.whirl) lever:rest (two.whirl)"},
                {"gear", NULL, "hint: one of: gear:gear (one.whirl) gear:gear (three.whirl)"},
@@ -181,7 +181,6 @@ static void test_built_in_names(void) {
     }
 }
 
-/* Every built-in scene goes by both its names, and both lead to the same one. */
 static int check_both_names(const scene *s) {
     char both[200];
     snprintf(both, sizeof both, "%s:%s", s->mechanism->name, s->name);
@@ -207,19 +206,19 @@ static void write_file(const char *path, const char *text) {
     fclose(out);
 }
 
-/* With inodes and without, by every pair of names; the latter as a network file system or WASI has it. */
+/* With and without inodes, for every pair of names. Network file systems and WASI have none. */
 static void test_one_file_or_two(void) {
     char folder[] = "/tmp/whirl_files_XXXXXX";
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     enum { NAMES = 6 };
     static const char *const names[NAMES] = {"a", "./a", "soft", "hard", "twin", "b"};
-    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* which file that is */
+    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* the file of each name */
     char path[NAMES][100];
     for (int i = 0; i < NAMES; i++) {
         snprintf(path[i], sizeof path[i], "%s/%s", folder, names[i]);
     }
     write_file(path[0], "model");
-    write_file(path[4], "model"); /* the same size and, likely, the same time */
+    write_file(path[4], "model"); /* the same size and probably the same time */
     write_file(path[5], "another");
     TEST_ASSERT_EQUAL_INT(0, symlink("a", path[2]));
     TEST_ASSERT_EQUAL_INT(0, link(path[0], path[3]));
@@ -232,14 +231,14 @@ static void test_one_file_or_two(void) {
             const bool same = file[i] == file[k];
             TEST_ASSERT_TRUE(files_are_one(&one, path[i], &other, path[k]) == same);
             TEST_ASSERT_TRUE(files_same(path[i], path[k]) == same);
-            for (int without = 1; without < 4; without++) { /* one has no inode, the other, both */
+            for (int without = 1; without < 4; without++) { /* either or both without inode */
                 struct stat left = one;
                 struct stat right = other;
                 left.st_ino = (without & 1) != 0 ? 0 : left.st_ino;
                 right.st_ino = (without & 2) != 0 ? 0 : right.st_ino;
                 TEST_ASSERT_TRUE_MESSAGE(files_are_one(&left, path[i], &right, path[k]) == same,
                                          path[k]);
-                /* what came through standard input has no name: the file itself must be found */
+                /* standard input has no name: the file itself must be found */
                 if (same || one.st_size != other.st_size) {
                     TEST_ASSERT_TRUE(files_are_one(&left, NULL, &right, path[k]) == same);
                 }

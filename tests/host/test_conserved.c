@@ -1,7 +1,7 @@
-/* test_conserved.c: a coordinate recovered from its momentum, against what its momentum was made from.
+/* test_conserved.c: a coordinate recovered from its momentum, against the function that its momentum was made from.
  *
- * T = M x'^2/2 + x' dG/dt + what belongs to the others, with a random G(q, r): so p = M x' + dG/dt is kept, and
- * x = (p t + G(start) - G)/M. G has powers, waves and their products: what conserve.c can integrate, and what not. */
+ * T = M x'^2/2 + x' dG/dt + terms of the others, with a random G(q, r). So p = M x' + dG/dt is constant, and x = (p t +
+ * G(start) - G)/M. G has powers, waves and their products, some of which conserve.c can integrate. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -69,8 +69,8 @@ static void write_slope(char *text, size_t size, const wave_term *terms, int whi
     snprintf(text + at, size - at, ")");
 }
 
-/* Powers of q and r; or a wave of both; or a wave of one times powers of the other; a third of them times exp(r) where
- * no power of r stands beside it. */
+/* Powers of q and r, a wave of both, or a wave of one times powers of the other. A third has a factor exp(r) if it has
+ * no power of r. */
 static wave_term random_term(uint64_t *seed) {
     wave_term t = {.size = random_between(seed, -2.0, 2.0)};
     const unsigned kind = (unsigned)(random_bits(seed) % 4);
@@ -137,7 +137,7 @@ static void test_a_coordinate_follows_from_its_momentum(void) {
         for (int i = 0; i < TERMS; i++) {
             terms[i] = random_term(&seed);
         }
-        if (round % 5 == 0) { /* exp(r) alone has no place in a power or a wave */
+        if (round % 5 == 0) { /* exp(r) alone fits neither a power nor a wave */
             terms[0].grows = true;
         }
         const double mass = random_between(&seed, 1.0, 3.0);
@@ -171,8 +171,7 @@ static void test_a_coordinate_follows_from_its_momentum(void) {
         TEST_ASSERT_TRUE(c->unknown[0] == 0 && c->number[0] == 0 && c->number[1] == -1);
         const bool whole =
             !terms[0].grows || terms[0].q_power > 0 || (terms[0].turns && terms[0].k != 0);
-        TEST_ASSERT_TRUE_MESSAGE(c->closed == whole,
-                                 text); /* whatever has q in it is found along q */
+        TEST_ASSERT_TRUE_MESSAGE(c->closed == whole, text); /* a term with q is found along q */
         check_law(c, terms, &start, mass, &seed);
         closed += c->closed;
         open += !c->closed;

@@ -1,5 +1,5 @@
-/* test_contact.c: contacts that are too busy for a step which is too coarse for a spring or a damper beside them, too: whatever a warning
- * says would do does, of all that was told. */
+/* test_contact.c: contacts too busy for a step that is also too coarse for a spring or a damper. The remedy in a
+ * warning must cure all reported problems. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ static void test_a_cure_is_one_of_all(void) {
     unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
         const bool damped =
-            i % 2 == 1; /* what is agreed on may leave most of a damper's loss over */
+            i % 2 == 1; /* an accepted run may have a large part of a damper's loss as residual */
         const rattle r = rattle_drawn(&d, damped ? HOLD : (rattle_kind)(i / 2 % KINDS));
         const double rate_radps =
             pow(10.0, damped ? dice_between(&d, -0.1, 0.4) : dice_between(&d, -0.8, 0.1)) /
@@ -78,8 +78,8 @@ static void test_a_cure_is_one_of_all(void) {
     TEST_ASSERT_TRUE(energies > cases / 4 && cured > cases / 4 && (both > 0 || cases < 30));
 }
 
-/* A body that a heavy round one meets head-on, with nothing that presses them together: the restitution that the hint names
- * ends the events. */
+/* A heavy round body hits another head-on, without a force that presses them together. The restitution in the hint ends
+ * the events. */
 static void test_head_on(void) {
     dice d = dice_of("head on", 15006);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 300));
@@ -110,7 +110,7 @@ static void test_head_on(void) {
     TEST_ASSERT_TRUE(told * 10 > cases);
 }
 
-/* A clock in a stop that has far less inertia than the body: its run ends, and the hint names the stop. */
+/* A clock in a stop with far less inertia than the body: its run ends, and the hint names the stop. */
 static void test_light_clocks(void) {
     dice d = dice_of("light clocks", 15007);
     const unsigned cases = dice_cases(usual_or(20, 8));
@@ -141,7 +141,7 @@ void suite_busy_beside(void) {
 }
 
 /* === contact curved =========================================================================== */
-/* Random curved contacts: whatever happens at dead centres, the energy is accounted for. */
+/* Random curved contacts: the energy balance closes, also at dead centres. */
 
 static long wanted_runs(long usual) {
     const char *wanted = getenv("WHIRL_CURVED_RUNS");
@@ -150,7 +150,7 @@ static long wanted_runs(long usual) {
 }
 
 typedef struct outcome {
-    double share; /* of the energy at the start that the books leave over */
+    double share; /* residual of the energy balance relative to the energy at the start */
     uint64_t overruns;
     bool refused;
 } outcome;
@@ -170,8 +170,8 @@ static outcome run(uint64_t seed, double step_s, const engine_kind *kind) {
     return o;
 }
 
-/* Where inertia along the curve changes within a few steps, RK4 itself leaves more: that falls with the fourth
- * power of the step, and is not what is looked for. */
+/* If the inertia along the curve changes within a few steps, RK4 itself has a larger residual. It falls with the fourth
+ * power of the step and is not the subject. */
 static bool is_the_methods(uint64_t seed, double share) {
     const outcome fine = run(seed, 0.25e-3, &engine_double);
     printf("  seed %llu leaves %.1e, with a quarter of the step %.1e\n", (unsigned long long)seed,
@@ -208,7 +208,7 @@ static void test_energy_is_accounted_for(void) {
     TEST_ASSERT_TRUE_MESSAGE(coarse <= runs / 100 && over <= runs / 20, line);
 }
 
-/* The same in float: a motion with contacts may part from the one in double, but not lose energy. */
+/* In float, a motion with contacts may differ from double, but must not lose energy. */
 static void test_energy_is_accounted_for_in_float(void) {
     const long runs = wanted_runs((long)few_or_all(100, 300));
     int beyond = 0;
@@ -236,10 +236,10 @@ void suite_contact_curved(void) {
 }
 
 /* === contact devices ========================================================================== */
-/* The devices of the dissertation that need a stop, friction or a hold: the carriage
- * beside a stop (row S18, test 3), Thomson's magnet (S10), Halvorson's vehicle (S12). */
+/* Devices of the dissertation with a stop, friction or a hold: the carriage at a stop (row S18, test 3), Thomson's
+ * magnet (S10), Halvorson's vehicle (S12). */
 
-/* What the project asks of a centre of mass that nothing pushes, m. */
+/* The project's limit on the drift of a free centre of mass, m. */
 #define DRIFT_MOST 1e-8
 
 static double pi(void) { return acos(-1.0); }
@@ -252,8 +252,8 @@ static double pi(void) { return acos(-1.0); }
 #define ALL_KG (4.0 * ECCENTRIC_KG)                                     /* weight ratio 1/3 */
 #define MOMENT_KG_M (2.0 * LB * INCH * (0.152 * 7.25 / 2 + 0.15 * 6.5)) /* sum of m r */
 
-/* Largest and least X over `turns` turns from now on. A turn is no whole number of steps, so that of twenty
- * turns some step comes within a twentieth of one to the swing's end: (0.05 w h)^2/2, 2e-6 of the swing. */
+/* Largest and least X over the next `turns` turns. A turn is not a whole number of steps, so over twenty turns some
+ * step comes within a twentieth of one to the swing's end: (0.05 w h)^2/2, 2e-6 of the swing. */
 static void swing(motion *m, double turns, double *least, double *most) {
     const double until = motion_value(m, "theta") + turns * 2.0 * pi();
     *least = HUGE_VAL;
@@ -283,22 +283,22 @@ static void check_walk(stepping how, double swing_bound, double speed_most) {
         (motion_value(&m, "x_cm") - x_cm) * w / (motion_value(&m, "theta") - theta);
     motion_close(&m);
     printf("  %s: at last between %.6f and %.6f m\n", how.kind->name, least, most);
-    /* the stop: nothing is behind it; a float's location leaves some 2^-24 of the step's way */
+    /* the stop is not passed; a float location leaves some 2^-24 of the step's distance */
     expect_between("  nearest to the stop, m", -1e-9, 1e-3, nearest);
-    /* walked away: further than it swings */
+    /* walked away: further than its swing */
     expect_between("  mean place at last, m", 10.0 * MOMENT_KG_M / ALL_KG, 10.0,
                    (least + most) / 2.0);
-    /* the project's result, m r/(m + M), which holds without friction; friction is a 1/80 of the force
-     * here, and its effect on the swing is of second order */
+    /* the project's result m r/(m + M), without friction; friction is 1/80 of the force here, and its effect on the
+     * swing is of second order */
     const double free = MOMENT_KG_M / ALL_KG;
     expect_between("  swing over m r/(m + M)", 1.0 - 1e-3, 1.0 + 1e-3, (most - least) / 2.0 / free);
-    /* closed form (Den Hartog, Forced vibrations with combined Coulomb and viscous friction, 1931, without a
-     * spring): sqrt(1 - (pi f/2 F)^2) of it, f the friction, F the force's amplitude */
+    /* closed form (Den Hartog, Forced vibrations with combined Coulomb and viscous friction, 1931, without a spring):
+     * factor sqrt(1 - (pi f/2 F)^2), f the friction, F the force's amplitude */
     const double ratio = 0.05 * ALL_KG * 9.80665 / (MOMENT_KG_M * w * w);
     const double closed = free * sqrt(1.0 - pi() * pi() * ratio * ratio / 4.0);
     expect_between("  swing over the closed form, less 1", -swing_bound, swing_bound,
                    (most - least) / 2.0 / closed - 1.0);
-    /* friction brakes the mean motion at a rate of 2 mu g/(pi swing w) = 0.28 a second: exp(-15) of 2 m/s */
+    /* friction brakes the mean motion at a rate of 2 mu g/(pi swing w) = 0.28 per second: exp(-15) of 2 m/s */
     expect_between("  mean velocity at last, m/s", -speed_most, speed_most, speed);
 }
 
@@ -313,12 +313,12 @@ static void test_without_friction_it_walks_on(void) {
     motion m;
     motion_open(&m, "carriage_stop_smooth", IN_DOUBLE);
     motion_to(&m, 5.0);
-    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m)); /* one impact turns it round */
+    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m)); /* one impact reverses it */
     const double x_cm = motion_value(&m, "x_cm");
     const double p = motion_value(&m, "momentum");
     motion_to(&m, 10.0);
     TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m));
-    /* the momentum stays what the stop made it, and the centre of mass goes with it; the project's bound */
+    /* the momentum stays as the stop made it, and the centre of mass moves with it; the project's bound */
     expect_between("S18: momentum's change, kg m/s", -DRIFT_MOST, DRIFT_MOST,
                    motion_value(&m, "momentum") - p);
     expect_between("S18: centre of mass off the momentum's way, m", -DRIFT_MOST, DRIFT_MOST,
@@ -368,7 +368,7 @@ static void check_magnet(const char *which, double drift_most, double gain_most,
     motion_open(&m, which, how);
     const double x_cm = motion_value(&m, "x_cm");
     double drift = 0.0;
-    double book = 0.0; /* energy less the motor's work */
+    double book = 0.0; /* energy minus the motor's work */
     double gain = 0.0;
     double X_least = 0.0;
     double X_most = 0.0;
@@ -396,10 +396,10 @@ static void check_magnet(const char *which, double drift_most, double gain_most,
     printf("  %s, %s: %.2f turns of the hinge, held for %u steps, %.3g J lost, X %.4f to %.4f m\n",
            which, how.kind->name, turns, held, -book, X_least, X_most);
     expect_between("  centre of mass, largest distance from its start, m", 0.0, drift_most, drift);
-    /* captured and let go once a turn */
+    /* captured and released once per turn */
     expect_between("  captures and releases over turns", 2.0 * (turns - 1.0), 2.0 * turns + 1.0,
                    (double)events);
-    /* a magnet that only holds gives no energy; the captures take some */
+    /* a magnet that only holds adds no energy; the captures take some */
     expect_between("  energy gained in a step, most, J", 0.0, gain_most, gain);
     expect_between("  energy that captures took, J", 1.0, 100.0, -book);
     /* closed form of X with the centre of mass at rest: r/3 (6 - 4 cos - cos - cos), 0 to 1.2 m */
@@ -410,8 +410,8 @@ static void check_magnet(const char *which, double drift_most, double gain_most,
 static void test_magnet_moves_no_centre_of_mass(void) {
     check_magnet("thomson_magnet", DRIFT_MOST, 1e-9, IN_DOUBLE);
     check_magnet("thomson_magnet_conserved", 1e-14, 1e-9, IN_DOUBLE);
-    /* 40000 sums of X rounded by 2^-24 of a metre, as a random walk: 1.2e-5 m; energy, 30 J: 2^-22 of it, and
-     * of the velocities' roundings */
+    /* 40000 sums of X rounded by 2^-24 of a metre, as a random walk: 1.2e-5 m; energy, 30 J: 2^-22 of it, and of the
+     * velocities' round-off */
     check_magnet("thomson_magnet", 5e-5, 2e-4, IN_FLOAT);
 }
 
@@ -439,14 +439,14 @@ static void test_vehicle_creeps_on_the_ground(void) {
         const double speed = creep(h);
         const double off = fabs(speed / reference - 1.0);
         printf("  %g ms: %.10g mm/s, off the reference by %.1e\n", 1e3 * h, 1e3 * speed, off);
-        /* forwards, by millimetres a second, whatever the step */
+        /* forwards, by millimetres per second, at any step */
         expect_between("S12: mean velocity on the ground, mm/s", 16.0, 18.0, 1e3 * speed);
         if (i > 0) {
             expect_between("  order", 3.0, 6.0, log2(before / off));
         }
         before = off;
     }
-    expect_between("S12: off the reference at 0.1 ms", 0.0, 1e-7, before); /* own choice */
+    expect_between("S12: off the reference at 0.1 ms", 0.0, 1e-7, before); /* chosen here */
 }
 
 static void check_creep_in_float(void) {
@@ -477,12 +477,12 @@ static void test_ground_pushes_and_nothing_else(void) {
     motion_close(&m);
     expect_between("S12, smooth: centre of mass, largest distance, m", 0.0, DRIFT_MOST, drift);
     expect_between("S12, smooth: momentum, most, kg m/s", 0.0, DRIFT_MOST, momentum);
-    /* it shakes all the same */
+    /* it still shakes */
     expect_between("S12, smooth: X's span, mm", 0.1, 5.0, 1e3 * (X_most - X_least));
     check_creep_in_float();
 }
 
-/* The normal force pulsates round the weight, and the ground is never left. */
+/* The normal force oscillates around the weight, and the vehicle never leaves the ground. */
 static void test_normal_force_pulsates_round_the_weight(void) {
     range r = {.name = "normal"};
     motion m;
@@ -504,7 +504,7 @@ static void test_normal_force_pulsates_round_the_weight(void) {
     motion_close(&m);
     expect_between("S12: normal force, least, N", 0.1, 10.0, r.least);
     expect_between("S12: normal force, most, N", 15.0, 30.0, r.most);
-    /* nothing moves up or down for good: its mean is the weight, 1.33 kg; a hundred turns, cut at a step */
+    /* no net vertical motion: its mean is the weight, 1.33 kg; a hundred turns, cut at a step */
     expect_between("S12: mean normal force over the weight", 1.0 - 1e-4, 1.0 + 1e-4,
                    sum / looks / (1.33 * 9.81));
 }
@@ -520,21 +520,20 @@ void suite_contact_devices(void) {
 }
 
 /* === contact law ============================================================================== */
-/* Random mechanisms with a constant mass matrix, whose contacts all act at one moment, against
- * the laws of core/contact/contact_lcp.h and core/contact/contact_resolve.h, solved here another way: every case is tried (which
- * contacts hold, which are at a limit), and the one that meets all conditions is the answer. Rates, places, and what
- * each contact gives to the energy and to each momentum. */
+/* Random mechanisms with a constant mass matrix, whose contacts all act at one moment. The laws of
+ * core/contact/contact_lcp.h and core/contact/contact_resolve.h are solved independently by trying every case (active
+ * contacts, those at a limit). Compares rates, places, and each contact's part of the energy and of each momentum. */
 
 /* --- impacts --------------------------------------------------------------------------------------------------- */
 
-/* Stops that are all reached at one moment, stops that rest, one hold, and friction whose normal force is zero. */
+/* Stops all reached at one moment, resting stops, a hold, and friction with zero normal force. */
 static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     static const double restitutions[] = {0.0, 0.25, 0.5, 1.0};
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
         b->rate[i] = drawn_whole(seed, -3, 3);
     }
-    b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0]; /* where friction may stick */
+    b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0]; /* so that friction may stick */
     const int hits = 1 + (int)(random_bits(seed) % 3U);
     for (int k = 0; k < hits; k++) {
         drawn_contact *of = drawn_add(b, 's');
@@ -553,7 +552,7 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     if (random_bits(seed) % 2U != 0) {
         drawn_row_at_rest(b, seed, drawn_add(b, 's')->row);
     }
-    if (random_bits(seed) % 2U != 0) { /* every third the other way round what rests already */
+    if (random_bits(seed) % 2U != 0) { /* every third in the opposite direction of a resting stop */
         drawn_contact *of = drawn_add(b, 'h');
         const bool repeats = of[-1].offset == 0.0 && random_bits(seed) % 3U == 0;
         drawn_row_at_rest(b, seed, of->row);
@@ -567,7 +566,7 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     return true;
 }
 
-/* A hold that captures at the moment, beside stops that rest and may be let go. */
+/* A hold that captures at that moment, beside resting stops that may be released. */
 static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
@@ -590,7 +589,7 @@ static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
 
 static double apart(double got, double wanted) { return fabs(got - wanted) / (1.0 + fabs(wanted)); }
 
-/* What the books have of contact k: the energy, then each momentum. */
+/* Error of the account of contact k: the energy, then each momentum. */
 static double books_apart(const motion *m, const drawn *b, int k, double energy, double impulse) {
     double total[64] = {0.0};
     double left[DRAWN_MOST + 1] = {0.0};
@@ -681,7 +680,7 @@ static void test_holds_capture_by_their_law(void) {
 
 /* --- forces ---------------------------------------------------------------------------------------------------- */
 
-/* At rest on its stops, held and stuck, then the loads act. */
+/* At rest on its stops, held and sticking; then the loads act. */
 static void draw_rest(uint64_t *seed, drawn *b) {
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
@@ -703,7 +702,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
     }
 }
 
-/* Loads are constant, so are the accelerations: rates a h, places a h^2/2, each contact's impulse lambda h. */
+/* Constant loads give constant accelerations: rates a h, places a h^2/2, impulses lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
     const long runs = wanted_runs_contact_law((long)few_or_all(12, 40));
     uint64_t seed = 72;
@@ -758,7 +757,7 @@ static void test_forces_share_a_load_by_their_law_in_float(void) {
 
 /* --- both ------------------------------------------------------------------------------------------------------ */
 
-/* The same with loads that press and lift, and speeds from fast to hardly any, so that some hops are too short. */
+/* The same with loads that press and lift, and speeds from fast to almost zero, so that some flights are too short. */
 static bool draw_mixed(uint64_t *seed, drawn *b) {
     if (!draw_impact(seed, DRAWN_STEP_S / 2.0, b)) {
         return false;
@@ -776,7 +775,7 @@ static bool draw_mixed(uint64_t *seed, drawn *b) {
     return true;
 }
 
-/* What must hold at any time, whatever happened: by how much contact k is beyond it. */
+/* Violation of contact k's conditions at any time. */
 static double broken(const motion *m, const drawn *b, int k, double time_s) {
     const drawn_contact *of = &b->contact[k];
     double total[64] = {0.0};
@@ -795,11 +794,11 @@ static double broken(const motion *m, const drawn *b, int k, double time_s) {
     m->kind->ledger(m->run, total, left);
     const double *entry = total + m->image->ledger.smooth + k * (1 + b->n);
     impulse = entry[1 + must] / of->row[must];
-    const double gave_J = entry[0]; /* no contact gives energy */
-    if (of->kind == 's') {          /* pushes only, and is not passed */
+    const double gave_J = entry[0]; /* no contact adds energy */
+    if (of->kind == 's') {          /* only pushes, and is not penetrated */
         return fmax(fmax(gave_J, -impulse), -gap);
     }
-    if (of->kind == 'f') { /* takes no more than it can: no impulse */
+    if (of->kind == 'f') { /* within its limit: no impulse */
         return fmax(gave_J, fabs(impulse) - of->limit * time_s);
     }
     return fmax(fmax(gave_J, fabs(gap)), fabs(rate));
@@ -836,8 +835,8 @@ static void test_no_contact_does_more_than_it_can(void) {
     TEST_ASSERT_TRUE(worst <= 1e-11 && over <= runs / 10);
 }
 
-/* A hold and a stop at rest that say the same, the other way round: the impacts let the stop go, and it rests on, as
- * nothing throws it off. Friction that stuck at x0 has no part in that: its normal force is zero. */
+/* A hold and a resting stop in opposite directions of one row: impacts release the stop, which stays closed, as nothing
+ * pushes it off. Friction that stuck at x0 has no part in that: its normal force is zero. */
 static void test_friction_takes_no_impulse_when_a_stop_rests_on(void) {
     drawn b = {.n = 3,
                .contacts = 5,

@@ -1,8 +1,7 @@
-/* test_contact_bound.c: over random states of every built-in scene with contacts, no step evaluates the
- * accelerations more often than the scene declares, none hangs, and no energy appears from a stop, from
- * friction or from a hold.
+/* test_contact_bound.c: random states of every built-in scene with contacts. No step evaluates the accelerations more
+ * often than declared or hangs, and no stop, friction or hold adds energy.
  *
- * The suite does RANDOM_STEPS steps a scene; the environment's WHIRL_RANDOM_STEPS asks for more. */
+ * RANDOM_STEPS steps per scene; WHIRL_RANDOM_STEPS asks for more. */
 #include "command.h"
 #include "derived.h"
 #include "host/derive/ledger_lists.h"
@@ -25,12 +24,12 @@ static long random_steps(void) {
     return count > 0 ? count : (long)few_or_all(FEW_STEPS, RANDOM_STEPS);
 }
 
-/* States of the scene's own run, evenly over it. */
+/* States at equal times of the scene's own run. */
 typedef struct samples {
     int count;
     double value[SAMPLES][IMAGE_COMPONENTS_MAX]; /* by unknown */
     double rate[SAMPLES][IMAGE_COMPONENTS_MAX];
-    double rate_scale[IMAGE_COMPONENTS_MAX]; /* the largest */
+    double rate_scale[IMAGE_COMPONENTS_MAX]; /* largest values */
 } samples;
 
 static void take_sample(const image *p, const engine_kind *kind, const void *run, samples *s) {
@@ -64,8 +63,8 @@ static void take_samples(const derived *d, const engine_kind *kind, samples *s) 
     kind->stop(run);
 }
 
-/* Throw the start: a state of the run, its rates times a random factor and some more, its linear positions
- * moved by what they would do in a few steps, the angles anywhere. */
+/* Perturbs the start: a state of the run, its rates times a random factor plus an offset, its linear positions moved by
+ * a few steps' motion, any angles. */
 static void throw_start(const instance *inst, const samples *s, uint64_t *seed) {
     const mechanism *m = inst->mechanism;
     const int from = (int)(random_bits(seed) % SAMPLES);
@@ -85,11 +84,10 @@ typedef struct worst {
     uint64_t declared;
     uint64_t events;
     uint64_t overruns;
-    double gained_J; /* by one contact in one run, beyond the run's drift */
+    double gained_J; /* by one contact in one run, beyond the run's numerical drift */
 } worst;
 
-/* Entries of contacts into the energy: all but what crossings set can only take, but for the run's own
- * numerical drift. */
+/* All contacts except the assignments of crossings only take energy, apart from the run's numerical drift. */
 static void watch_books(const image *p, const engine_kind *kind, const void *run, worst *w) {
     const image_ledger *l = &p->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -110,7 +108,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     for (long done = 0; done < steps; done += RUN) {
         throw_start(d->instance, &around, &seed);
         diags *beyond =
-            diags_new(); /* what is thrown beyond a stop is put back by it: that takes energy */
+            diags_new(); /* a state beyond a stop is put back by it, which takes energy */
         image *thrown = image_again(d->image, d->instance, beyond);
         const bool apart = start_is_possible(thrown, kind, beyond);
         diags_free(beyond);
@@ -119,7 +117,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         uint64_t overruns;
         wh_status status = WH_OK;
         for (int i = 0; i < RUN && status == WH_OK; i++) {
-            status = kind->step(run); /* a state thrown too far may be refused */
+            status = kind->step(run); /* a state perturbed too far may be refused */
             const uint64_t now = kind->evaluations(run, &w.declared);
             w.evaluations = now - before > w.evaluations ? now - before : w.evaluations;
             before = now;
@@ -135,7 +133,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     return w;
 }
 
-/* One scene, with books, as it is or with all its mechanism's effects on, in one arithmetic. */
+/* One scene with the energy balance, as it is or with all effects, in one arithmetic. */
 static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     diags *errors = diags_new();
     const char *with[EFFECTS_MAX];

@@ -1,11 +1,10 @@
-/* test_contact_centres.c: machines with dry friction on a coordinate whose rate passes zero where another contact
- * turns it: cam, Scotch yoke, slider-crank, bead over a hill. Each has one degree of freedom, a, with b = f(a), so
- * that its reference is one equation, integrated here in long double from dead centre to dead centre:
+/* test_contact_centres.c: machines with dry friction on a coordinate whose rate passes zero at a dead centre: cam,
+ * Scotch yoke, slider-crank, bead over a hill. Each has one degree of freedom a, with b = f(a). The reference is one
+ * equation, integrated here in long double from dead centre to dead centre:
  *
- *     (J + m f'^2) a'' = torque - m f' f'' a'^2 - f' (m g + k (f + 2 e) + F sign(f' a'))
+ * (J + m f'^2) a'' = torque - m f' f'' a'^2 - f' (m g + k (f + 2 e) + F sign(f' a'))
  *
- * and for the linkage, whose rod turns by p with sin p = sin(a)/4, its inertia beside m f'^2.
- */
+ * and for the linkage, whose rod turns by p with sin p = sin(a)/4, its inertia beside m f'^2. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -85,7 +84,7 @@ static void rk4(const machine *c, long double h, long double way, long double s[
     s[1] += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
 }
 
-/* The sign of b', or, at a dead centre, of what it becomes. */
+/* Sign of b', or after a dead centre. */
 static long double way_of(const machine *c, const long double s[2]) {
     long double f[3];
     law(c, s[0], f);
@@ -95,7 +94,7 @@ static long double way_of(const machine *c, const long double s[2]) {
     return next > 0.0L ? 1.0L : next < 0.0L ? -1.0L : f[2] > 0.0L ? 1.0L : -1.0L;
 }
 
-/* To `until_s`; false when the machine comes to rest, or its stop would have to pull. */
+/* To `until_s`; false if the machine comes to rest or its stop would have to pull. */
 static bool reference(const machine *c, long double until_s, long double s[2]) {
     const long double h = 5e-5L;
     long double t = 0.0L;
@@ -108,7 +107,7 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
         long double span = fminl(h, until_s - t);
         rk4(c, span, way, next);
         law(c, next[0], f);
-        if (f[1] * next[1] * way < 0.0L) { /* b' has changed its sign: where? */
+        if (f[1] * next[1] * way < 0.0L) { /* b' has changed its sign: locate that */
             long double low = 0.0L;
             for (int i = 0; i < 70; i++) {
                 const long double middle = (low + span) / 2;
@@ -122,7 +121,7 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
             way = -way;
             law(c, next[0], f);
             if (fabsl(f[1]) >
-                1e-9L * wide(c->e)) { /* a' turns: whether it stays is another question */
+                1e-9L * wide(c->e)) { /* a' changes sign: whether it sticks is not tested here */
                 return false;
             }
         }
@@ -196,7 +195,7 @@ static outcome run(const machine *c, const engine_kind *kind, double h, double u
     return o;
 }
 
-/* The case the class was found with. */
+/* The case that revealed this class of errors. */
 static void test_the_cam_goes_on(void) {
     const machine c = {CAM, 0.1, 1.0, 0.1, 100.0, 1.0, 0.0, 0.0, 1.0, 10.0};
     long double s[2];
@@ -209,7 +208,7 @@ static void test_the_cam_goes_on(void) {
     expect_between("float, rad off", 0.0, 1e-2, f.off_rad);
 }
 
-/* At rest, started at the very centre and driven, slow passages, fast ones. */
+/* At rest, started at the exact centre and driven, slow passages, fast ones. */
 static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     machine c = {.kind = kind};
     c.J = random_between(seed, 0.05, 0.4);
@@ -244,7 +243,7 @@ static void check_machines(int how, const char *words, double until_s, unsigned 
             const machine c = random_machine(&seed, (machine_kind)kind, how);
             long double s[2];
             if (!reference(&c, wide(until_s), s)) {
-                continue; /* it comes to rest, or leaves its stop: of another class */
+                continue; /* it comes to rest or leaves its stop: another class */
             }
             done++;
             for (int n = 0; n < 2; n++) {

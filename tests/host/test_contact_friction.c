@@ -68,7 +68,7 @@ static void check_incline_slides(stepping how, double bound) {
 }
 
 static void test_block_slides_with_the_closed_forms_acceleration(void) {
-    /* 10^4 sums rounded by 2^-53: 1.1e-12 at the very worst; the same with 2^-24; a few roundings of the
+    /* 10^4 sums rounded by 2^-53: 1.1e-12 at the very worst; the same with 2^-24; a few round-offs of the
      * acceleration */
     check_incline_slides(IN_DOUBLE, 1e-12);
     check_incline_slides(IN_FLOAT, 6e-4);
@@ -111,7 +111,7 @@ static void check_table_sticks(stepping how) {
     motion_close(&m);
 }
 
-/* mu_s g/w^2 is the largest amplitude that does not slip. */
+/* mu_s g/w^2 is the largest amplitude without slip. */
 static void test_block_slips_from_the_closed_forms_amplitude_on(void) {
     const double w = 4.0 * pi();
     for (int side = -1; side <= 1; side += 2) {
@@ -130,8 +130,8 @@ static void test_block_slips_from_the_closed_forms_amplitude_on(void) {
     check_table_sticks(IN_FLOAT);
 }
 
-/* Breaks loose at sin(w t) = mu_s g/(A w^2), and then slides with the table's acceleration less mu_k g: its
- * speed a step later tells when that was. */
+/* Breaks loose at sin(w t) = mu_s g/(A w^2), then slides with the table's acceleration minus mu_k g. Its speed a step
+ * later yields the time of that. */
 static void test_slip_begins_where_the_closed_form_says(void) {
     const double w = 4.0 * pi();
     const double A = 0.040;
@@ -152,8 +152,8 @@ static void test_slip_begins_where_the_closed_form_says(void) {
         low = speed > v ? t0 : low;
         high = speed > v ? high : t0;
     }
-    /* the push is a sine of a linear phase, which the location knows exactly: rounding, of 1e-16 over
-     * the margin's slope, and of the speed over its acceleration; some dozens of each */
+    /* the push is a sine of a linear phase, located exactly: some dozens of round-offs, of 1e-16 over the margin's
+     * slope and of the speed over its acceleration */
     expect_between("slip begins off the closed form, s", 0.0, 1e-13, fabs(low - onset));
     /* and not at a step's end */
     TEST_ASSERT_TRUE(fabs(onset * 1e3 - floor(onset * 1e3 + 0.5)) > 0.01);
@@ -165,7 +165,7 @@ static void test_net_drift(void) {
     motion_to(&m, 5.0);
     const double s = motion_value(&m, "s");
     motion_to(&m, 10.0);
-    /* closed form: what the second half period does is the first's mirror image */
+    /* closed form: the second half period mirrors the first */
     expect_between("even shaking: drift in ten periods, m", -1e-9, 1e-9, motion_value(&m, "s") - s);
     motion_close(&m);
     motion_open(&m, "table_drifts", IN_DOUBLE);
@@ -176,7 +176,7 @@ static void test_net_drift(void) {
     const double wanted = contacts_reference("table_drifts", "10.0", "s") -
                           contacts_reference("table_drifts", "5.0", "s");
     printf("  uneven shaking: %.9g m in ten periods\n", drift);
-    /* own choice: a millionth */
+    /* chosen here: a millionth */
     expect_between("uneven shaking: drift over the reference's", 1.0 - 1e-6, 1.0 + 1e-6,
                    drift / wanted);
     TEST_ASSERT_TRUE(wanted < -0.2);
@@ -185,8 +185,8 @@ static void test_net_drift(void) {
 
 /* --- stick-slip on the belt ------------------------------------------------------------------------------ */
 
-/* Each time it sticks it is carried with the belt from one place on it to the next, which lie a belt's way of
- * one period apart. Spots passed from `first` on: mean, least and largest distance, as times. */
+/* Each sticking phase carries it along the belt between two spots; these are one period of the belt apart. From spot
+ * `first` on: mean, least and largest distance, as times. */
 static void periods(const char *which, stepping how, double *mean, double *least, double *most) {
     motion m;
     double spot[64];
@@ -204,7 +204,7 @@ static void periods(const char *which, stepping how, double *mean, double *least
     TEST_ASSERT_TRUE(spots > 10);
     *least = HUGE_VAL;
     *most = 0.0;
-    for (unsigned i = 2; i < spots; i++) { /* from the start to the second is no whole cycle */
+    for (unsigned i = 2; i < spots; i++) { /* from the start to the second spot is no whole cycle */
         const double period = (spot[i - 1] - spot[i]) / 0.1;
         *least = fmin(*least, period);
         *most = fmax(*most, period);
@@ -232,14 +232,14 @@ static void test_stick_slip_period(void) {
     expect_between("reference against the closed form", -1e-12, 1e-12, reference / closed - 1.0);
     check_belt("belt_stick_slip", closed, IN_DOUBLE, 1e-4); /* the project's bound */
     check_belt("belt_stick_slip", closed, IN_FLOAT_COMPENSATED, 1e-4);
-    /* without compensation the belt's own place, up to 1 m in sums of 0.1 mm, is off by up to 2^-25 m a
-     * step: 3e-4 of its speed */
+    /* without compensation the belt's own place, up to 1 m in sums of 0.1 mm, has errors up to 2^-25 m per step: 3e-4
+     * of its speed */
     check_belt("belt_stick_slip", closed, IN_FLOAT, 3e-4);
     const double stiffer = contacts_reference("belt_stiffening", "period", "T");
     check_belt("belt_stiffening", stiffer, IN_DOUBLE, 1e-4);
     check_belt("belt_stiffening", stiffer, IN_FLOAT_COMPENSATED, 1e-4);
     check_belt("belt_stiffening", stiffer, IN_FLOAT, 3e-4);
-    /* and how much better it is: RK4 with w h = 0.01 (0.02) */
+    /* compensation is better: RK4 with w h = 0.01 (0.02) */
     check_belt("belt_stick_slip", closed, IN_DOUBLE, 1e-9);
     check_belt("belt_stiffening", stiffer, IN_DOUBLE, 1e-8);
 }

@@ -1,5 +1,5 @@
-/* test_contact_holds.c: holds keep their place, over 1e5 steps and more: rods, linkages, gears. What they keep is
- * state: an assignment gives it anew. Linkages that lie flat are refused. */
+/* test_contact_holds.c: holds keep their place over 1e5 steps and more: rods, linkages, gears. The held value is state;
+ * an assignment sets it again. Linkages that lie flat are refused. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ void suite_contact_rest(void);
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
-/* Largest |output `off`| of the text's scene over `steps` steps, looked at now and then; by `scale`. */
+/* Largest |output `off`| of the text's scene over `steps` steps, sampled; relative to `scale`. */
 static double worst_off(const char *text, const engine_kind *kind, long steps, double scale) {
     motion m;
     double worst = 0.0;
@@ -79,7 +79,7 @@ typedef struct linkage {
     double rate[3];
 } linkage;
 
-/* Place coupler and rocker at a crank angle; false where it cannot be closed. */
+/* Places coupler and rocker at a crank angle; false if they cannot close. */
 static bool close_linkage(linkage *l) {
     const double x = l->side[3] - l->side[0] * cos(l->angle[0]);
     const double y = -l->side[0] * sin(l->angle[0]);
@@ -120,7 +120,7 @@ static void write_linkage(const linkage *l, const double inertia[3], double step
              step_s);
 }
 
-/* A crank that can turn: its shortest side, and shortest + longest < the two others. */
+/* A crank that can turn fully: the shortest side, with shortest + longest < sum of the others. */
 static bool random_linkage(uint64_t *seed, linkage *l) {
     *l = (linkage){.side = {random_between(seed, 0.03, 0.1), random_between(seed, 0.2, 0.5),
                             random_between(seed, 0.2, 0.5), random_between(seed, 0.2, 0.5)},
@@ -148,8 +148,8 @@ static void test_linkages_stay_closed(void) {
     }
 }
 
-/* Where the shortest and the longest side make as much as the others, a linkage lies flat once a turn, and has two
- * ways to go on from there. */
+/* If shortest + longest equals the sum of the others, a linkage lies flat once per turn and can continue in two
+ * ways. */
 static void test_a_flat_linkage_is_refused(void) {
     const char *asked = getenv("WHIRL_FLAT_RUNS");
     const int runs =
@@ -162,7 +162,7 @@ static void test_a_flat_linkage_is_refused(void) {
         linkage l = {.side = {crank, coupler, crank, coupler},
                      .angle = {random_between(&seed, 0.4, 2.7)},
                      .rate = {random_between(&seed, 1.0, 10.0)}};
-        if (i % 3 == 0) { /* no parallelogram, but flat all the same */
+        if (i % 3 == 0) { /* no parallelogram, but also flat */
             const double more = random_between(&seed, 0.01, 0.04);
             l.side[1] += more;
             l.side[2] += 0.05;
@@ -187,21 +187,21 @@ static void test_a_flat_linkage_is_refused(void) {
                 printf("%sstatus %d, a = %g, %s\n", text, (int)status, motion_value(&m, "a"),
                        KINDS[n]->name);
             }
-            /* not long before, and the last good state is kept */
+            /* not much earlier, and the last good state is kept */
             missed[n] += status != WH_E_SINGULAR || flat > 0.1;
             motion_close(&m);
         }
     }
     printf("  %d flat linkages: %d missed in double, %d in float\n", runs, missed[0], missed[1]);
     TEST_ASSERT_EQUAL_INT(0, missed[0]);
-    /* a float's closure is as good as a gap of 1e-8 of the sides: some pass that, and turn back */
+    /* float closure corresponds to a gap of 1e-8 of the sides: some runs pass that point and turn back */
     TEST_ASSERT_LESS_OR_EQUAL_INT(runs / 100, missed[1]);
 }
 
 /* --- gears ------------------------------------------------------------------------------------------------------ */
 
-/* Turned by 20000 rad, which a double knows to 4e-12. In float, where angles are integers, the mesh of gears whose
- * ratio a float holds is kept as such; another ratio to within what a float makes of it. */
+/* Turned by 20000 rad, which a double resolves to 4e-12. In float, angles are integers: a gear ratio that float
+ * represents keeps its mesh exactly, another one as well as its rounded ratio. */
 static void test_gears_keep_their_mesh(void) {
     uint64_t seed = 14;
     static const double ratios[] = {1.0, 2.0, -3.0, 1.5, 0.0};
@@ -229,9 +229,9 @@ static void test_gears_keep_their_mesh(void) {
     }
 }
 
-/* --- what is kept is state -------------------------------------------------------------------------------------- */
+/* --- held values are state -------------------------------------------------------------------------------------- */
 
-/* An assignment that moves a held body is not undone: the hold keeps where it was put; and the books balance. */
+/* An assignment that moves a held body is not undone: the hold keeps the new place, and the energy balance closes. */
 static void test_an_assignment_gives_it_anew(void) {
     uint64_t seed = 15;
     for (int i = 0; i < 10; i++) {
@@ -263,8 +263,8 @@ static void test_an_assignment_gives_it_anew(void) {
     }
 }
 
-/* A stop that an input raises, and what is held to the body on it, straight or along a chain, the mass matrix coupled
- * or not: all of it comes along, by as much as keeps what is held. */
+/* An input raises a stop. Bodies held to the body on it, directly or along a chain, with a coupled or uncoupled mass
+ * matrix, move along by the distance that keeps the hold. */
 static void test_what_is_held_to_a_raised_body_comes_along(void) {
     uint64_t seed = 17;
     double worst[2] = {0.0, 0.0};
@@ -304,15 +304,15 @@ static void test_what_is_held_to_a_raised_body_comes_along(void) {
 
 /* --- a hold freezes its own condition ----------------------------------------------------------------------------- */
 
-/* An expression, and what moves it: bodies of 1 kg or kg*m^2, pushed along it by $f. */
+/* An expression and its bodies of 1 kg or kg*m^2, pushed along it by $f. */
 typedef struct held {
     const char *expression;
-    const char *unit; /* of it, and */
+    const char *unit; /* of the expression, */
     const char *push; /* of the force */
     const char *coordinates;
     const char *kinetic;
     double yields; /* its acceleration by a force of 1; 0: not constant */
-    /* $v its value, $r its rate, $c and $w a place and a rate that are none of it */
+    /* $v its value, $r its rate; $c and $w a place and a rate outside it */
     const char *start;
 } held;
 
@@ -329,8 +329,8 @@ static const held helds[] = {
      "y' = $r [m/s]*sin($c) + $w [m/s]*cos($c)"},
 };
 
-/* $e is the expression, $l its limit, as the input L is; p rests at 0, d falls by 1 m/s. Those from LET_GO on are let go of
- * when d comes to zero. */
+/* $e is the expression, $l its limit, the input L; p rests at 0, d falls by 1 m/s. Conditions from LET_GO on release
+ * when d reaches zero. */
 static const char *const edges[] = {
     "$e < $l",
     "$l - $e > 0",
@@ -370,8 +370,9 @@ static const char *fill(const char *from, const held *of, const double number[st
     return to;
 }
 
-/* Where such a hold closes, its condition is at its limit, to the last digits. It stays held in both numbers, whatever pulls, and
- * whatever else happens in the same steps, until something else lets it go. One that begins there holds unless it goes out. */
+/* When such a hold closes, its condition is at its limit to the last digits. It holds in both number formats, against
+ * any pull and other events in the same steps, until another condition releases it. A hold that starts at its limit
+ * stays, unless it moves out. */
 static void test_a_hold_stays_at_its_own_limit(void) {
     dice d = dice_of("contact_holds", 1);
     int failures = 0;
@@ -381,17 +382,17 @@ static void test_a_hold_stays_at_its_own_limit(void) {
         char filled[2][600];
         const held *of = &helds[i % HELDS];
         const unsigned form = dice_one_of(&d, of->yields > 0.0 ? EDGES : LET_GO);
-        /* in float a small square is lost in those that it is multiplied out to */
+        /* in float a small square is lost in its expansion */
         const double least = strchr(edges[form], '^') != NULL ? 0.5 : 0.02;
         const double limit = exp(dice_between(&d, log(least), log(2.0)));
         const unsigned begins =
-            dice_one_of(&d, 6); /* 0, 1, 2: at the limit, and goes out, rests, comes */
+            dice_one_of(&d, 6); /* 0, 1, 2: at the limit, moving out, resting, moving in */
         const double gap = begins < 3 ? 0.0 : exp(dice_between(&d, log(0.01), log(0.5)));
         const double force = dice_between(&d, 0.1, 5.0);
         const double across = dice_between(&d, -2.0, 2.0) * limit / (limit + gap);
         const double turns =
             of->yields > 0.0 ? 0.0 : across * across * (pow(1.0 + gap / limit, 2.0) - 1.0);
-        /* of a potential that bends the way in a step: the location ends short of the limit, or beyond */
+        /* the potential bends the motion within a step: the location ends before the limit, or beyond */
         const double bends = gap > 0.0 && form < LET_GO ? dice_between(&d, 0.0, 2.0) : 0.0;
         const double work = force * gap + bends * gap / (limit + gap);
         const double speed =
@@ -440,8 +441,8 @@ void suite_contact_holds(void) {
 }
 
 /* === contact load ============================================================================= */
-/* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts
- * that something other than a force disturbs: an assignment, an input. */
+/* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts disturbed by an assignment
+ * or an input. */
 
 #define G 9.81
 
@@ -452,17 +453,17 @@ static const stepping *each_number(int i) {
     return i < 3 ? &ways[i] : NULL;
 }
 
-/* --- who gives way ------------------------------------------------------------------------------------- */
+/* --- the weaker contact -------------------------------------------------------------------------------- */
 
-/* The push is beyond the limit of either friction; but what the block's friction can pass on, 4.905 N, is less
- * than the plank's 5.886 N. */
+/* The push exceeds both friction limits. But the block's friction can pass on 4.905 N, less than the plank's 5.886
+ * N. */
 static void test_the_weaker_friction_protects_the_other(void) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
         motion_open(&m, "plank_stays", *each_number(i));
         motion_to(&m, 1.0);
         TEST_ASSERT_TRUE(motion_value(&m, "x") == 0.0 && motion_value(&m, "x'") == 0.0);
-        /* closed form: (P/m - mk g) t^2/2; a thousand roundings of a sum */
+        /* closed form: (P/m - mk g) t^2/2; a thousand round-offs of a sum */
         const double bound = each_number(i)->kind == &engine_float ? 1e-4 : 1e-12;
         expect_between("u over the closed form, less 1", -bound, bound,
                        motion_value(&m, "u") / (0.5 * (10.0 / 2.0 - 0.2 * G)) - 1.0);
@@ -470,8 +471,8 @@ static void test_the_weaker_friction_protects_the_other(void) {
     }
 }
 
-/* Three contacts on two coordinates: the forces are not unique, and no single split of the load may move what
- * the contacts can hold together. */
+/* Three contacts on two coordinates: the forces are not unique. No split of the load may move bodies that the contacts
+ * can hold together. */
 static void test_leaning_blocks_rest_exactly(void) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
@@ -485,13 +486,13 @@ static void test_leaning_blocks_rest_exactly(void) {
         TEST_ASSERT_TRUE(motion_value(&m, "x") == x && motion_value(&m, "y") == y);
         TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
         TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
-        /* apart by the blocks' width, as near as its sum rounds */
+        /* apart by the blocks' width, within its sum's round-off */
         expect_between("y - x - w", -1e-7, 1e-7, y - x - 0.1);
         motion_close(&m);
     }
 }
 
-/* Frictions that only together carry what holds them together: capacities of 3.687 N each, load 6.710 N. */
+/* Only together can the frictions hold it: capacities of 3.687 N each, load 6.710 N. */
 static void test_frictions_add_up_through_a_hold(void) {
     static const char text[] =
         "mechanism coupled\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n"
@@ -540,7 +541,7 @@ static void run_groove(const char *const slopes[2], const char *restitution,
     const uint64_t events = contacts_events(&m);
     printf("  %s, %s, %s, %s: %llu events, %llu overruns\n", slopes[0], slopes[1], restitution,
            kind->name, (unsigned long long)events, (unsigned long long)contacts_overruns(&m));
-    /* at rest in the corner, where gravity and both sides leave nothing but what a product rounds */
+    /* at rest in the corner; gravity and both sides leave only a product's round-off */
     const double speed = hypot(motion_value(&m, "x'"), motion_value(&m, "y'"));
     TEST_ASSERT_TRUE(speed < 1e-15);
     TEST_ASSERT_TRUE(hypot(motion_value(&m, "x"), motion_value(&m, "y")) < 1e-15);
@@ -558,7 +559,7 @@ static void test_a_ball_comes_to_rest_in_a_groove(void) {
     }
 }
 
-/* Three carts, one after another, in plastic impacts, and nothing that presses them together. */
+/* Three carts in a row, in plastic impacts, without a force that presses them together. */
 static void test_plastic_impacts_without_a_force(void) {
     static const char text[] =
         "mechanism carts\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
@@ -580,7 +581,7 @@ static void test_plastic_impacts_without_a_force(void) {
     motion_close(&m);
 }
 
-/* --- what disturbs resting contacts ----------------------------------------------------------------------- */
+/* --- disturbances of resting contacts --------------------------------------------------------------------- */
 
 #define FLOOR \
     "mechanism kicked\ncoordinate y [m]\ncoordinate c [rad]\nparameter m = 1 [kg]\n" \
@@ -589,7 +590,7 @@ static void test_plastic_impacts_without_a_force(void) {
     "T = m*y'^2/2 + J*c'^2/2\nV = m*g*y\nstop y >= floor restitution e\n" \
     "scene s {\n  start y = 0, c' = 1 [rad/s]\n  with ledger\n  step 1 [ms]\n  until 4 [s]\n"
 
-/* A ball at rest; when the clock c passes 0.5 s, `set`. Its height at `at_s`. */
+/* A ball at rest; `set` acts when the clock c passes 0.5 s. Returns its height at `at_s`. */
 static double height_after(const char *set, double at_s, const engine_kind *kind) {
     char text[600];
     motion m;
@@ -610,12 +611,12 @@ static void test_an_assignment_lifts_or_throws_what_rests(void) {
         const double bound = kind == &engine_float ? 1e-5 : 1e-9;
         expect_between("thrown up with 2 m/s, after 0.2 s", -bound, bound,
                        height_after("y' = 2 [m/s]", 0.7, kind) - (0.4 - 0.5 * G * 0.04));
-        /* thrown down: back up with half of it */
+        /* thrown down: returns with half of it */
         expect_between("thrown down with 4 m/s, after 0.2 s", -bound, bound,
                        height_after("y' = -4 [m/s]", 0.7, kind) - (0.4 - 0.5 * G * 0.04));
         expect_between("lifted by 1 m, after 0.2 s", -bound, bound,
                        height_after("y = 1 [m]", 0.7, kind) - (1.0 - 0.5 * G * 0.04));
-        /* beyond the stop: put back onto it at once */
+        /* beyond the stop: put back at once */
         expect_between("pushed through, after 0.2 s", 0.0, 0.0,
                        height_after("y = -1 [m]", 0.7, kind));
     }
@@ -639,7 +640,7 @@ static void test_an_input_moves_a_stop(void) {
     }
 }
 
-/* Restitution beyond 0 ... 1, from an input, counts as the nearer end: no energy from nothing. */
+/* A restitution outside 0 ... 1 from an input counts as the nearer end, so that no energy appears. */
 static void test_restitution_has_its_range_while_running(void) {
     motion m;
     stepping how = IN_DOUBLE;
@@ -656,7 +657,7 @@ static void test_restitution_has_its_range_while_running(void) {
     motion_close(&m);
 }
 
-/* What a hold keeps is captured again, and booked: momentum m (2 - 0), energy m 2^2/2. */
+/* A held rate is captured again and booked: momentum m (2 - 0), energy m 2^2/2. */
 static void test_a_hold_takes_what_an_assignment_gives(void) {
     static const char text[] =
         "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
@@ -673,7 +674,7 @@ static void test_a_hold_takes_what_an_assignment_gives(void) {
     expect_between("z'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "z'"));
     m.kind->ledger(m.run, total, left);
     expect_between("energy left over", -1e-14, 1e-14, left[0]);
-    bool booked = false; /* what the capture took: half of what the assignment gave */
+    bool booked = false; /* the capture took half of the assignment's energy */
     for (int i = 0; i < 64; i++) {
         booked = booked || fabs(total[i] + 1.0) < 1e-14;
     }
@@ -681,7 +682,7 @@ static void test_a_hold_takes_what_an_assignment_gives(void) {
     motion_close(&m);
 }
 
-/* Met exactly at a step's end, a crossing is located as well as anywhere: 0.5 = 32 steps of 1/64 s. */
+/* A crossing exactly at a step's end is located like any other: 0.5 = 32 steps of 1/64 s. */
 static void test_a_crossing_at_a_steps_end_is_located(void) {
     static const char text[] =
         "mechanism clock\ncoordinate c [rad]\ncoordinate x [m]\nparameter J = 1 [kg*m^2]\n"
@@ -712,11 +713,11 @@ void suite_contact_load(void) {
 }
 
 /* === contact rest ============================================================================= */
-/* Bodies that come to rest together, pressed upon each other by nothing but their braking: what
- * static friction can keep stays at rest, whatever rounding leaves of forces and rates there. */
+/* Bodies that come to rest together, pressed together only by their braking: static friction keeps them at rest,
+ * whatever the round-off of forces and rates. */
 
-/* x brakes, y pushes it from behind through a straight or curved buffer; the push on one of them is less than that
- * one's static friction. With `both`, y rubs, too. */
+/* x brakes; y pushes it through a straight or curved buffer. The push on one of them is below its static friction. With
+ * `both`, y rubs, too. */
 static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, size_t size) {
     const double mass[2] = {exp(random_between(seed, -1.0, 1.0)),
                             exp(random_between(seed, -1.0, 1.0))};
@@ -728,7 +729,7 @@ static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, siz
     const double ratio = random_bits(seed) % 3U != 0 ? random_between(seed, 0.5, 1.0) : 1.0;
     const double push = random_between(seed, -0.5, 0.5) * mu * ratio * normal;
     char second[160] = "";
-    if (both) { /* gently: y goes on pushing */
+    if (both) { /* gently: y keeps pushing */
         const double own = 0.05 * normal * slope * mass[1] / mass[0];
         snprintf(second, sizeof second, "friction y static %.17g kinetic %.17g normal %.17g [N]\n",
                  mu, mu * ratio, own);
@@ -781,8 +782,8 @@ static void test_wagons_that_both_brake(void) { check_wagons(true, true, "curved
 
 /* --- rows of wagons ---------------------------------------------------------------------------------------- */
 
-/* Wagons with brakes and plastic buffers, in a row before a wall or without one, pushed by less than static friction
- * holds: they come to rest, in few events, in the same place for every step, and none beyond another. */
+/* A row of wagons with brakes and plastic buffers, with or without a wall, pushed below static friction. They come to
+ * rest in few events, in the same place for every step, without overlap. */
 static void write_row(uint64_t *seed, int wagons, bool wall, char *text, size_t size) {
     int at = snprintf(text, size, "mechanism row\n");
     char T[400] = "0";
@@ -879,8 +880,8 @@ static void test_rows_of_wagons(void) {
 
 /* --- a force elsewhere ------------------------------------------------------------------------------------------ */
 
-/* A small body that a growing force pulls off, or along, beside a large force on another that has nothing to do with
- * it: neither number may mistake the one for the other's rounding. */
+/* A growing force pulls a small body off or along, beside an unrelated large force on another body. The round-off of
+ * one must not be mistaken for the other. */
 static void test_a_force_elsewhere_holds_nothing(void) {
     for (int i = 0; i < 8; i++) {
         char text[700];

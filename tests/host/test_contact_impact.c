@@ -1,10 +1,9 @@
-/* test_contact_impact.c: impacts through a coupled mass matrix: a cart with a pendulum, and either of them
- * against a wall (core/models/contacts.whirl, `crash`).
+/* test_contact_impact.c: impacts through a coupled mass matrix: a cart with a pendulum, either of them against a wall
+ * (core/models/contacts.whirl, `crash`).
  *
- * Closed form. M = (M + m, m l cos; m l cos, m l^2); a stop with the gradient J leaves
- * v+ = v + M^-1 J^T (1 + e) |J v|/(J M^-1 J^T). Without gravity and with the pendulum at rest nothing
- * moves but uniformly before the impact; the wall is placed so that the cart meets it just before the end of a
- * step, so that what the step's state shows is the impact's. */
+ * Closed form: M = (M + m, m l cos; m l cos, m l^2). A stop with gradient J leaves v+ = v + M^-1 J^T (1 + e) |J v|/(J
+ * M^-1 J^T). Without gravity and with the pendulum at rest, the motion before the impact is uniform. The cart meets the
+ * wall just before the end of a step, so the step's state shows the impact alone. */
 #include "contacts.h"
 
 #include <math.h>
@@ -51,7 +50,7 @@ static velocities impact(velocities v, velocities J) {
 static velocities run(const char *called, const char *distance, double offset, stepping how) {
     motion m;
     char more[400];
-    /* the wall is met in the 256th step of 2^-10 s, some 1e-15 s (in float 1e-6 s) before its end */
+    /* the impact is in the 256th step of 2^-10 s, some 1e-15 s (in float 1e-6 s) before its end */
     const double early = how.kind == &engine_double ? 2e-15 : 2e-6;
     snprintf(more, sizeof more,
              "\nscene meets {\n  use crash\n  with %s\n  set %s = %.17g [m]\n"
@@ -67,7 +66,7 @@ static velocities run(const char *called, const char *distance, double offset, s
     return v;
 }
 
-/* `bound`: on the velocities; `free`: on the momentum along which the wall does not push, relative. */
+/* `bound`: on the velocities; `free`: relative, on the momentum that the wall does not change. */
 static void check(const char *what, velocities J, velocities got, double bound, double free) {
     const velocities before = {SPEED, 0.0};
     const velocities want = impact(before, J);
@@ -76,20 +75,20 @@ static void check(const char *what, velocities J, velocities got, double bound, 
     printf("  %s: X' = %.15g, theta' = %.15g\n", what, got.X, got.theta);
     expect_between("  cart's speed off the closed form, m/s", 0.0, bound, fabs(got.X - want.X));
     expect_between("  pendulum's off, rad/s", 0.0, bound, fabs(got.theta - want.theta));
-    /* the impulse is a multiple of J: the momentum across it stays */
+    /* the impulse is a multiple of J: the momentum across it is constant */
     const double across = J.theta * (p.X - p_before.X) - J.X * (p.theta - p_before.theta);
     expect_between("  momentum along the free direction, change, relative", 0.0, free,
                    fabs(across) / fabs(p_before.theta));
-    /* and the impact did happen: the pendulum got its share */
+    /* and the impact happened: the pendulum got its share */
     TEST_ASSERT_TRUE(fabs(got.theta) > 1.0);
 }
 
 static void test_cart_meets_the_wall(void) {
     const velocities J = {-1.0, 0.0};
-    /* the project's bound; rounding, and the 10 N m that act for 2e-15 s after the impact */
+    /* the project's bound; round-off, and the 10 N m that act for 2e-15 s after the impact */
     check("cart, double", J, run("wall", "d", 0.0, IN_DOUBLE), 1e-12, 2e-14);
-    /* a float's last place is 2^-23: ten of them, times the system's condition, 14; after the impact 20
-     * rad/s^2 act for 2e-6 s */
+    /* a float's last place is 2^-23: ten of them, times the system's condition number, 14; after the impact 20 rad/s^2
+     * act for 2e-6 s */
     check("cart, float", J, run("wall", "d", 0.0, IN_FLOAT), 6e-5, 2e-5);
 }
 
@@ -100,7 +99,7 @@ static void test_bob_meets_the_wall(void) {
     check("bob, float", J, run("bob_wall", "d_b", offset, IN_FLOAT), 6e-5, 2e-5);
 }
 
-/* The pendulum's own speed counts as well: both swing, with gravity; reference from another program. */
+/* The pendulum's own speed matters, too: both swing, with gravity. Reference from another program. */
 static void test_impacts_of_a_swinging_pendulum_converge(void) {
     static const char *const names[] = {"crash_cart", "crash_both"};
     for (unsigned i = 0; i < 2; i++) {
@@ -120,10 +119,10 @@ static void test_impacts_of_a_swinging_pendulum_converge(void) {
             }
             before = error;
         }
-        /* the project's bound; the method's order is 4, and errors that cancel look like more */
+        /* the project's bound; the method's order is 4, and cancelling errors look like more */
         expect_between("  least order", 3.0, 6.0, least);
-        /* RK4 with w h = 0.0044: 3 s of 1.5e-9 a radian's (w h)^4/120 would be 5e-11; a wrong impact is
-         * off by its share of m/s */
+        /* RK4 with w h = 0.0044: 3 s of 1.5e-9 a radian's (w h)^4/120 would be 5e-11; a wrong impact has an error in
+         * the order of m/s */
         expect_between("  error at 1 ms", 1e-14, 1e-7, before);
     }
 }

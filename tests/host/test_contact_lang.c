@@ -1,5 +1,5 @@
-/* test_contact_lang.c: what stop, friction, hold, when and noise mean, as the structs say.
- * Expressions are judged by their values at states chosen here, against the same formula in C. */
+/* test_contact_lang.c: meaning of stop, friction, hold, when and noise in the parsed structs. Expressions are evaluated
+ * at chosen states and compared with the same formula in C. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -61,7 +61,7 @@ static void place_at(double x, double y, double phi, double vx, double vy, doubl
 
 static void expect(double wanted, const expr *e) {
     TEST_ASSERT_NOT_NULL(e);
-    if (!(fabs(value(e) - wanted) <= 1e-15)) { /* a few roundings of numbers near 1 */
+    if (!(fabs(value(e) - wanted) <= 1e-15)) { /* a few round-offs of numbers near 1 */
         printf("wanted %.17g, got %.17g\n", wanted, value(e));
     }
     TEST_ASSERT_TRUE(fabs(value(e) - wanted) <= 1e-15);
@@ -140,7 +140,7 @@ static bool four(double x, double y, double phi, double vx) {
     return (x > 0.5 || y > 0.25 || vx > 0.0) && phi > 0.0 && x - y < 0.7;
 }
 
-/* The condition is true where the formula is, on a grid that has no tie in it. */
+/* The condition equals the formula on a grid without ties. */
 static void check_condition(const char *text, truth *wanted) {
     char all[900];
     snprintf(all, sizeof all, "%shold x while %s\n", BASE, text);

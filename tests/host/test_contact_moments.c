@@ -1,5 +1,5 @@
-/* test_contact_moments.c: events that come thick: hops shorter than a step, and impacts that an impact of the same
- * moment causes. */
+/* test_contact_moments.c: dense events: flights shorter than a step, and impacts that cause impacts at the same
+ * moment. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -18,14 +18,14 @@ void suite_contact_scenes(void);
 void suite_contact_squeezed(void);
 void suite_crossings(void);
 
-/* === contact moments ========================================================================== */
+/* --- flights shorter than a step -------------------------------------------------------------- */
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
 /* --- hops shorter than a step -------------------------------------------------------------------------------- */
 
-/* A ball, or one on a spring, that bounces for ever with hops of `share` of a step: every hop must be counted, and
- * its energy kept. On a floor at 0: a higher one has no digits left for hops of 1e-7 m in float. */
+/* A ball, perhaps on a spring, that bounces for ever with flights of `share` of a step: every bounce is counted and its
+ * energy kept. The floor is at 0: in float, a higher one leaves no digits for flights of 1e-7 m. */
 static void hop(double share, double mass, double gravity, const engine_kind *kind) {
     char text[600];
     motion m;
@@ -64,8 +64,8 @@ static void test_hops_shorter_than_a_step(void) {
     }
 }
 
-/* What the last hop leaves of the gap is closed, and booked: from a bounce with restitution to rest nothing is left
- * over, beside the energy that is still there then. */
+/* The gap after the last flight is closed and booked: the balance from a bounce with restitution to rest has no
+ * residual, apart from the remaining energy. */
 static void test_the_last_gap_is_booked(void) {
     uint64_t seed = 6;
     for (int i = 0; i < 20; i++) {
@@ -89,16 +89,16 @@ static void test_the_last_gap_is_booked(void) {
     }
 }
 
-/* --- one impact makes another --------------------------------------------------------------------------------- */
+/* --- impacts that cause impacts ------------------------------------------------------------------------------- */
 
 enum { BODIES = 4 };
 
 typedef struct chain {
     double mass[BODIES], speed[BODIES], restitution;
-    int order[BODIES - 1]; /* in which its stops are declared */
+    int order[BODIES - 1]; /* order of declaration of its stops */
 } chain;
 
-/* Bodies that touch, pair after pair until none closes. Returns how often; *first_Ns is what the first body got. */
+/* Impacts of touching pairs until none closes. Returns their number; *first_Ns is the first body's impulse. */
 static int collide(chain *c, double *first_Ns) {
     int count = 0;
     bool again = true;
@@ -121,8 +121,8 @@ static int collide(chain *c, double *first_Ns) {
     return count;
 }
 
-/* They touch when the clock passes 0.3 ms, in the middle of a step, or at the start. The first flies into the
- * others, which are about to part: no stop rests. */
+/* They touch when the clock passes 0.3 ms, in the middle of a step, or at the start. The first hits the others, which
+ * are about to separate: no stop rests. */
 static void write_chain(const chain *c, bool at_start, char *text, size_t size) {
     const char *const name = "abcd";
     int at =
@@ -204,22 +204,22 @@ static void test_touching_bodies_pass_an_impact_on(void) {
     TEST_ASSERT_TRUE(worst[0] < 1e-12 && worst[1] < 1e-5);
 }
 
-/* The lower body stands at the very floor, free, and is pulled off it so hard that, hit by the upper one, it is on its
- * way out again before the step ends: the floor is hit all the same. */
+/* The lower body stands free on the floor. Hit by the upper one, it is pulled off so hard that it moves up again before
+ * the step ends. The floor must still be hit. */
 static void test_an_impact_that_is_over_within_the_step(void) {
     uint64_t seed = 8;
     for (int i = 0; i < 40; i++) {
         const double u = random_between(&seed, 0.2, 1.0);
         const double e = random_between(&seed, 0.2, 0.9);
         double mass[2] = {exp(random_between(&seed, -1.0, 1.0)), 0.0};
-        mass[1] = random_between(&seed, 0.05, 0.3) * e *
-                  mass[0]; /* it flies off, and does not come back */
+        mass[1] =
+            random_between(&seed, 0.05, 0.3) * e * mass[0]; /* it flies off and does not return */
         chain c = {{1e300, mass[0], mass[1], 1.0}, {0.0, 0.0, -u, 1e300}, e, {0}};
         double floor_Ns;
         if (collide(&c, &floor_Ns) > 6) {
             continue;
         }
-        /* out of the floor within the step; but weak enough that the two fly apart for more than a rest */
+        /* off the floor within the step, but so weakly that the two separate for longer than a rest */
         const double down = (1.0 + e) * u * mass[1] / (mass[0] + mass[1]);
         const double pull = random_between(&seed, 4.0, 10.0) * mass[0] * down / 1e-3;
         const char *const stops[] = {"stop low >= 0 restitution %.17g\n",
@@ -262,15 +262,13 @@ void suite_contact_moments(void) {
 }
 
 /* === contact scenes =========================================================================== */
-/* Every scene with contacts against a reference that another program located event by
- * event (tests/reference/contacts.txt), and how its error falls with the step; several contacts at once on
- * one mechanism among them.
+/* Every scene with contacts, some with several on one mechanism, against references located event by event by another
+ * program (tests/reference/contacts.txt), and the order of the error.
  *
- * The location is on a cubic and the method of fourth order, so an error falls with h^4; what is asked is
- * third order, taken over a step that is quartered, for at one step errors of many events may happen to
- * cancel. */
+ * The location uses a cubic and the method has order 4, so errors fall with h^4. The test asks for order 3 over a
+ * quartered step, since at one step the errors of many events may cancel. */
 
-/* The references' own digits: two runs of theirs differ by at most 5e-10 (contacts.py prints it). */
+/* Accuracy of the references: two of their runs differ by at most 5e-10 (contacts.py prints it). */
 #define REFERENCE_ERROR 1e-9
 
 typedef struct reference_case {
@@ -279,8 +277,8 @@ typedef struct reference_case {
     double time_s;
     double step_s;     /* coarse; fine is a quarter */
     double error_most; /* at the fine step, in double */
-    /* at the scene's own step, in float: what 24 bits leave of a state of this size after so many steps,
-     * times what its events make of it */
+    /* at the scene's own step in float: the round-off of a state of this size after all steps, amplified by its
+     * events */
     double error_float;
 } reference_case;
 
@@ -325,7 +323,7 @@ static void test_every_scene_meets_its_reference(void) {
         printf("  %-22s error %.2e at %g ms, %.2e at %g ms: order %.2f\n", c->name, coarse,
                1e3 * c->step_s, fine, 250.0 * c->step_s, order);
         TEST_ASSERT_TRUE_MESSAGE(fine <= c->error_most, c->name);
-        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* an error there must be */
+        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* an error must be visible */
         TEST_ASSERT_TRUE_MESSAGE(order >= 3.0 || fine <= REFERENCE_ERROR, c->name);
     }
 }
@@ -342,7 +340,7 @@ static void test_every_scene_runs_in_float(void) {
 
 /* --- several contacts on one coordinate --------------------------------------------------------------------- */
 
-/* While it is clamped it stands, friction or no friction, buffer or no buffer. */
+/* While clamped it stands still, with or without friction and buffer. */
 static void check_clamp(stepping how) {
     motion m;
     unsigned held = 0;
@@ -371,8 +369,8 @@ static void test_clamped_carriage_stands(void) {
     check_clamp(IN_FLOAT);
 }
 
-/* Restitution 0 on the right: it stays at the buffer, exactly, until the push turns and beats static
- * friction: F_0 sin(phi) = -mu_s m g. */
+/* Restitution 0 on the right: it stays exactly at the buffer until the push reverses and exceeds static friction: F_0
+ * sin(phi) = -mu_s m g. */
 static void test_carriage_leaves_the_buffer_when_the_push_beats_friction(void) {
     motion m;
     double leaves_s = -1.0;
@@ -393,8 +391,8 @@ static void test_carriage_leaves_the_buffer_when_the_push_beats_friction(void) {
     expect_between("leaves the buffer at, s into the turn", closed, closed + 1e-3, leaves_s);
 }
 
-/* A pendulum on a cart, dry friction under the cart and in the joint, a stop each: both come to rest, and stay
- * to the bit, the joint within the band that its friction holds. */
+/* A pendulum on a cart, with dry friction under the cart and in the joint and a stop on each. Both come to rest and
+ * stay to the bit, the joint within its friction band. */
 static const char TWO_FRICTIONS[] =
     "mechanism two\ncoordinate q [rad]\ncoordinate X [m]\nparameter g = 9.81 [m/s^2]\n"
     "T = 1 [kg]*((X' + 0.5 [m]*q'*cos(q))^2 + (0.5 [m]*q'*sin(q))^2)/2 + 2 [kg]*X'^2/2\n"
@@ -426,15 +424,15 @@ static void test_two_frictions_come_to_rest(void) {
     expect_between("torque at rest over the joint's static friction", -1.0, 1.0,
                    9.81 * 0.5 * sin(q[0]) / 0.1);
     TEST_ASSERT_TRUE(X[0] > 0.2);
-    /* the same with a quarter of the step: fourth order, 1e-8 at the places before they are stopped by
-     * friction of 0.05 N m and more; in float what 24 bits leave */
+    /* the same with a quarter of the step: fourth order, 1e-8 at the places before friction of 0.05 N m and more stops
+     * them; in float, the round-off of 24 bits */
     expect_between("joint, off the quarter step's, rad", 0.0, 1e-7, fabs(q[0] - q[1]));
     expect_between("cart, off the quarter step's, m", 0.0, 1e-7, fabs(X[0] - X[1]));
     expect_between("joint in float, rad", 0.0, 2e-5, fabs(q[2] - q[1]));
     expect_between("cart in float, m", 0.0, 2e-5, fabs(X[2] - X[1]));
 }
 
-/* Kick and drag agree: what is lost in a period is what a kick gives. */
+/* Kick and drag balance: the loss of a period equals a kick's energy. */
 static void test_escapement_reaches_its_amplitude(void) {
     const double d = 2e-5 / (2.0 * 1e-4);
     const double w = sqrt(0.01 / 1e-4 - d * d);
@@ -455,7 +453,7 @@ static void test_escapement_reaches_its_amplitude(void) {
             most = fmax(most, hypot(x, y) * exp(d * atan2(x, y) / w));
         }
     }
-    /* 95 kicks: the geometric series' rest */
+    /* 95 kicks: the rest of the geometric series */
     const double after = settled + (1.0 - settled) * start_left;
     expect_between("rate after a kick over the closed form", 1.0 - 1e-6, 1.0 + 1e-6, most / after);
     /* floor(60 w/(2 pi)), and none at the start */
@@ -473,26 +471,26 @@ void suite_contact_scenes(void) {
 }
 
 /* === contact squeezed ========================================================================= */
-/* More impacts than a step holds: a light body between heavier ones and walls is hit to and
- * fro, ever faster; or one between slanting walls. Nothing passes through anything, nobody gains energy, and where friction
- * is everywhere, all that moves loses some. */
+/* More impacts than a step allows: a light body between heavier ones and walls is hit ever faster, or one between
+ * slanting walls. Bodies pass through nothing and gain no energy. With friction everywhere, all moving bodies lose
+ * some. */
 
 enum { CONTACT_SQUEEZED_BODIES = 4, STEPS = 300, TEXT = 4000 };
 
-/* What is watched of a mechanism: the least gap of its stops, m, and its energy, which is all kinetic, J. */
+/* Observed quantities: the least gap of the stops, m, and the energy, all kinetic, J. */
 typedef double look(const void *of, const motion *m);
 
 typedef struct watched {
     const void *of;
     look *least_gap;
     look *energy;
-    bool rubs; /* friction at every coordinate: who moves on loses something */
+    bool rubs; /* friction on every coordinate: moving bodies lose energy */
     int steps;
-    double bound_m[2];  /* beyond a stop by no more: in double, in float */
-    double rounding[2]; /* the energy rises by no more, of what there was at the start */
+    double bound_m[2];  /* largest penetration in double, in float */
+    double rounding[2]; /* largest rise of the energy relative to the start */
 } watched;
 
-/* Runs one, in double or in float; returns its overruns. */
+/* Runs one in double or float; returns its overruns. */
 static uint64_t watch(const watched *w, const char *text, bool in_float, double *deepest_m) {
     motion m;
     motion_open_text(&m, text, in_float ? IN_FLOAT : IN_DOUBLE);
@@ -517,7 +515,7 @@ static uint64_t watch(const watched *w, const char *text, bool in_float, double 
     return overruns;
 }
 
-/* Of so many drawn ones by `run`, from seeds 1 on. */
+/* Runs `run` with seeds from 1 on. */
 static void watch_many(uint64_t run(uint64_t seed, double *deepest_m)) {
     const char *wanted = getenv("WHIRL_CASES");
     const long runs = wanted != NULL ? strtol(wanted, NULL, 10) : 100;
@@ -528,12 +526,12 @@ static void watch_many(uint64_t run(uint64_t seed, double *deepest_m)) {
     }
     printf("seeds 1 to %ld: beyond a stop by at most %.1e m, in float %.1e m; %llu overruns\n",
            runs, -deepest_m[0], -deepest_m[1], (unsigned long long)overruns);
-    TEST_ASSERT_TRUE(overruns > 0); /* else this was no test */
+    TEST_ASSERT_TRUE(overruns > 0); /* otherwise the test would be empty */
 }
 
 /* --- in a row --------------------------------------------------------------------------------------------------- */
 
-/* A row of bodies between two walls, without forces but friction. */
+/* A row of bodies between two walls, with no forces except friction. */
 typedef struct row {
     int n;
     double mass_kg[CONTACT_SQUEEZED_BODIES];
@@ -628,7 +626,7 @@ static uint64_t run_row(uint64_t seed, double *deepest_m) {
 
 static void test_nothing_is_squeezed_through(void) { watch_many(run_row); }
 
-/* The pair that was found: it ended 0.6 mm beyond. */
+/* The pair that revealed the error: it ended 0.6 mm beyond the wall. */
 static void test_a_pair_against_a_wall(void) {
     const row r = {.n = 2,
                    .mass_kg = {1.0, 0.1},
@@ -644,7 +642,7 @@ static void test_a_pair_against_a_wall(void) {
 
 enum { WALLS_MOST = 5, CAGE_STEPS = 60 };
 
-/* One body of two coordinates and any inertia among walls that close the origin in, some with friction in both
+/* One body of two coordinates and any inertia among walls that enclose the origin, some with friction in both
  * directions. */
 typedef struct cage {
     double mass_kg[3]; /* xx, xy, yy */
@@ -732,9 +730,9 @@ void suite_contact_squeezed(void) {
 }
 
 /* === crossings ================================================================================ */
-/* Several crossings, each with assignments of its own: each does its own ones, and in its own time. */
+/* Several crossings with assignments: each makes its own, in its own time. */
 
-/* x moves on at 1 m/s and crosses a level a second; each crossing gives some of y, z, u other rates. */
+/* x moves on at 1 m/s and crosses a level every second; each crossing sets rates of some of y, z, u. */
 static void test_each_crossing_sets_its_own(void) {
     static const char *const others[] = {"y", "z", "u"};
     uint64_t seed = 47;
@@ -785,11 +783,11 @@ static void test_each_crossing_sets_its_own(void) {
     }
 }
 
-/* --- what turns back ---------------------------------------------------------------------------------------------*/
+/* --- crossings that reverse the motion -------------------------------------------------------------------------- */
 
-/* A body falls to or past a level, by a pull of any sign, and crossing that sets its rate to k x' + c: mostly back, slower or
- * faster, or on. What it turns back from it has crossed once; going back over what the location left is no other crossing.
- * Between crossings it goes by a parabola, of which the next moment at the level is known. */
+/* A body falls to or past a level under a pull of either sign, and a crossing sets its rate to k x' + c: mostly back,
+ * or onward. Each reversal is one crossing; moving back over the location's residual is not another. Between crossings
+ * it moves on a parabola with known crossing times. */
 typedef struct bounce {
     int direction; /* of the crossing: +1 rising, -1 falling, 0 both */
     double pull;   /* m/s^2, downwards */
@@ -801,7 +799,7 @@ typedef struct bounce {
 
 enum { HITS_MOST = 12, HITS_IN_STEP = 5 };
 
-/* When it is at the level next; infinity: never. What is there leaves it first. */
+/* Time of the next crossing; infinity: never. A body at the level leaves it first. */
 static double next_hit_s(const bounce *b) {
     if (b->x_m == 0.0) {
         const double back_s = b->pull == 0.0 ? -1.0 : 2.0 * b->v_mps / b->pull;
@@ -821,8 +819,8 @@ static double next_hit_s(const bounce *b) {
     return low > 0.0 ? low : high > 0.0 ? high : (double)INFINITY;
 }
 
-/* Its way, to `end_s`; at[] gets the moments. Their count, or -1: too many, one that hardly leaves, or one that goes through
- * and would come back within the step, which its end does not see. */
+/* Its motion to `end_s`, with the crossing times in at[]. Returns their number; -1 for too many, for one that hardly
+ * leaves, or for one that would return within the step, which its end does not show. */
 static int go(bounce *b, double end_s, double step_s, double *at) {
     double time_s = 0.0;
     int hits = 0;
@@ -908,8 +906,8 @@ static void test_what_turns_back_crosses_once(void) {
     TEST_ASSERT_TRUE(taken > 10 && crowded > 1);
 }
 
-/* A body that its crossing stops, and that stands there, by itself or by friction, until another crossing moves it on or back: it
- * has crossed once. A second level, half a metre on, is crossed where it goes on, and counts. */
+/* A body stops at its crossing and stands, alone or by friction, until another crossing moves it on or back: it has
+ * crossed once. A second level, half a metre on, is crossed and counted on the way. */
 static void test_what_stands_at_its_crossing(void) {
     dice d = dice_of("what stands", 5521);
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -950,8 +948,8 @@ static void test_what_stands_at_its_crossing(void) {
     }
 }
 
-/* A body that one crossing sets onto the level of another, and that goes on from there or back: only what it passed on its way
- * has crossed, not what it was set onto, nor is it crossed when left. */
+/* One crossing sets a body onto the level of another, and it moves on or back. Only levels passed by motion are
+ * crossed. The level that it was set onto is not, nor is it crossed on leaving. */
 static void test_what_is_set_onto_another(void) {
     dice d = dice_of("set onto", 5522);
     unsigned passed = 0;
@@ -994,8 +992,8 @@ static void test_what_is_set_onto_another(void) {
     TEST_ASSERT_TRUE(passed > 5);
 }
 
-/* Each bounce without loss throws a rate across a crossing of that rate, and between bounces it falls through it: two crossings
- * a bounce. */
+/* Each lossless bounce throws a rate across a crossing of that rate, and between bounces it falls through it: two
+ * crossings per bounce. */
 static void test_what_impacts_throw_across(void) {
     dice d = dice_of("thrown across", 5523);
     unsigned bounced = 0;
@@ -1014,14 +1012,14 @@ static void test_what_impacts_throw_across(void) {
                  "stop x >= 0 [m] restitution 1\nwhen x' crosses %.17g [m/s] { set x' = x' }\n"
                  "scene s {\nstep %.17g [s]\nuntil %.17g [s]\nstart x = %.17g [m]\n}\n",
                  -g_mps2, level_mps, step_s, step_s * steps, height_m);
-        /* falls for fall_s, then up and down again and again */
+        /* falls for fall_s, then up and down repeatedly */
         const double end_s = step_s * steps;
         const int hits = end_s < fall_s ? 0 : 1 + (int)((end_s - fall_s) / (2.0 * fall_s));
         const double since_s = end_s - (hits == 0 ? 0.0 : fall_s + 2.0 * fall_s * (hits - 1));
         const double due_s = hits == 0 ? passes_s : fall_s + passes_s;
         const double next_s = hits == 0 ? fall_s : 2.0 * fall_s;
         if (fabs(since_s - due_s) < 1e-2 || since_s < 1e-2 || next_s - since_s < 1e-2) {
-            continue; /* too near to tell, in float */
+            continue; /* too near to decide in float */
         }
         motion m;
         motion_open_text(&m, text, i % 2 == 0 ? IN_DOUBLE : IN_FLOAT);

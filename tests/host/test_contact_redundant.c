@@ -1,6 +1,6 @@
-/* test_contact_redundant.c: a plate on two to five supports in a line, more than it needs: how they share the load is
- * undetermined, how it moves is not. It lies on them, is left by all at once when they fall away faster than it does, or
- * tips over the outermost when it is turned: against closed forms. */
+/* test_contact_redundant.c: a plate on two to five supports in a line, more than needed: the load's distribution is
+ * undetermined, the motion is not. It rests, or leaves all supports at once when they fall away faster, or tips over
+ * the outermost one under a torque. Closed forms. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,7 @@ enum { TEXT = 2000 };
 
 typedef struct plate {
     int supports;
-    double place_m[5]; /* rising; the last is the furthest to the right */
+    double place_m[5]; /* rising; the last is the furthest right */
     double mass_kg;
     double inertia_kgm2;
     double rate;   /* of the clock, rad/s */
@@ -38,7 +38,7 @@ static plate drawn(dice *d) {
     return p;
 }
 
-/* `falls`: the supports go up and down as height sin(c), and y is above them; else a torque of that turns the plate to the right. */
+/* `falls`: the supports move as height sin(c), with y above them; otherwise a torque turns the plate to the right. */
 static void write(const plate *p, bool falls, char text[TEXT]) {
     int at = snprintf(text, TEXT,
                       "mechanism plate\ncoordinate y [m]\ncoordinate a [rad]\ncoordinate c [rad]\n"
@@ -99,7 +99,7 @@ static void expect(bool falls, const char *words) {
     for (unsigned i = 0; i < cases; i++) {
         plate p = drawn(&d);
         double until_s = 0.0;
-        if (falls) { /* it flies at sin c0 = share, until a little beyond the top of the supports' swing */
+        if (falls) { /* it flies from sin c0 = share until shortly after the top of the supports' swing */
             const double share = dice_between(&d, 0.3, 0.9);
             p.height = GRAVITY / (share * p.rate * p.rate);
             until_s = 1.7 / p.rate;

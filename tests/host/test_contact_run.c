@@ -1,5 +1,5 @@
-/* test_contact_run.c: which stops, frictions, holds, whens and noises take part in one run, the ranges of
- * their numbers, and the ledger. */
+/* test_contact_run.c: selection of stops, frictions, holds, whens and noises for one run, ranges of their numbers, and
+ * the ledger. */
 #include <stdio.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ static instance *instance_of(int scene_number, const overrides *changes) {
     return made;
 }
 
-/* The instance is refused, and this is said. */
+/* The instance must be refused with this message. */
 static void refuse(int scene_number, const overrides *changes, const char *wanted) {
     TEST_ASSERT_NULL(instance_of(scene_number, changes));
     expect_said(wanted);
@@ -93,7 +93,7 @@ static void test_numbers_of_a_run_must_be_in_range(void) {
     TEST_ASSERT_NOT_NULL(instance_of(1, &(overrides){.sets = bouncy, .set_count = 1}));
 }
 
-/* Inputs count with the value they start with: declared, the scene's, or the command line's. */
+/* Inputs count with their initial value: declared, the scene's, or the command line's. */
 static void test_inputs_must_be_in_range_at_the_start(void) {
     const char *good[] = {"e_in=1"};
     const char *bouncy[] = {"e_in=1.01"};
@@ -121,7 +121,8 @@ static void test_inputs_must_be_in_range_at_the_start(void) {
     refuse(3, &(overrides){.sets = infinite, .set_count = 1},
            "error: the restitution is not a finite number (infinity)");
     TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
-    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* it depends on the motion: known at the impact */
+    TEST_ASSERT_NOT_NULL(
+        instance_of(4, NULL)); /* it depends on the motion: known only at the impact */
 }
 
 static void test_what_two_effects_must_not_give_together(void) {
@@ -138,7 +139,7 @@ static void test_what_two_effects_must_not_give_together(void) {
     TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.with = motor, .with_count = 1}));
 }
 
-/* The bound is on what takes part, not on what is written. */
+/* Only active contacts count toward the bound. */
 static void test_how_many_events_one_run_takes(void) {
     char text[4000] = BASE;
     for (int i = 0; i < 2 * CONTACTS_MAX; i++) {

@@ -1,5 +1,5 @@
-/* test_contact_start.c: what is pressed at the start of a run takes part in an impact of that very moment: a body that
- * touches a row at rest at t = 0 does what one does that meets it a little later, and counts as that. */
+/* test_contact_start.c: contacts pressed at the start take part in an impact at that moment. A body that touches a
+ * resting row at t = 0 acts and counts like one that meets it a little later. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,11 +23,11 @@ void suite_hybrids(void);
 
 enum { MOST = 5 };
 
-/* Bodies in a row on a floor, one upon the other, which their weights or loads press or not, and the uppermost comes
- * down on them from `gap_m` above. The stops stand in any order. */
+/* A vertical row of bodies on a floor, pressed or not by weights or loads; the top one comes down from `gap_m` above.
+ * Any order of the stops. */
 typedef struct row {
     uint64_t seed;
-    double offset_m; /* of the places, so that gaps are known to rounding only */
+    double offset_m; /* of the places, so that gaps have round-off */
     double gap_m;
 } row;
 
@@ -77,7 +77,7 @@ static int row_text(const row *of, char *text, size_t size) {
     return n;
 }
 
-/* The rates after one step, and its events. Returns whether it had too many. */
+/* The rates after one step, and its events. Were there too many? */
 static bool after_a_step(const row *of, double *rate, uint64_t *events) {
     char text[4000];
     motion m;
@@ -137,7 +137,7 @@ static void test_an_impact_at_the_start_is_as_one_just_after(void) {
     TEST_ASSERT_TRUE(over <= runs / 5);
 }
 
-/* What happens at t = 0 counts as it would later, in either number; what rests there, or is held, does not happen. */
+/* An impact at t = 0 counts as it would later, in either number format. Resting or held contacts do not count. */
 static void test_what_happens_at_the_start_is_counted(void) {
     static const struct {
         const char *statement;
@@ -179,8 +179,8 @@ void suite_contact_start(void) {
 }
 
 /* === contact together ========================================================================= */
-/* Several contacts at one moment: what happens does not depend on the order of the file, an
- * impact never gives energy, and what is symmetric stays so. */
+/* Several contacts at one moment: the result does not depend on the order of the file, an impact never adds energy, and
+ * symmetric cases stay symmetric. */
 
 static long wanted_runs(long usual) {
     const char *wanted = getenv("WHIRL_TANGLED_RUNS");
@@ -190,7 +190,7 @@ static long wanted_runs(long usual) {
 
 enum { STATES = 16, BALLS = 5 };
 
-/* The state at the end, and how many of its steps had too many events. */
+/* The state at the end, and the number of steps with too many events. */
 static int run(const tangle *of, double *state, uint64_t *overruns) {
     char text[4000];
     motion m;
@@ -210,8 +210,8 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
     return 2 * n;
 }
 
-/* Bodies that touch and are thrown at each other, alone and with friction, loads, holds and a crossing: from any order
- * of the statements comes the same motion, but for rounding. A step with too many events has no such promise. */
+/* Touching bodies thrown at each other, alone and with friction, loads, holds and a crossing: any order of the
+ * statements gives the same motion within round-off. Steps with too many events are excepted. */
 static void test_the_order_of_the_file_does_not_matter(void) {
     const long runs = wanted_runs(130);
     int over = 0;
@@ -243,7 +243,7 @@ static void test_the_order_of_the_file_does_not_matter(void) {
     TEST_ASSERT_TRUE(over <= runs / 5);
 }
 
-/* No stop, friction or hold ever gives energy, whatever happens together (but in a step that cannot hold all). */
+/* No stop, friction or hold ever adds energy, except in a step with too many events. */
 static void test_no_contact_gives_energy(void) {
     const long runs = wanted_runs((long)few_or_all(usual_or(15, 5), 130));
     double worst = 0.0;
@@ -269,7 +269,7 @@ static void test_no_contact_gives_energy(void) {
     TEST_ASSERT_TRUE(worst <= 1e-11);
 }
 
-/* Equal balls in a row, 10 cm each, that touch (gap 0) or nearly so; `speed` of each, m/s. */
+/* Equal balls in a row, 10 cm each, touching (gap 0) or nearly so; `speed` of each, m/s. */
 static void open_cradle(motion *m, double restitution, const double *speed, stepping how) {
     char text[2000];
     size_t at = 0;
@@ -302,9 +302,9 @@ static void expect_speeds(const motion *m, const double *speed, double bound) {
     printf("\n");
 }
 
-/* Newton's cradle: as many balls fly off as have come; a stop that is touched is hit in the next round of the moment.
- * Where two impacts of 2 and 1 m/s meet in the middle ball, both stops are hit at once: -4/3, 2/3 and 5/3 m/s.
- * Without restitution all that is touched goes on together. */
+/* Newton's cradle: as many balls leave as arrive; a touched stop is hit in the next round of the moment. If impacts of
+ * 2 and 1 m/s meet in the middle ball, both stops are hit at once: -4/3, 2/3 and 5/3 m/s. Without restitution all
+ * touching balls move on together. */
 static void test_newtons_cradle(void) {
     static const struct {
         double restitution;
@@ -329,8 +329,8 @@ static void test_newtons_cradle(void) {
     }
 }
 
-/* A ball falls into the corner of two planes that lean at 30 degrees to either side of x = 0 and touches both at once.
- * Each of its two normal speeds comes back times its own restitution: (n1, n2) v+ = -(e1 n1, e2 n2) v-. */
+/* A ball falls into the corner of two planes at 30 degrees to either side of x = 0 and touches both at once. Each
+ * normal speed returns times its own restitution: (n1, n2) v+ = -(e1 n1, e2 n2) v-. */
 static void corner(double e1, double e2, bool swapped, stepping how, double bound) {
     static const char left[] = "stop x/2 + y*sqrt(3)/2 >= 0 [m] restitution %.17g\n";
     static const char right[] = "stop y*sqrt(3)/2 - x/2 >= 0 [m] restitution %.17g\n";
@@ -375,16 +375,16 @@ void suite_contact_together(void) {
 }
 
 /* === hybrids ================================================================================== */
-/* Random planar linkages with up to three stops and dry frictions, against a program of another kind
- * (hybrid.h). WHIRL_CASES=10000 WHIRL_SEED=...: so many, others. */
+/* Random planar linkages with up to three stops and dry frictions, against an independent program (hybrid.h).
+ * WHIRL_CASES=10000 WHIRL_SEED=... chooses other cases. */
 
 #define STEP_S 0.25e-3
 #define UNTIL_S 0.5
 
-/* What is asked of every one of them. */
+/* Limit for each of them. */
 #define OFF_MOST 1e-6
 
-/* How far the program's motion is off at `until_s`. */
+/* Error of the program's motion at `until_s`. */
 static double off_at(double until_s, const hybrid *h, const hybrid_motion *wanted, double step_s,
                      const char *text) {
     motion m;
@@ -408,8 +408,8 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
     return off_at(UNTIL_S, h, wanted, step_s, text);
 }
 
-/* A motion too fast for the step: both programs' steps an eighth, and their errors 4096 times less. And a little later,
- * for an impact of drawn numbers may come at the end itself, where one of the two has had it and the other has not. */
+/* A motion too fast for the step: with an eighth of the step, both programs' errors are 4096 times smaller. And a
+ * little later, since an impact at the end itself may have happened in only one of them. */
 static double off_in_finer(const hybrid *h, const char *text) {
     const double later_s = UNTIL_S + 8.0 * STEP_S;
     const hybrid_motion wanted = hybrid_move(h, HYBRID_STEP_S / 8.0, later_s, STEP_S);
@@ -459,12 +459,12 @@ static void test_random_hybrids(void) {
         "%.0e; %u too fast for the step, or with an impact at the end, and right in an eighth of it; %u aside\n",
         cases, eventful, impacts, rests, worst, beyond, OFF_MOST, fast - beyond, aside);
     TEST_ASSERT_EQUAL_UINT(0, beyond);
-    TEST_ASSERT_TRUE(fast * 300 <= cases); /* of 300 none */
+    TEST_ASSERT_TRUE(fast * 300 <= cases); /* no refusal in 300 */
     TEST_ASSERT_TRUE(cases < 8 || (eventful * 3 >= cases && aside <= cases));
 }
 
-/* Blocks on springs, whose friction comes and goes with the load of a mass that swings: the moments at which it vanishes
- * are kinks of the force, and found, so that the error falls with the fourth power of the step. */
+/* Blocks on springs whose friction varies with the load of a swinging mass. The moments of zero load are kinks of the
+ * force and are located, so the error falls with the fourth power of the step. */
 static void test_normal_forces_that_vanish(void) {
     dice d = dice_of("hybrids", 17);
     double least = 1e9;

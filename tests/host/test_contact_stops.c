@@ -1,4 +1,4 @@
-/* test_contact_stops.c: balls on stops (core/models/contacts.whirl), each with a closed form. */
+/* test_contact_stops.c: balls on stops (core/models/contacts.whirl), with closed forms. */
 #include "contacts.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ void suite_contact_stops(void);
 
 /* --- bouncing to rest --------------------------------------------------------------------------------- */
 
-/* The first moment at which the ball is where it stays, then a minute of staying there. */
+/* Finds the first moment of rest, then checks a minute of rest. */
 static void check_rest(stepping how, double height_most) {
     motion m;
     double rest_s = 0.0;
@@ -36,7 +36,7 @@ static void check_rest(stepping how, double height_most) {
         }
         TEST_ASSERT_TRUE_MESSAGE(rests || rest_s <= 0.0, "left the stop again");
         if (contacts_events(&m) != events && !rests) {
-            /* energy says how high this bounce goes; the closed form: e^2 of the height before */
+            /* energy gives the height of this bounce; closed form: e^2 of the previous height */
             TEST_ASSERT_EQUAL_UINT64_MESSAGE(1, contacts_events(&m) - events, "two bounces a step");
             bounced *= 0.25;
             bounces++;
@@ -62,7 +62,7 @@ static void test_ball_comes_to_rest_and_stays_for_a_minute(void) {
 
 /* --- no energy gained ---------------------------------------------------------------------------------- */
 
-/* Restitution 1 for a minute. Most and least energy over the start's, after each step. */
+/* Restitution 1 for a minute. Most and least energy relative to the start, after each step. */
 static void elastic(stepping how, double *most, double *least) {
     motion m;
     motion_open(&m, "ball_elastic", how);
@@ -85,22 +85,20 @@ static void test_perfect_bounces_gain_no_energy(void) {
     double most;
     double least;
     elastic(IN_DOUBLE, &most, &least);
-    /* the project's bound above; below, the same: nothing may be lost either */
+    /* the project's bound above; the same below, since nothing may be lost either */
     expect_between("double: energy gained in a minute, relative", -1e-9, 1e-9, most);
     expect_between("double: energy lost in a minute, relative", -1e-9, 1e-9, least);
     elastic(IN_FLOAT, &most, &least);
-    /* 60000 sums, each rounded by at most 2^-24 of 4.4 m/s, of which a change in energy is twice as
-     * much: 7.2e-3 if all went one way; they do not: the square root of their number, 5.8e-5, times
-     * four */
+    /* 60000 sums, each rounded by at most 2^-24 of 4.4 m/s; an energy change is twice that: 7.2e-3 if all went one way.
+     * As a random walk it is the square root of their number, 5.8e-5, times four */
     expect_between("float: energy gained in a minute, relative", -2.4e-4, 2.4e-4, most);
     expect_between("float: energy lost in a minute, relative", -2.4e-4, 2.4e-4, least);
 }
 
 /* --- impact located inside the step -------------------------------------------------------------------- */
 
-/* With drag c v^2 on the way up: k = sqrt(c g/m), v in units of g/k. The moment of the impact follows from
- * any state on the way up in closed form: (g + c v^2/m) exp(2 c z/m) stays, and v = (g/k) tan(k (t1 -
- * t)). */
+/* With drag c v^2 on the way up: k = sqrt(c g/m), v in units of g/k. Any state on the way up yields the impact's time:
+ * (g + c v^2/m) exp(2 c z/m) is constant, and v = (g/k) tan(k (t1 - t)). */
 static double impact_s(const motion *m, double now_s, double *speed) {
     const double c = 0.1;
     const double k = sqrt(c * G);
@@ -145,10 +143,10 @@ static void test_impact_time_converges(void) {
         before = error;
         before_speed = speed;
     }
-    /* the project's bound: third order. Above: the location is a cubic's and the method's is 4, whose
-     * errors may cancel at one step */
+    /* the project's bound: third order. Above: the location is cubic and the method has order 4; its errors may cancel
+     * at one step */
     expect_between("least order of the impact's time", 3.0, 7.0, least);
-    /* rounding is far below: the last error must be the method's */
+    /* round-off is far below: the last error must be the method's */
     expect_between("impact's time off at 4 ms, s", 1e-15, 1e-9, before);
 }
 
@@ -187,7 +185,7 @@ static void test_ball_lifts_off_where_the_table_falls_faster(void) {
     check_hopper_rests(IN_FLOAT);
 }
 
-/* The flight in closed form: off at sin(w t) = g/(A w^2) with the table's speed. */
+/* Closed form of the flight: lift-off at sin(w t) = g/(A w^2) with the table's speed. */
 static void test_flight_off_the_table(void) {
     const double w = 20.0 * acos(-1.0);
     const double A = 0.003;
@@ -207,12 +205,12 @@ static void test_flight_off_the_table(void) {
     /* RK4's own error with w h = 0.063: (w h)^4/120 of the 3 mm a radian, 4e-10, and 3 radians */
     expect_between("flight off its closed form, m", 1e-14, 1.5e-9, worst);
     motion_to(&m, 10.0);
-    TEST_ASSERT_EQUAL_UINT64(200, contacts_events(&m)); /* ten hops a second */
+    TEST_ASSERT_EQUAL_UINT64(200, contacts_events(&m)); /* ten flights per second */
     motion_close(&m);
 }
 
-/* A stop that is curved: a particle slides down a dome of 1 m without friction, in Cartesian coordinates, and
- * leaves it where the dome would have to pull. */
+/* A curved stop: a particle slides down a frictionless dome of 1 m in Cartesian coordinates. It leaves the dome when
+ * contact would need a pull. */
 static const char DOME[] =
     "mechanism dome\ncoordinate x [m]\ncoordinate y [m]\nparameter g = 9.81 [m/s^2]\n"
     "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 1 [kg]*g*y\nstop sqrt(x^2 + y^2) >= 1 [m] restitution 0\n"
@@ -226,7 +224,7 @@ static double check_dome(stepping how, double off_most, double speed_most) {
         off = fmax(off, fabs(hypot(motion_value(&m, "x"), motion_value(&m, "y")) - 1.0));
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
     }
-    /* closed form: at cos = 2/3 + v0^2/(3 g R), with v^2 = g R cos; in flight x' = v cos stays */
+    /* closed form: at cos = 2/3 + v0^2/(3 g R), with v^2 = g R cos; in flight x' = v cos is constant */
     const double c = 2.0 / 3.0 + 0.25 / (3.0 * G);
     const double vx = motion_value(&m, "x'");
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 50));
@@ -241,8 +239,8 @@ static double check_dome(stepping how, double off_most, double speed_most) {
 }
 
 static void test_particle_leaves_the_dome_where_the_force_turns(void) {
-    /* the gap is put to zero after each step: to rounding. RK4 with a motion whose rate constant is
-     * sqrt(g/R) = 3.1: (3.1 h)^4/120, times a second of it and the speed */
+    /* the gap is zero after each step within round-off. RK4 with a rate constant sqrt(g/R) = 3.1: (3.1 h)^4/120, times
+     * a second of it and the speed */
     const double coarse = check_dome(IN_DOUBLE_STEP(8e-3), 1e-12, 1e-7);
     const double fine = check_dome(IN_DOUBLE_STEP(2e-3), 1e-12, 1e-9);
     expect_between("  order", 3.0, 5.5, log2(coarse / fine) / 2.0);
@@ -250,8 +248,8 @@ static void test_particle_leaves_the_dome_where_the_force_turns(void) {
     check_dome(IN_FLOAT, 3e-7, 3e-5);
 }
 
-/* Two blocks dropped on top of one another: the lower one rattles between floor and upper one, with more
- * bounces than a step takes, and both come to rest where they must be. */
+/* Two blocks dropped on each other: the lower one rattles between floor and upper one, with more bounces than a step
+ * takes. Both come to rest in their correct places. */
 static const char STACK[] =
     "mechanism stack\ncoordinate a [m]\ncoordinate b [m]\nparameter g = 9.81 [m/s^2]\n"
     "T = 1 [kg]*a'^2/2 + 2 [kg]*b'^2/2\nV = 1 [kg]*g*a + 2 [kg]*g*b\n"
@@ -294,7 +292,7 @@ static void test_too_many_bounces_are_told_and_end(void) {
     }
     TEST_ASSERT_TRUE(contacts_overruns(&m) >= 1);
     motion_close(&m);
-    /* a step that has room for its bounces: none is lost. 25 m/s over 1 mm, 25000 a second */
+    /* a step with room for its bounces loses none. 25 m/s over 1 mm, 25000 per second */
     motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
     motion_to(&m, 0.1);
     TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
@@ -304,7 +302,7 @@ static void test_too_many_bounces_are_told_and_end(void) {
     motion_close(&m);
 }
 
-/* Balls whose restitution follows the speed at which they hit: a warning says where it leaves 0 to 1, and only there. */
+/* Balls whose restitution depends on the impact speed: a warning must say where it leaves 0 to 1, and only there. */
 static void test_a_restitution_out_of_bounds_is_told(void) {
     dice d = dice_of("contact_stops", 5);
     const unsigned cases = dice_cases(24);

@@ -1,7 +1,7 @@
-/* test_convergence.c: how fast the error falls with the step: the measured order of every method.
+/* test_convergence.c: measured order of convergence of every method.
  *
- * Held against solutions that no step of Whirl's made: the matrix exponential of the two masses,
- * computed here in long double; the reference states of tests/reference; closed forms and books. */
+ * References do not come from Whirl's steps: the matrix exponential of the two masses, computed here in long double;
+ * the reference states of tests/reference; closed forms and conserved quantities. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,11 +17,11 @@ void suite_energy_kept(void);
 
 /* === convergence ============================================================================== */
 
-enum { HALVINGS = 4 }; /* steps measured, each half of the one before */
+enum { HALVINGS = 4 }; /* steps measured, each half of the previous one */
 
 typedef double error_of_run(motion *m, const void *of);
 
-/* Errors at HALVINGS steps of a built-in scene, or of a model's text; every measured order must lie in least ... most. */
+/* Errors at HALVINGS steps of a built-in scene or a model's text; every measured order must lie in least ... most. */
 static void expect_order(const char *what, const char *name, wh_method method, double first_step_s,
                          error_of_run *error, const void *of, double least, double most) {
     double errors[HALVINGS];
@@ -98,8 +98,8 @@ static void exponential(long double s[N][N], long double result[N][N]) {
     }
 }
 
-/* X, Y (in), X', Y' (in/s) of the absolute set at time_s, in the units of the dissertation: masses in
- * lbf*s^2/in, springs in lbf/in, dashpots in lbf*s/in. By Newton's law, not by Lagrange's. */
+/* X, Y (in), X', Y' (in/s) of the absolute set at time_s, in the units of the dissertation: masses in lbf*s^2/in,
+ * springs in lbf/in, dashpots in lbf*s/in. From Newton's law, not Lagrange's. */
 static void two_masses_exact(double time_s, long double state[4]) {
     const long double m1 = 0.72L, m2 = 1.36L, K = 50.0L, A = 1.0L, B = 1.0L, L1 = 2.35L, L2 = 2.0L;
     const long double t = (long double)time_s;
@@ -133,7 +133,6 @@ static double two_masses_error(motion *m, const void *of) {
     return worst;
 }
 
-/* The exponential itself, against the printed twelve digits. */
 static void test_matrix_exponential_gives_the_printed_numbers(void) {
     long double state[4];
     two_masses_exact(0.5, state);
@@ -174,14 +173,14 @@ static void test_order_of_every_method_on_the_epicyclic_gear(void) {
     expect_order("S6 semi-implicit Euler at 5 s", at.scene, WH_SEMI_IMPLICIT_EULER, 1e-3,
                  reference_error, &at, 0.9, 1.1);
     expect_order("S6 Heun at 5 s", at.scene, WH_HEUN, 1e-3, reference_error, &at, 1.9, 2.1);
-    /* Later, where the error of Runge-Kutta 4 is well above rounding. */
+    /* Later, where the error of Runge-Kutta 4 is well above round-off. */
     const reference later = {"epicyclic_from_rest", "9.0", 9.0};
     expect_order("S6 Runge-Kutta 4 at 9 s", later.scene, WH_RK4, 2e-3, reference_error, &later, 3.9,
                  4.1);
 }
 
-/* From 1 ms on: 2 ms is too coarse for the six states of this one (the order from 2 to 1 ms is 3.4),
- * though not for its invariants. */
+/* From 1 ms on: 2 ms is too coarse for the six states of this one (the order from 2 to 1 ms is 3.4), but not for its
+ * invariants. */
 static void test_order_on_thomson_device(void) {
     const reference at = {"thomson_a", "5.0", 5.0};
     expect_order("S8 Runge-Kutta 4 at 5 s", at.scene, WH_RK4, 1e-3, reference_error, &at, 3.6, 4.4);
@@ -195,7 +194,7 @@ typedef struct book {
     double until_s;
 } book;
 
-/* Largest error of a book, looked into every 2 ms. */
+/* Largest error of an invariant, sampled every 2 ms. */
 static double book_error(motion *m, const void *of) {
     const book *b = of;
     double worst = 0.0;
@@ -236,8 +235,8 @@ static void test_order_of_thomson_energy(void) {
 
 /* --- systems given outright: first order ------------------------------------------------------------ */
 
-/* phi' = w sin phi, of which tan(phi/2) = tan(phi0/2) exp(w t), beside an oscillator. phi is kept as a
- * turn angle, the others as reals. */
+/* phi' = w sin phi, with tan(phi/2) = tan(phi0/2) exp(w t), beside an oscillator. phi is kept as a turn angle, the
+ * others as reals. */
 static const char first_order[] = "mechanism pair\n"
                                   "state phi [rad]\n"
                                   "state x\n"
@@ -312,9 +311,9 @@ static double oscillator_energy_J(wh_method method, double *least, double *most)
     return energy;
 }
 
-/* It is symplectic: x^2 + v^2 + h x v, or the same with -h, never changes, so the energy goes up and
- * down by h/2 of itself for ever (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1). Euler's
- * grows by 1 + h^2 a step. Order alone does not tell the two apart. */
+/* It is symplectic: x^2 + v^2 + h x v, or the same with -h, is constant, so the energy oscillates by the fraction h/2
+ * (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1). Explicit Euler's energy grows by 1 + h^2 per step.
+ * The order does not distinguish the two. */
 static void test_semi_implicit_euler_keeps_the_energy_for_ever(void) {
     double least;
     double most;
@@ -339,18 +338,18 @@ void suite_convergence(void) {
 }
 
 /* === energy kept ============================================================================== */
-/* Conservative mechanisms of constant mass, drawn: by every method of order two and up, compensated
- * float keeps their energy as double does. What rounding leaves does not lead one way (core/step/step_end.h, wh_square_short). */
+/* Random conservative mechanisms with constant mass: for every method of order two or more, compensated float conserves
+ * energy as double does. The remaining round-off is unbiased (core/step/step_end.h, wh_square_short). */
 
 enum { COORDINATES = 2, STEPS = 20000, LOOKS = 200, APART = 7 };
 
-/* Coordinates by themselves, -a cos q or a q^2/2 + b q^4/4, and one potential of both. */
+/* Uncoupled potentials, -a cos q or a q^2/2 + b q^4/4, and one potential of both. */
 typedef struct swinging {
     int coordinates;
     bool turns[COORDINATES]; /* an angle */
     double inertia[COORDINATES], a[COORDINATES], b[COORDINATES], start[COORDINATES];
     double both;
-    double fastest_radps; /* at most, of small motions */
+    double fastest_radps; /* upper bound, of small motions */
 } swinging;
 
 static swinging drawn(dice *d) {
@@ -427,7 +426,7 @@ static double energy_J(const swinging *s, const motion *m) {
     return sum;
 }
 
-/* What part of its energy it gained over the steps, the mean of some looks; NAN: it was refused. */
+/* Relative energy gain over the run, the mean of some samples; NAN after a refusal. */
 static double gained(const swinging *s, const char *text, stepping how) {
     motion m;
     motion_open_text(&m, text, how);
@@ -440,9 +439,9 @@ static double gained(const swinging *s, const char *text, stepping how) {
     return sum / LOOKS;
 }
 
-/* Stages that stand 4.8e-8 of their way too far, as those of a step of a millisecond do, would lead by (h w)^2 times half of
- * that in every step; scatter is h w times a float's last place over the square root of the steps. Methods that take energy
- * themselves take less of it where h w is small. */
+/* Stages that go 4.8e-8 too far, as in steps of a millisecond, would give a bias of (h w)^2 times half of that per
+ * step. Scatter is h w times a float's last place over the square root of the steps. Dissipative methods take less
+ * themselves if h w is small. */
 static void test_energy_does_not_leak_by_rounding(void) {
     static const struct {
         wh_method method;
@@ -478,7 +477,7 @@ static void test_energy_does_not_leak_by_rounding(void) {
         "  (h w)^2 times at most %.1e of the energy a step, %.1e at the root of the mean square\n",
         worst, sqrt(sum / cases));
     TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 &&
-                     sqrt(sum / cases) < 1e-8); /* 2.7e-8 where stages are left short */
+                     sqrt(sum / cases) < 1e-8); /* 2.7e-8 with biased stages */
 }
 
 void suite_energy_kept(void) { RUN_TEST(test_energy_does_not_leak_by_rounding); }

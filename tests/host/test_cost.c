@@ -1,5 +1,5 @@
-/* test_cost.c: predicted prices (host/study/cost.h): figures within their bounds, larger for more work, and compared with
- * the counted steps of docs/figures/price.csv. */
+/* test_cost.c: predicted prices (host/study/cost.h): figures are within their bounds, larger for more work, and agree
+ * with the counted steps of docs/figures/price.csv. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ void suite_cost(void);
 
 static const cost_number numbers[] = {COST_FLOAT, COST_DOUBLE};
 
-/* A figure holds together: nothing that is not known has a number, and no best number stands outside its bounds. */
+/* A figure is consistent: unknown quantities have no number, and the best estimate is within its bounds. */
 static void expect_whole(const cost_figure *f, const char *what) {
     switch (f->basis) {
     case COST_NOT_KNOWN:
@@ -73,7 +73,7 @@ static void prices_are_whole(void) {
     TEST_ASSERT_GREATER_THAN_INT(30 * cost_board_count, each_builtin_scene(check_whole));
 }
 
-/* What a step is predicted to take with these settings. */
+/* Predicted instructions of a step with these settings. */
 static double instructions(image *im, const cost_board *board, wh_method method, bool compensated) {
     const image_settings before = im->settings;
     im->settings.method = method;
@@ -107,7 +107,7 @@ static void more_stages_and_compensated_sums_are_never_cheaper(void) {
     TEST_ASSERT_GREATER_THAN_INT(50, each_builtin_scene(check_monotonic));
 }
 
-/* A row of masses, each further one with a spring: more of everything. */
+/* A row of masses with one more mass and spring has more of everything. */
 static void a_longer_row_costs_more(void) {
     for (int b = 0; b < cost_board_count; b++) {
         cost before = {0};
@@ -139,7 +139,7 @@ static void a_longer_row_costs_more(void) {
     }
 }
 
-/* As `whirl describe` and the generated headers have it (WH_MEMORY_BYTES). */
+/* As `whirl describe` and the generated headers state it (WH_MEMORY_BYTES). */
 static void state_bytes_are_those_of_the_header(void) {
     static const struct {
         const char *name;
@@ -156,7 +156,7 @@ static void state_bytes_are_those_of_the_header(void) {
     }
 }
 
-/* The table has every board there is, and none that there is not; an STM32F405 is priced as its processor, mps2-an386. */
+/* The table has exactly the existing boards; an STM32F405 is priced as its processor, mps2-an386. */
 static void every_board_has_a_row(void) {
     char path[128];
     char line[64];
@@ -187,12 +187,12 @@ static void measured_rows_are_read(void) {
     TEST_ASSERT_TRUE(c.cycles.value == 708.5 && c.cycles.basis == COST_ESTIMATED);
     TEST_ASSERT_TRUE(c.flash_bytes.value == 7120.0 && c.ram_bytes.value == 124.0 &&
                      c.stack_bytes.value == 268.0);
-    /* nobody counts a Cortex-M7's cycles: a range, and no number */
+    /* a Cortex-M7's cycles are not counted: a range, and no number */
     TEST_ASSERT_TRUE(
         cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m7, &c));
     TEST_ASSERT_TRUE(c.cycles.basis == COST_RANGE && c.cycles.value == 0.0 &&
                      c.cycles.least < c.cycles.most);
-    /* another board's, one column less or more, the header, nothing */
+    /* another board's, one column less or more, the header, empty */
     TEST_ASSERT_FALSE(
         cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m4, &c));
     TEST_ASSERT_FALSE(
@@ -227,7 +227,7 @@ static int cut_at(char *line, const char *separator, char **piece, int most) {
     return count;
 }
 
-/* The price that is predicted of a command line of `whirl run`. */
+/* The predicted price of a `whirl run` command line. */
 static cost priced_line(char *line, const cost_board *board, const char *number) {
     char *words[WORDS];
     common_options options = options_defaults();
@@ -270,7 +270,7 @@ static int by_size(const void *one, const void *other) {
     return (a > b) - (a < b);
 }
 
-/* The counted rows of docs/figures/price.csv, of which none is in the table of figures. */
+/* The counted rows of docs/figures/price.csv; the table of figures contains none of them. */
 static void counted_steps_are_predicted(void) {
     static char head[2000];
     static char line[2000];

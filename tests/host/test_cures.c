@@ -1,8 +1,7 @@
-/* test_cures.c: what is named as a cure was tried. Motions that no straight line knows much of (a charge by another, a
- * chemical bond, springs that harden, a double pendulum, a spring that a heavy clock shakes), in steps so coarse that
- * the run is ruined, by all methods: linear theory sees another motion there than the one that was meant. Every cure
- * that a warning or a failure names is done: then nothing is said, and the energy, by formulas of this file, is there.
- * What was not tried is named as such. */
+/* test_cures.c: every named cure has been tried. Nonlinear motions (a charge by another, a chemical bond, hardening
+ * springs, a double pendulum, a spring shaken by a heavy clock) run with ruinously coarse steps by all methods; linear
+ * theory sees another motion there. Each cure in a warning or failure is applied: then no warning remains, and the
+ * energy agrees with this file's formulas. Untried cures must be named as such. */
 #include "command.h"
 
 #include <math.h>
@@ -21,7 +20,7 @@ void suite_cures(void);
 
 enum { TEXT = 900 };
 
-/* Of the energy's range: off by more, a cure is none. */
+/* Largest relative energy error of a cured run. */
 #define CURED 5e-3
 
 typedef enum ruined_kind { ORBIT, BOND, HARDENING, DOUBLE_PENDULUM, CLOCKED, KINDS } ruined_kind;
@@ -66,7 +65,7 @@ static double energy_J(const ruined *r, double x, double y, double vx, double vy
     return 0.0;
 }
 
-/* How much energy goes to and fro, about: what is stored at the start, above where it is least. */
+/* Scale of the exchanged energy: the stored energy at the start above its minimum. */
 static double moved_J(const ruined *r) {
     switch (r->kind) {
     case ORBIT: return 0.5;
@@ -107,7 +106,7 @@ static void run(const ruined *r, const named_cure *with, said *what) {
     command_say(command_run, words, what);
 }
 
-/* What of the energy is missing at the end, of what moves. */
+/* Missing energy at the end, relative to the exchanged energy. */
 static double missing(const ruined *r, const named_cure *with) {
     wh_method method = r->method;
     for (int m = 0; m < WH_METHODS; m++) {
@@ -165,7 +164,7 @@ static void test_cures_were_tried(void) {
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", again.err, about);
             done++;
             if (r.kind == CLOCKED && r.number[0] == 'f' && !list[k].in_double) {
-                continue; /* of a clock's rate float knows what is some of that energy */
+                continue; /* float loses a part of that energy in a clock's rate */
             }
             TEST_ASSERT_TRUE_MESSAGE(left < CURED, about);
             worst = fmax(worst, left);
