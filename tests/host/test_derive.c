@@ -1,5 +1,4 @@
-/* test_derive.c: operation lists against the equations they were made from and against the energy
- * balance, for every mechanism; and their cost. */
+/* test_derive.c: operation lists of every mechanism against their equations and the energy balance; and their cost. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,7 +48,7 @@ static derived mechanism_file(const char *name) {
     return d;
 }
 
-/* Solve the n by n equations for the highest derivatives by elimination with pivots. */
+/* Solves the n by n equations for the highest derivatives by elimination with pivots. */
 static void dense_solution(const equations *e, state_values *s, double x[UNKNOWNS]) {
     const int n = e->count;
     double a[UNKNOWNS][UNKNOWNS + 1];
@@ -126,8 +125,8 @@ static void test_operation_lists_solve_the_equations(void) {
     printf("  largest deviation %.1e of the largest derivative\n", worst);
 }
 
-/* h = sum q' dL/dq' - L changes by the power of the inputs less the losses: dh/dt with the accelerations
- * of the operation list, by central difference along the motion. */
+/* h = sum q' dL/dq' - L changes by the power of the inputs minus the losses: dh/dt with the accelerations of the
+ * operation list, by central difference along the motion. */
 static void check_balance(const derived *d, const char *name) {
     const equations *e = d->equations;
     uint64_t seed = 17;
@@ -138,7 +137,8 @@ static void check_balance(const derived *d, const char *name) {
         derived_run(d->image->list[IMAGE_BOOKS], d, &s, books);
         double size = 1e-3;
         double rate = 0.0;
-        for (int side = -1; side <= 1; side += 2) { /* state moved along itself by a little time */
+        for (int side = -1; side <= 1;
+             side += 2) { /* state advanced along the motion by a small time */
             const double dt = 1e-5 * side;
             state_values near = s;
             for (int i = 0; i < e->count; i++) {
@@ -184,7 +184,7 @@ static void test_power_balances_in_every_mechanism(void) {
 
 /* --- cost ----------------------------------------------------------------------------------------*/
 
-/* Two-sided: fewer is good news that wants a new bound, and a look at what was lost. */
+/* Two-sided: a lower cost is good, but needs a new bound and a check that nothing was lost. */
 static void expect_cost(const char *name, int at_least, int at_most, int waves) {
     derived d = derived_builtin(name);
     derived_expect(&d, name);
@@ -236,8 +236,7 @@ static void test_large_but_tame_expressions_are_derived(void) {
     free(whole);
 }
 
-/* Powers of sums that were kept hide neither a coordinate that no energy depends on nor the function
- * whose rate a momentum is. */
+/* Kept powers of sums hide neither a cyclic coordinate nor the function whose rate is its momentum. */
 static void test_kept_powers_do_not_hide_conservation(void) {
     derived d = derived_text("mechanism m\ncoordinate X\ncoordinate x\n"
                              "T = 1 [kg*m^2]*((X' + 4*(x - 2)^3*x')^2 + x'^2)/2\n"
@@ -255,7 +254,7 @@ static void test_kept_powers_do_not_hide_conservation(void) {
     derived_free(&d);
 }
 
-/* x^e and x^e (1 + x), for whole and half exponents of every size, x so near 1 that they stay small. */
+/* x^e and x^e (1 + x), for integer and half exponents of every size, with x so near 1 that they stay small. */
 static void test_large_exponents_are_not_cut(void) {
     uint64_t seed = 20;
     for (int i = 0; i < 200; i++) {

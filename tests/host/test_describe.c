@@ -1,5 +1,5 @@
-/* test_describe.c: `whirl describe --json`: declared ranges, a step as a matrix; docs/describe.md has each field; and the checker
- * that says so refuses what is not JSON. (Every field, of drawn scenes: test_image.c.) */
+/* test_describe.c: `whirl describe --json`: declared ranges and a step as a matrix. docs/describe.md has each field.
+ * The JSON checker refuses other text. test_image.c checks every field on random scenes. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
@@ -43,7 +43,7 @@ static void expect_valid(const char *text, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(valid, what);
 }
 
-/* Whose momentum an account of the books is, in which unit; and which row goes into which. */
+/* The unit of each account's momentum; and the rows that go into each. */
 static void check_accounts(const char *text, const image *im) {
     char path[60];
     TEST_ASSERT_EQUAL_INT(im->ledger.accounts, json_length(text, "ledger/accounts"));
@@ -64,7 +64,7 @@ static void check_accounts(const char *text, const image *im) {
     }
 }
 
-/* Declared ranges in SI, whatever unit and order they were declared in; of all others null. */
+/* Declared ranges in SI, whatever their unit and order; null for others. */
 static void test_ranges_are_described(void) {
     derived d = derived_scene(derived_ranged, "s");
     derived_expect(&d, derived_ranged);
@@ -104,7 +104,7 @@ static double number_at(const char *json, const char *list, int row, int column)
     return strtod(value, NULL);
 }
 
-/* A step as a matrix: what it makes of the start is where a step of the method gets to. */
+/* A matrix step applied to the start gives the same as a step of the method. */
 static void test_a_matrix_is_described(void) {
     static const char text[] =
         "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter k = 7 [N/m]\n"
@@ -195,7 +195,7 @@ static char *page_text(void) {
     return text;
 }
 
-/* Each key that is written stands in docs/describe.md; one a line, as json.h writes them. */
+/* Each written key is in docs/describe.md; json.h writes one per line. */
 static void check_keys(const char *json, const char *page) {
     for (const char *line = json; line != NULL; line = strchr(line, '\n')) {
         line += strspn(line, "\n ");
@@ -239,13 +239,13 @@ void suite_describe(void) {
 }
 
 /* === image rows =============================================================================== */
-/* The tables of an image, row by row. Each component, each account, each input stands where the core's
- * order (core/scene.h, core/ledger.h) has it, once, and means what the file says. A row too few or one place further would
- * change no motion of the scenes that do not use it. */
+/* The tables of an image, row by row. Each component, account and input has its place in the core's order
+ * (core/scene.h, core/ledger.h), once, with the meaning of the file. A missing or shifted row would change no motion of
+ * scenes without it. */
 
 /* --- momenta ------------------------------------------------------------------------------------------*/
 
-/* In twelfths: what the unit's text says. */
+/* Dimension from the unit's text, in twelfths. */
 static dimension dimension_of(const char *unit) {
     unit_scale read = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
     unit_error error = {.offset = 0};
@@ -256,8 +256,8 @@ static dimension dimension_of(const char *unit) {
     return read.dim;
 }
 
-/* A momentum is an energy times a time over what its coordinate is in, whatever that is: metres, angles, charges, square
- * roots of masses. */
+/* A momentum is energy times time over its coordinate's unit, whatever that is: metres, angles, charges, square roots
+ * of masses. */
 static void test_momenta_are_energy_by_time_over_their_coordinate(void) {
     static const char *const bases[DIM_BASES][5] = {{"", "*m", "/m", "*m^2", "*m^(1/2)"},
                                                     {"", "*kg", "/kg", "*kg^2", "*kg^(1/2)"},
@@ -294,8 +294,8 @@ static void test_momenta_are_energy_by_time_over_their_coordinate(void) {
 
 /* --- components ---------------------------------------------------------------------------------------*/
 
-/* angle[] and real[]: of second order the angles, the other positions, all rates; of first order all that there is. Each
- * unknown that is integrated has one place, those that follow from their momentum none. */
+/* angle[] and real[]: of second order the angles, the other positions, all rates; of first order all states. Each
+ * integrated unknown has one place; those recovered from momenta have none. */
 static void check_components(const image *im, const char *name) {
     int seen[IMAGE_COMPONENTS_MAX][ORDERS_MAX] = {{0}};
     for (int i = 0; i < im->angles + im->reals; i++) {
@@ -389,7 +389,7 @@ static int check_targets(const derived *d, const char *name) {
     return at;
 }
 
-/* Each range that is declared is that of one row, with its bounds, and no other row has one. */
+/* Each declared range belongs to one row with its bounds; other rows have none. */
 static int check_ranges(const derived *d, const char *name) {
     const image *im = d->image;
     const instance *inst = d->instance;
@@ -440,7 +440,8 @@ static void test_rows_of_built_in_scenes(void) {
     TEST_ASSERT_TRUE(targets > 0);
 }
 
-/* Angles among lines, an effect's input left out, crossings that set several, ranges of each kind, books. */
+/* Angles among lengths, an omitted effect's input, crossings with several assignments, ranges of each kind,
+ * accounts. */
 static const char of_every_kind[] =
     "mechanism m\n"
     "    coordinate x [m]\n"
@@ -472,7 +473,7 @@ static void test_rows_of_every_kind(void) {
     check_starts(&d, "s");
     check_ledger(d.image, "s");
     TEST_ASSERT_TRUE(d.image->ledger.kept);
-    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* B and D: those that the energies name */
+    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* B and D: those in the energies */
     TEST_ASSERT_EQUAL_STRING("B", d.image->input[d.image->ledger.input[0]].name);
     TEST_ASSERT_EQUAL_STRING("D", d.image->input[d.image->ledger.input[1]].name);
     TEST_ASSERT_EQUAL_INT(5, check_targets(&d, "s"));

@@ -1,5 +1,5 @@
-/* test_devices.c: the particle in two sets of coordinates (row S4) and the devices with guided weights
- * (S11 Laskowitz, S13 Cuff). Thresholds and sources as in test_dissertation.c. */
+/* test_devices.c: the particle in two coordinate sets (row S4) and the devices with guided weights (S11 Laskowitz, S13
+ * Cuff). Thresholds and sources as in test_dissertation.c. */
 #include "ranges.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static void test_particle_flies_alike_in_both_coordinate_sets(void) {
     /* the project's bound; from below: the two cannot agree to the last bit by chance */
     expect_between("S4: spherical - Cartesian over 2 s, m", 1e-14, 1e-9,
                    largest_distance("spherical_flight", "cartesian_flight", 2.0));
-    /* past the pole at 0.1 m the angle whips round; RK4's own error at 1 ms */
+    /* past the pole at 0.1 m the angle turns fast; RK4's own error at 1 ms */
     expect_between("S4: the same past the pole, m", 1e-12, 1e-8,
                    largest_distance("spherical_near_pole", "cartesian_near_pole", 1.0));
 }
@@ -60,17 +60,17 @@ static void test_cartesian_particle_is_the_parabola(void) {
     const double s = sin(1.25);
     expect_between("S4: speed at the start, m/s", sqrt(64.0 + 14.0625 + 6.25 * s * s) - 1e-12,
                    sqrt(64.0 + 14.0625 + 6.25 * s * s) + 1e-12, sqrt(vx * vx + vy * vy + vz * vz));
-    /* RK4 integrates a parabola exactly: rounding only */
+    /* RK4 integrates a parabola exactly: round-off only */
     expect_between("S4: Cartesian distance from the parabola, m", 0.0, 1e-12, worst);
 }
 
 /* --- guided weights ------------------------------------------------------------------------------------- */
 
-/* A wheel with its weights, and what is known of it in closed form. */
+/* A wheel with its weights, and its known closed forms. */
 typedef struct wheel {
     const char *equal;  /* scene with equal weights */
     const char *uneven; /* scene with the first weight a tenth heavier */
-    const char *nearer; /* outputs: radius of the first weight and of the one opposite */
+    const char *nearer; /* outputs: radius of the first weight and of the opposite one */
     const char *further;
     const char *place; /* output: X of the first weight */
     unsigned weights;
@@ -97,8 +97,8 @@ static const wheel LASKOWITZ = {"laskowitz_shifted",
 static const wheel CUFF = {"cuff_equal", "cuff_uneven", "r_e",   "r_a", "x_a", 8,
                            0.25,         5.0,           0.01125, 0.15,  0.06,  0.3};
 
-/* The weights' kinetic energy on a carriage at rest: the weight at the angle p goes round the ring's
- * centre at the rate theta' r/s. */
+/* The weights' kinetic energy on a carriage at rest: a weight at the angle p moves around the ring's centre at the rate
+ * theta' r/s. */
 static double kinetic_J(const wheel *w, double theta, double rate) {
     double sum = w->axle_kg_m2 * rate * rate / 2.0;
     for (unsigned i = 0; i < w->weights; i++) {
@@ -119,7 +119,7 @@ static void check_equal_weights(const wheel *w) {
     /* closed form: every weight swings by the ring's diameter */
     expect_between("  one weight's swing / diameter of the ring", 0.999, 1.0 + 1e-9,
                    range_width(&r[2]) / (2.0 * w->ring_m));
-    /* the ring prescribes the radii: R + e on the one side, R - e on the other */
+    /* the ring prescribes the radii: R + e on one side, R - e on the other */
     for (unsigned i = 3; i < 5; i++) {
         expect_between("  greatest radius, m", w->ring_m + w->shift_m - 1e-4,
                        w->ring_m + w->shift_m + 1e-12, r[i].most);
@@ -143,8 +143,8 @@ static void check_uneven_weights(const wheel *w) {
     range r[] = {{.name = "X"}, {.name = "Y"}, {.name = "x_cm"}, {.name = "y_cm"}};
     ranges_of(w->uneven, IN_DOUBLE, 5.0, 1e-3, r, 4);
     printf("  %s\n", w->uneven);
-    /* closed form: peak to peak 2 R (difference)/(all masses), in both directions; the ring's centre
-     * is the middle of every weight's path */
+    /* closed form: peak to peak 2 R (difference)/(all masses), in both directions; the ring's centre is the middle of
+     * every weight's path */
     const double extra_kg = 0.1 * w->weight_kg;
     const double all_kg = w->weights * w->weight_kg + extra_kg + w->rest_kg;
     const double swing = 2.0 * w->ring_m * extra_kg / all_kg;
@@ -154,7 +154,7 @@ static void check_uneven_weights(const wheel *w) {
                    range_width(&r[1]) / swing);
     expect_between("  drift of the centre of mass along X, m", 0.0, 1e-8, range_drift(&r[2]));
     expect_between("  drift of the centre of mass along Y, m", 0.0, 1e-8, range_drift(&r[3]));
-    /* no net motion: X swings over its start and comes back to it, never to the other side */
+    /* no net motion: X swings to one side of its start and returns to it */
     expect_between("  X's least, m", -1e-8, 1e-8, r[0].least);
 }
 
@@ -179,8 +179,8 @@ static void test_laskowitz_centred_is_a_flywheel(void) {
     expect_between("S11: carriage, |X|, m", 0.0, 1e-12, range_drift(&r[1]));
 }
 
-/* The ring's spring gives way to the weights: the energy at a shift depends on the angle with six
- * periods a turn, and that shakes ring and carriage by less than a micrometre. */
+/* The ring's spring yields to the weights: the energy at a shift has six periods per turn. That shakes ring and
+ * carriage by less than a micrometre. */
 static void test_laskowitz_shifting_moves_the_carriage_once(void) {
     motion m;
     double off = 0.0;
@@ -202,12 +202,12 @@ static void test_laskowitz_shifting_moves_the_carriage_once(void) {
     motion_close(&m);
     expect_between("S11: centre of mass off its place while the ring moves, m", 0.0, 1e-12, off);
     expect_between("S11: carriage across, m", 0.0, 1e-12, across);
-    /* closed form: e^2 cos^2/s^2 has the mean 1 - sqrt(1 - e^2/R^2) over a turn, so that the pull,
-     * dT/de, is 3 m w^2 e/sqrt(1 - e^2/R^2); to 0.1 % */
+    /* closed form: e^2 cos^2/s^2 has the mean 1 - sqrt(1 - e^2/R^2) over a turn, so the pull, dT/de, is 3 m w^2
+     * e/sqrt(1 - e^2/R^2); to 0.1 % */
     const double pull = 3.0 * 0.5 * w * w * e / sqrt(1.0 - e * e / 0.04);
     expect_between("S11: ring's spring / weights' pull", 0.999, 1.001, 4000.0 * (e - 0.05) / pull);
     expect_between("S11: carriage's place at last, mm", -16.27, -16.25, 500.0 * (low + high));
-    /* own measure, the same at 1 ms and 0.5 ms: 0.91 um */
+    /* own measurement, the same at 1 ms and 0.5 ms: 0.91 um */
     expect_between("S11: carriage's oscillation after 2 s, um", 0.8, 1.0, 1e6 * (high - low));
 }
 

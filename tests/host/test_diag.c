@@ -1,6 +1,6 @@
-/* test_diag.c: drawn errors in drawn places of several files, in the order in which they are printed: each file's together,
- * the files as they were first told of, and within a file by place; what is told twice once; no more than DIAG_MAX. And what
- * they quote: lines, statements, characters. */
+/* test_diag.c: random errors in random places of several files, in their printed order: by file in order of first
+ * report, then by place. Repeats are printed once, and at most DIAG_MAX errors. Quotes of lines, statements and
+ * characters. */
 #include "host/base/diag.h"
 
 #include <stdbool.h>
@@ -22,7 +22,7 @@ typedef struct told {
     unsigned offset;
 } told;
 
-/* What is printed: the rows as they were told, without repeats, at most DIAG_MAX; then sorted by picking the least. */
+/* The expected output: the reported rows without repeats, at most DIAG_MAX, sorted by selection. */
 static int expected(const told *rows, int count, told *printed, bool *more) {
     told kept[ERRORS_MOST];
     int rank[FILES] = {ERRORS_MOST, ERRORS_MOST, ERRORS_MOST};
@@ -94,7 +94,7 @@ static void test_order(void) {
     for (unsigned c = 0; c < cases; c++) {
         told rows[ERRORS_MOST];
         const int count = 1 + (int)dice_one_of(&d, ERRORS_MOST);
-        const unsigned few = 1 + dice_one_of(&d, LENGTH); /* so that places are met again */
+        const unsigned few = 1 + dice_one_of(&d, LENGTH); /* so that places repeat */
         for (int i = 0; i < count; i++) {
             rows[i] = (told){(int)dice_one_of(&d, FILES), dice_one_of(&d, few)};
             const place at = {&files[rows[i].file], 1, (int)rows[i].offset + 1, rows[i].offset};
@@ -110,7 +110,7 @@ static void test_order(void) {
     diags_free(all);
 }
 
-/* A statement of each length about the room: whole where it fits, else with dots at its end. */
+/* A statement of each length around the limit: whole if it fits, else with dots at its end. */
 static void test_statements(void) {
     enum { ROOM = 20, MOST = 2 * ROOM };
     for (size_t length = 1; length <= MOST; length++) {
@@ -127,7 +127,7 @@ static void test_statements(void) {
     }
 }
 
-/* Up to what closes what it stands in, not what it opens itself; without a comment. */
+/* Up to the bracket that closes its surroundings, without comments. */
 static void test_statements_in_braces(void) {
     static const char *const own[] = {"a = 1", "when x { set y }", "when x { a { b } }", "e {}"};
     static const char *const begin[] = {"", "scene s { ", "\n  ", "effect e {"};
@@ -142,7 +142,7 @@ static void test_statements_in_braces(void) {
     }
 }
 
-/* The first and the last character of each length, whole at the very end of a text, and cut off by each number of bytes. */
+/* The first and last character of each length, whole at the end of a text, and truncated by each number of bytes. */
 static void test_characters(void) {
     static const char *const characters[] = {"a",
                                              "~",

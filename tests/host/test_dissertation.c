@@ -1,10 +1,8 @@
-/* test_dissertation.c: what the dissertation's simulated figures show, row by row of its chapters I to
- * III, each with thresholds on both sides and their source: "dissertation" (its text or a figure's
- * caption), a closed form, or "independent" (computed without Whirl: matrix exponential, or
- * high-order integration of equations derived with SymPy).
+/* test_dissertation.c: the dissertation's simulated figures, chapters I to III, with two-sided thresholds and their
+ * source. "dissertation" is its text or a figure's caption. The others are a closed form, or "independent": computed
+ * without Whirl by matrix exponential, or by high-order integration of equations derived with SymPy.
  *
- * The patents' devices and the plane are in test_devices.c; how accurate the runs are is the matter
- * of test_accuracy.c and test_convergence.c. */
+ * test_devices.c has the patents' devices and the plane; test_accuracy.c and test_convergence.c check accuracy. */
 #include "ranges.h"
 
 #include <math.h>
@@ -31,7 +29,7 @@ static void test_figure_19_force_on_the_load_frame(void) {
     expect_between("fig 19: peak / (m r w^2)", 1.0 - 1e-6, 1.0 + 1e-6, r[0].most / (S * w * w));
     /* dissertation: the force fully reverses. Sampled every 12 degrees of the arm's turn. */
     expect_between("fig 17, 19: -least / peak", 0.9999, 1.0001, -r[0].least / r[0].most);
-    /* the load cell carries the weight, 12 lb and the masses', besides */
+    /* the load cell also carries the weight, 12 lb and the masses */
     expect_between("fig 19: tare, lbf", 12.604 - 1e-3, 12.604 + 1e-3,
                    (r[1].most + r[1].least) / 2.0 / LBF_N);
 }
@@ -52,7 +50,7 @@ static void test_figure_19_frequency(void) {
     TEST_ASSERT_EQUAL_UINT(22, crossings);
 }
 
-/* Fixed force from the run of the rig on its frame, pin force from that of the moving carriage. */
+/* Fixed force from the rig on its frame, pin force from the moving carriage. */
 static double pin_force_ratio(double ratio) {
     range fixed[] = {{.name = "pin_force"}};
     range moving[] = {{.name = "pin_force"}, {.name = "x_cm"}};
@@ -74,7 +72,7 @@ static void test_figure_20_pin_force_against_weight_ratio(void) {
         expect_between("fig 20: pin force, free / fixed", 0.999 * wanted, 1.001 * wanted,
                        pin_force_ratio(ratio));
     }
-    /* dissertation: the force varies between 100 % and 75 %, where the weight ratio is 1/3 */
+    /* dissertation: the force varies between 100 % and 75 % at a weight ratio of 1/3 */
     expect_between("fig 20: at a third", 0.749, 0.751, pin_force_ratio(1.0 / 3.0));
     expect_between("fig 20: carriage too heavy to move", 0.999999, 1.000001, pin_force_ratio(0.0));
 }
@@ -99,7 +97,7 @@ static void test_figure_20_from_the_energies_too(void) {
 
 /* --- figures 32 to 34: two masses --------------------------------------------------------------------- */
 
-/* Independent: extremes of exp(St) at the full milliseconds, in inches off the places of rest. */
+/* Independent: extremes of exp(St) at the full milliseconds, in inches from the equilibria. */
 static void check_swing(const char *what, range early, range late, const double wanted[4],
                         double rest_in) {
     const double got[4] = {early.least, early.most, late.least, late.most};
@@ -164,10 +162,10 @@ static void test_figures_36_to_40_epicyclic_gear(void) {
                  {.name = "x_2"},
                  {.name = "x_cm"}};
     ranges_of("epicyclic_from_rest", IN_DOUBLE, 9.0, 1e-3, r, 5);
-    /* independent: 89.6342558332 rad at 9 s; a constant torque never turns the arm back */
+    /* independent: 89.6342558332 rad at 9 s; a constant torque never reverses the arm */
     expect_between("fig 36: theta at 9 s, rad", 89.63425, 89.63426, r[0].last);
     expect_between("fig 36: theta never falls", -1e-12, 1e-12, r[0].least);
-    /* dissertation: the carriage reciprocates between 0 and 0.6 m; closed form 2 r */
+    /* dissertation: the carriage moves between 0 and 0.6 m; closed form 2 r */
     expect_between("fig 37: X from, m", -1e-9, 1e-9, r[1].least);
     expect_between("fig 37: X to, m", 0.5995, 0.6 + 1e-9, r[1].most);
     /* closed form: the arm is 2 r long */
@@ -195,7 +193,7 @@ static void test_figure_37_a_swing_each_turn(void) {
         last = X;
     }
     motion_close(&m);
-    /* closed form: X = r(1 - cos theta) has its maxima at odd half turns; 89.63 rad hold 14 */
+    /* closed form: X = r(1 - cos theta) has its maxima at odd half turns; 14 in 89.63 rad */
     TEST_ASSERT_EQUAL_UINT(14, maxima);
 }
 
@@ -206,8 +204,7 @@ static void test_figures_44_and_45_look_alike_and_are_not(void) {
     ranges_of("driven_hinge_from_rest", IN_DOUBLE, 10.0, 1e-3, r, 3);
     /* dissertation: both angles seem to be identical */
     expect_between("fig 44, 45: theta2/theta1 at 10 s", 0.99, 1.01, r[1].last / r[0].last);
-    /* dissertation: they are not. The first swing is the largest; the hinge never overtakes the
-     * disc by half a turn. */
+    /* dissertation: they are not. The first swing is the largest; the hinge never overtakes the disc by half a turn. */
     expect_between("fig 46: largest swing, rad", 2.8, PI, fmax(r[2].most, -r[2].least));
 }
 
@@ -238,22 +235,22 @@ static void test_figure_46_the_swing_falls_without_a_loss(void) {
     const double kinetic =
         0.09 * a_ * a_ + 0.135 * b_ * b_ + 0.18 * a_ * b_ * cos(motion_value(&m, "theta3"));
     motion_close(&m);
-    /* dissertation: some 1.25 rad to either side at 6.3 s; printed to two decimals of a curve whose
-     * peaks alternate between 1.236 and 1.276 there */
+    /* dissertation: some 1.25 rad to either side at 6.3 s; printed to two decimals of a curve whose peaks alternate
+     * between 1.236 and 1.276 there */
     for (unsigned i = 0; i < peaks; i++) {
         if (at_s[i] > 6.1 && at_s[i] < 6.4) {
             expect_between("fig 46: peak near 6.3 s, rad", 1.23, 1.28, peak_rad[i]);
         }
     }
-    /* dissertation: the amplitude falls, yet nothing damps (test: every second peak below the last,
-     * while all of the motor's work is still there) */
+    /* dissertation: the amplitude falls without damping (test: every second peak is below the last, while all of the
+     * motor's work is still present) */
     TEST_ASSERT_TRUE(peaks > 80);
     for (unsigned i = 6; i < peaks; i++) {
         TEST_ASSERT_TRUE(peak_rad[i] < peak_rad[i - 2]);
     }
     expect_between("fig 46: last peak before 10 s, rad", 1.04, 1.07, peak_rad[peaks - 1]);
     expect_between("fig 46: energy / motor's work", 1.0 - 1e-6, 1.0 + 1e-6, kinetic / work);
-    /* dissertation: the swings quicken as the hinge does */
+    /* dissertation: the swings get faster with the hinge */
     const double early_s = at_s[2] - at_s[1];
     const double late_s = at_s[peaks - 1] - at_s[peaks - 2];
     expect_between("fig 46: first half swing / last half swing", 4.0, 10.0, early_s / late_s);

@@ -1,5 +1,5 @@
-/* test_divergence.c: a run that leaves all bounds stops, says which component it was, and keeps its
- * last good state; in float and in double, with every method. */
+/* test_divergence.c: a diverging run stops, names the component, and keeps its last good state, in float and double,
+ * with every method. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -40,7 +40,7 @@ static const char blow_up[] = "mechanism blow_up\n"
                               "  until 2 [s]\n"
                               "}\n";
 
-/* A free rotor that does just under, or just over, half a turn a step. */
+/* A free rotor at just below or just above half a turn per step. */
 static const char rotor[] = "mechanism rotor\n"
                             "coordinate theta [rad]\n"
                             "parameter I = 1 [kg*m^2]\n"
@@ -51,8 +51,8 @@ static const char rotor[] = "mechanism rotor\n"
 
 static const engine_kind *const kinds[] = {&engine_float, &engine_double};
 
-/* Step until it fails, within `most` steps. The state must then be the one before the failed step,
- * and further steps must fail the same way. Returns the steps done. */
+/* Steps until failure, at most `most` steps. The state must be the one before the failed step, and further steps must
+ * fail alike. Returns the completed steps. */
 static uint64_t run_into_failure(motion *m, unsigned most) {
     const uint64_t first = m->kind->steps(m->run);
     uint64_t before = m->kind->hash(m->run);
@@ -81,7 +81,7 @@ static void test_motion_that_ends_in_infinity(void) {
                 &m, blow_up,
                 (stepping){.kind = kinds[k], .method = WH_RK4, .compensated = compensated != 0});
             motion_to(&m, 0.9);
-            /* Right to 1e-4 of itself until then: the run is one, not noise. */
+            /* Accurate to 1e-4 until then: the run is not noise. */
             TEST_ASSERT_DOUBLE_WITHIN(1e-3, 10.0, motion_value(&m, "x"));
             TEST_ASSERT_DOUBLE_WITHIN(2e-2, 100.0, motion_value(&m, "x'"));
             const uint64_t done = run_into_failure(&m, 2000);
@@ -100,7 +100,7 @@ static void test_every_method_stops(void) {
         for (unsigned i = 0; i < WH_METHODS; i++) {
             motion m;
             motion_open_text(&m, blow_up, (stepping){.kind = kinds[k], .method = (wh_method)i});
-            /* Lower orders lag behind the true motion, so they get there a little later. */
+            /* Lower orders lag behind the true motion, so they fail a little later. */
             const uint64_t done = run_into_failure(&m, 1100);
             TEST_ASSERT_TRUE(done >= 990);
             TEST_ASSERT_TRUE(fabs(motion_value(&m, "x")) < 1e15);
@@ -109,8 +109,8 @@ static void test_every_method_stops(void) {
     }
 }
 
-/* A motor that is told nonsense: the step is refused and the gear keeps turning once the torque is
- * sound again, as if nothing had been. */
+/* A motor with an input that is no number: the step is refused, and the gear continues undisturbed with the next valid
+ * torque. */
 static void test_an_input_that_is_no_number(void) {
     for (unsigned k = 0; k < 2; k++) {
         motion m;
@@ -132,7 +132,7 @@ static void test_an_input_that_is_no_number(void) {
     }
 }
 
-/* Half a turn a step is where direction is lost: 3141.59 rad/s at 1 ms. */
+/* At half a turn per step the direction is lost: 3141.59 rad/s at 1 ms. */
 static void test_an_angle_that_turns_too_fast_for_the_step(void) {
     for (unsigned k = 0; k < 2; k++) {
         stepping how = {.kind = kinds[k], .method = WH_RK4, .start = "theta'=-3141"};
@@ -149,7 +149,7 @@ static void test_an_angle_that_turns_too_fast_for_the_step(void) {
     }
 }
 
-/* What starts beyond all bounds is told so, and no smaller step or other number is named for it. */
+/* A start beyond all bounds is reported without proposing a smaller step or another number format. */
 static void test_starts_beyond_all_bounds(void) {
     static const char *const units[] = {"m", "mm", "km"};
     static const double si[] = {1.0, 1e-3, 1e3};
@@ -187,15 +187,15 @@ void suite_divergence(void) {
 }
 
 /* === horizon ================================================================================== */
-/* Until when a run is right, part by part: when a difference passed a level, held to all that was entered;
- * the verdict on drawn columns, held to its definition; twins of growths and decays whose steps multiply by a known
- * number, held to powers of it; and words and rows, read again. */
+/* Time until which each part of a run is accurate. Passages of a level are compared with all entered differences, and
+ * verdicts on random columns with their definition. Twins of growth and decay are compared with powers of their known
+ * factor per step. Words and rows are read back. */
 
 /* --- passages --------------------------------------------------------------------------------------------*/
 
 enum { ENTERED = 300 };
 
-/* The time of the first that is more than `level`. */
+/* Time of the first difference above `level`. */
 static double first_above_s(const double *time_s, const double *size, int count, double level) {
     for (int i = 0; i < count; i++) {
         if (!(size[i] <= level)) {
@@ -205,8 +205,8 @@ static double first_above_s(const double *time_s, const double *size, int count,
     return (double)INFINITY;
 }
 
-/* Sizes that rise, fall, stay and end: a level is passed between the first size above it and the first that is so by
- * more than the grain. */
+/* Sizes that rise, fall, stay and end: a level is passed between the first size above it and the first above it by the
+ * grain. */
 static void test_levels_and_when_they_were_passed(void) {
     dice d = dice_of("horizon passages", 2312);
     for (unsigned k = 0; k < 60; k++) {
@@ -258,13 +258,13 @@ typedef struct drawn_column {
     int looks;
 } drawn_column;
 
-/* Moves or not, of any size, more or less off; differences told apart by more than the grain. */
+/* Moving or not, of any size, with any error; differences are separated by more than the grain. */
 static drawn_column draw_column(dice *d) {
     drawn_column c = {.low = dice_between(d, -5.0, 5.0)};
     const bool moves = dice_one_of(d, 3) > 0;
     c.high = c.low + (moves ? pow(10.0, dice_between(d, -7.0, 2.0)) : 0.0);
     c.rounding = dice_one_of(d, 2) == 0 ? 0.0 : pow(10.0, dice_between(d, -9.0, -2.0));
-    if (dice_one_of(d, 4) == 0) { /* about zero */
+    if (dice_one_of(d, 4) == 0) { /* around zero */
         c.high = -c.low;
     }
     c.low = fmin(c.low, c.high);
@@ -291,14 +291,14 @@ static double most_off(const drawn_column *c, double left_out) {
     return most;
 }
 
-/* Stays where it is, as horizon.c's head has it. */
+/* Does it stay in place? Definition from horizon.c's head. */
 static bool keeps_its_place(const drawn_column *c) {
     const double moved = c->high - c->low;
     const double size = fmax(fabs(c->low), fabs(c->high));
     return 1e9 * moved <= fmax(size, c->one) || 1e3 * moved <= c->alike;
 }
 
-/* As horizon.h has it. */
+/* Definition from horizon.h. */
 static horizon_column judged(const drawn_column *all, int k, double tolerance,
                              const step_doubling *t) {
     const double left_out = t->left_out;
@@ -379,7 +379,7 @@ static void test_verdicts_on_drawn_columns(void) {
         TEST_ASSERT_EQUAL_DOUBLE(until_s, h.until_s);
         TEST_ASSERT_EQUAL_INT(to_the_end, h.to_the_end);
         TEST_ASSERT_TRUE(to_the_end ? h.first == -1 : h.column[h.first].until_s == until_s);
-        for (int k = 1; !to_the_end && k < h.first; k++) { /* of several the first */
+        for (int k = 1; !to_the_end && k < h.first; k++) { /* the first of several */
             TEST_ASSERT_TRUE(!ends_it(&h.column[k]) || h.column[k].until_s > until_s);
         }
         horizon_free(&h);
@@ -394,7 +394,7 @@ static void test_verdicts_on_drawn_columns(void) {
 
 /* --- twins -----------------------------------------------------------------------------------------------*/
 
-/* exp() cut off behind z^order: what a step of these methods multiplies x' = a x by. */
+/* exp() truncated after z^order: the factor of a step of these methods for x' = a x. */
 static double factor(int order, double z) {
     double sum = 1.0;
     double next = 1.0;
@@ -405,8 +405,8 @@ static double factor(int order, double z) {
     return sum;
 }
 
-/* The finer run takes the method where its order is 4, else RK4; its own error is left out of what the two differ by
- * where they share it. */
+/* The finer run uses the method if its order is 4, else RK4. Its own error is subtracted from the difference if both
+ * share it. */
 static void hold_growth(dice *d, wh_method method, int order, bool events) {
     const double size = dice_between(d, 0.05, 0.3);
     const int steps = (int)(dice_between(d, 3.0, 12.0) / size);
@@ -469,7 +469,7 @@ static void test_twins_of_growths_and_decays(void) {
 
 /* --- words and rows ----------------------------------------------------------------------------------------*/
 
-/* Two springs of which one is soon off, one is right to the end, and a third that stands still. */
+/* Two springs, one soon wrong and one accurate to the end, and a third at rest. */
 static const char springs[] =
     "mechanism springs\n"
     "coordinate a [m]\ncoordinate b [mm]\ncoordinate c [m]\n"
@@ -507,7 +507,7 @@ static void expect_csv(const horizon *h) {
     fclose(both);
 }
 
-/* What stands behind a column's name in the table. */
+/* The text after a column's name in the table. */
 static const char *behind(const char *told, const char *name) {
     char start[40];
     snprintf(start, sizeof start, "\n  %-16s ", name);
@@ -550,8 +550,8 @@ static void expect_words(const horizon *h) {
                      "but what the books keep, to t = 4 s:\n  energy: "));
 }
 
-/* The fast spring, at w h = 1/2, lags by w (w h)^4/120 = 0.026 rad a second: off by a hundredth of its range, 2 m, when
- * that has made 0.02 rad, 0.77 s, or up to half a swing later. */
+/* The fast spring, at w h = 1/2, lags by w (w h)^4/120 = 0.026 rad per second. Its error reaches a hundredth of its
+ * range, 2 m, at 0.02 rad, that is 0.77 s, or up to half a swing later. */
 static void test_words_and_rows(void) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
@@ -577,16 +577,16 @@ void suite_horizon(void) {
 }
 
 /* === trust kinks ============================================================================== */
-/* Until when a run is right whose force has a kink: a body on a spring, and a second one that begins a way
- * off. Both ways between kinks are sines, so the reference is a closed form. A kink leaves no order to the steps, and one run
- * beside another may be off alike. */
+/* Time until which a run with a kinked force is accurate: a body on a spring, and a second spring that starts at a
+ * distance. Motions between kinks are sines, so the reference is a closed form. A kink destroys the order of the steps,
+ * and two runs may have the same error. */
 
 #define TURN 6.28318530717958648
 
 /* A mass of 1 kg. */
 typedef struct two_springs {
     double soft; /* N/m */
-    double hard; /* N/m more, beyond gap */
+    double hard; /* additional N/m beyond gap */
     double gap_m;
     double x_m;
     double v_mps;
@@ -613,10 +613,10 @@ static void go_on(two_springs *s, double span_s) {
     }
 }
 
-/* When x or x' of the records is first off by a thousandth of its range; infinity: never. */
+/* Time when the error of x or x' first exceeds a thousandth of its range; infinity: never. */
 static double right_until_s(const two_springs *start, const char *csv, double *most) {
     enum { ROWS_MOST = 400 };
-    static double was[ROWS_MOST][3]; /* the time, x and x' */
+    static double was[ROWS_MOST][3]; /* time, x and x' */
     static double is[2][ROWS_MOST];
     two_springs s = *start;
     int n = 0;
@@ -702,9 +702,8 @@ static void test_trust_beside_a_kink(void) {
 
 /* --- runs by one matrix a step ---------------------------------------------------------------- */
 
-/* Until when runs by one matrix a step can be trusted: drawn linear mechanisms. By the exact
- * matrix to the end, whatever the step; by what Runge-Kutta 4 makes of it until the reference says
- * so. */
+/* Time until which matrix steps are accurate, for random linear mechanisms. Exact matrices are accurate to the end at
+ * any step, Runge-Kutta matrices until the reference differs. */
 typedef struct way {
     const char *words;
     horizons_setting how;
@@ -725,7 +724,7 @@ enum {
 };
 static const int step_ms[STEPS] = {2, 20, 100};
 
-/* The n-th: one to four coordinates, masses coupled or not; its scene of two seconds in this step. */
+/* The n-th: one to four coordinates, with coupled masses or not; its scene has two seconds in this step. */
 static horizons one_of(uint64_t *seed, unsigned n, int ms, horizons_setting how) {
     char text[4000];
     linear of;
@@ -754,7 +753,7 @@ static void test_exact_steps_are_right_to_the_end(void) {
     TEST_ASSERT_TRUE(worst > 0.0 && worst < 1e-11);
 }
 
-/* Two masses on springs, nothing damped: phases drift apart from the truth, until both say so. */
+/* Two undamped masses on springs: phases drift from the truth, until both report it. */
 static void test_coarse_steps_until_the_reference_says_so(void) {
     dice d = dice_of("trust matrix", 1409);
     int ended = 0;
@@ -792,12 +791,12 @@ void suite_trust_kinks(void) {
 }
 
 /* === twins ==================================================================================== */
-/* A run and the finer one beside it (host/check/step_doubling.h), by themselves: what the finer one is made of, where
- * the two end, and what is told of them, of oscillators whose motion is known. */
+/* A run and its finer one (host/check/step_doubling.h): settings of the finer run, both ends, and the report, for
+ * oscillators with known motion. */
 
 enum { TEXT = 600 };
 
-/* A mass on a spring, from x = A at rest: x = A cos(w t). Its unit may be another than the SI's. */
+/* A mass on a spring, from x = A at rest: x = A cos(w t). Its unit may differ from SI. */
 static void write_spring(char *text, const char *unit, double a, double w, double step_s,
                          double until_s) {
     snprintf(text, TEXT,
@@ -811,9 +810,9 @@ static step_doubling *twins_of(const motion *m, const image *im) {
     return step_doubling_run(&w);
 }
 
-/* --- what the finer run is ------------------------------------------------------------------------------ */
+/* --- the finer run -------------------------------------------------------------------------------------- */
 
-/* Exactly half, whatever the step is as a fraction; a matrix that is the motion itself is taken as it is. */
+/* Exactly half the step, for any fraction; an exact matrix is used unchanged. */
 static void test_the_finer_run(void) {
     dice d = dice_of("twins", 31);
     for (unsigned method = 0; method < WH_METHODS; method++) {
@@ -887,10 +886,10 @@ static void test_plain_settings(void) {
     }
 }
 
-/* --- what is told ---------------------------------------------------------------------------------------- */
+/* --- the report ------------------------------------------------------------------------------------------ */
 
-/* Lowest and highest are the motion's, the difference at the end is what two runs of whirl's own differ by; what rounds a
- * rate moves its coordinate for all of the time. */
+/* The extremes belong to the motion, and the difference at the end to two separate runs. A rate's round-off moves its
+ * coordinate for the whole time. */
 static void test_what_is_told(void) {
     static const struct {
         const char *name;
@@ -926,7 +925,7 @@ static void test_what_is_told(void) {
         const double v_size = fmax(fabs(v->low), fabs(v->high));
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * x->rounding, v->rounding * t->end_s + unit * x_size,
                                   x->rounding);
-        /* The acceleration is one product, rounded with its factors' roundings: some units of the largest. */
+        /* The acceleration is one product; its round-off and that of its factors are some units of the largest. */
         const double pull = v->rounding - unit * v_size;
         TEST_ASSERT_TRUE(pull > 0.5 * unit * a * w * w * per_m * t->end_s);
         TEST_ASSERT_TRUE(pull < 20.0 * unit * a * w * w * per_m * t->end_s);
@@ -952,8 +951,8 @@ static void test_an_end_from_outside(void) {
     motion_close(&m);
 }
 
-/* x'' = x^3 from x = s, x' = s^2/sqrt(2) is x = s/(1 - s t/sqrt(2)): beyond all bounds at a known moment. Behind it nothing
- * is told, of either run. */
+/* x'' = x^3 from x = s, x' = s^2/sqrt(2) is x = s/(1 - s t/sqrt(2)), which leaves all bounds at a known time. After
+ * that nothing is reported of either run. */
 static void test_runs_that_fail(void) {
     dice d = dice_of("twins", 33);
     for (unsigned i = 0; i < 6U; i++) {
@@ -975,8 +974,7 @@ static void test_runs_that_fail(void) {
     }
 }
 
-/* What both runs take, told beforehand, is what they are then counted to have taken, but for their first step and the
- * looks at the state. */
+/* The predicted work of both runs equals the counted work, except for their first step and the samples of the state. */
 static void test_what_they_take(void) {
     dice d = dice_of("twins", 34);
     for (unsigned i = 0; i < 2U * WH_METHODS; i++) {
@@ -990,7 +988,7 @@ static void test_what_they_take(void) {
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = method});
         const double told = step_doubling_operations(m.image, m.image);
         const int own = wh_methods[method].order >= 4 ? (int)method : (int)WH_METHOD_DEFAULT;
-        const int methods[] = {(int)method, own, own}; /* the finer one takes two */
+        const int methods[] = {(int)method, own, own}; /* the finer run takes two */
         double counted = 0.0;
         for (int k = 0; k < 3; k++) {
             motion run;

@@ -2,11 +2,9 @@
  *
  * WHIRL_FUNCTION_CASES=100000000 build/tests/host double_functions
  *
- * takes so many arguments of each kind instead of a hundred thousand. Where long double has the 64 bits of
- * x87, its library errs by less than 2^-10 of a double's unit, with angles of any size. Kinds of
- * arguments: any bits at all, the range in which the result is neither 0 nor infinity, and where digits
- * are lost most easily.
- */
+ * tests that many arguments of each kind instead of a hundred thousand. Long double with the 64 bits of x87 has errors
+ * below 2^-10 of a double's unit, for angles of any size. Kinds of arguments: any bits, the range with results neither
+ * 0 nor infinite, and values where digits are lost most easily. */
 #define WH_DOUBLE 1
 #include "core/function_double.h"
 
@@ -33,9 +31,9 @@ static unsigned long cases(void) {
 static double unit(void) { return (double)(scattered() >> 11) * 0x1p-53; }
 static double within(double least, double most) { return least + (most - least) * unit(); }
 static double either(double x) { return (scattered() & 1U) != 0 ? -x : x; }
-/* Any bits: every exponent as often, zeros, subnormals, infinities and NaN with them. */
+/* Any bits: every exponent equally often, with zeros, subnormals, infinities and NaN. */
 static double any(void) { return wh_of_bits(scattered()); }
-/* Every exponent from 2^least to 2^most as often. */
+/* Every exponent from 2^least to 2^most equally often. */
 static double scaled_between(int least, int most) {
     const int exponent = least + (int)(scattered() % (uint64_t)(most - least));
     return either(ldexp(1.0 + unit(), exponent));
@@ -58,7 +56,7 @@ static double error_of(double got, long double wanted) {
         return isnan(wanted) && isnan(got) ? 0.0 : HUGE_VAL;
     }
     const double nearest = (double)wanted;
-    if (isinf(nearest) || isinf(got)) { /* the last half unit below infinity may go either way */
+    if (isinf(nearest) || isinf(got)) { /* the last half unit below infinity may round either way */
         return got == nearest ? 0.0 : fabsl(wanted) < 0x1.fffffffffffffp1023L ? HUGE_VAL : 0.5;
     }
     if (wanted == 0.0L) {
@@ -104,7 +102,7 @@ static double sinh_range(void) { return within(-711.0, 711.0); }
 static double overflowing(void) { return either(within(709.0, 711.0)); }
 static double near_series_end(void) { return either(0.25 + scaled_between(-53, -4)); }
 
-/* The core's, and sine and cosine. */
+/* The core's functions, with sine and cosine. */
 static const function functions[] = {
     {"exp", wh_exp, expl, {any, exp_range, small, subnormal_exp, next_to_one}},
     {"log", wh_log, logl, {any, positive, about_one, next_to_one, few}},
@@ -157,7 +155,7 @@ static void test_atan2(void) {
             if (kind == 1) {
                 y = within(-1.0, 1.0);
                 x = within(-1.0, 1.0);
-            } else if (kind == 2) { /* of one size, whatever it is */
+            } else if (kind == 2) { /* of similar size */
                 x = isfinite(y) ? y * either(within(0.01, 1.0)) : x;
             } else if (kind == 3) {
                 x = isfinite(y) ? y * scaled_between(-70, 70) : x;
@@ -181,7 +179,7 @@ static void test_pow(void) {
             } else if (kind == 2) {
                 x = within(0.0, 10.0);
                 y = within(-10.0, 10.0);
-            } else if (kind == 3) { /* all digits of the logarithm count */
+            } else if (kind == 3) { /* all digits of the logarithm matter */
                 x = near_widely(1.0);
                 y = within(-745.0, 710.0) / log(x);
             } else if (kind == 4) {

@@ -1,6 +1,5 @@
-/* test_effect_parts.c: what belongs to an effect goes with it: its parameters and inputs can be changed only where it
- * takes part, and inertia may come from effects alone. Every effect of every built-in mechanism; generated
- * mechanisms. */
+/* test_effect_parts.c: parts of an effect: its parameters and inputs can be changed only if it is active, and inertia
+ * may come from effects alone. Every effect of every built-in mechanism; random mechanisms. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +15,7 @@
 
 void suite_effect_parts(void);
 
-/* What an instance with one change says; "" when it is accepted. Free it. */
+/* The message on an instance with one change; "" if accepted. To be freed. */
 static char *said_of(const mechanism *of, const scene *in, const char *set, bool as_value,
                      const char *with) {
     const char *const sets[] = {set};
@@ -41,7 +40,7 @@ static char *said_of(const mechanism *of, const scene *in, const char *set, bool
     return text;
 }
 
-/* The effect's name in the message and, for --set, what to add. */
+/* The message must name the effect and, for --set, the option to add. */
 static void expect_refused(const mechanism *of, const scene *in, const symbol *s, double value) {
     char wanted[200];
     const char *owner = of->effects[s->effect].name;
@@ -62,7 +61,7 @@ static void expect_refused(const mechanism *of, const scene *in, const symbol *s
     free(set);
 }
 
-/* A value that the parameter or input can have: its own. */
+/* A valid value of the parameter or input: its own. */
 static double own_value(const mechanism *of, const symbol *s) {
     diags *errors = diags_new();
     instance *inst = instance_make(of, NULL, NULL, errors);
@@ -113,7 +112,7 @@ static void test_changes_of_what_takes_no_part_are_refused(void) {
     TEST_ASSERT_TRUE(checked > 30);
 }
 
-/* A scene's own `set`, before or behind its `with`. */
+/* A scene's own `set`, before or after its `with`. */
 static void test_a_scene_sets_what_it_names(void) {
     static const struct {
         const char *scene;
@@ -142,7 +141,7 @@ static void test_a_scene_sets_what_it_names(void) {
     }
 }
 
-/* `--without E` leaves a scene that sets something of E usable. */
+/* `--without E` leaves a scene usable that sets something of E. */
 static void test_a_scene_without_an_effect_that_it_sets(void) {
     static const char text[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "effect drag { parameter b = 1 [kg/s]; F += b*x'^2/2 }\n"
@@ -164,8 +163,8 @@ static void test_a_scene_without_an_effect_that_it_sets(void) {
 
 enum { COORDINATES = 3 };
 
-/* Coordinate i has its inertia from the mechanism (giver[i] = 0) or from effect e1, e2, e3. Derived with the
- * effects in `with`. */
+/* Coordinate i gets its inertia from the mechanism (giver[i] = 0) or from effect e1, e2, e3. Derived with the effects
+ * in `with`. */
 static derived derive_with(const int *giver, unsigned with) {
     char text[2000] = "mechanism parts\n";
     char line[160];
@@ -186,7 +185,7 @@ static derived derive_with(const int *giver, unsigned with) {
                          : none ? "T ="
                                 : "  +",
                          i + 2, i);
-                if (of == 0 && !none) { /* one statement holds the sum */
+                if (of == 0 && !none) { /* one statement contains the sum */
                     text[strlen(text) - 1] = '\0';
                 }
                 none = of == 0 ? false : none;
@@ -251,7 +250,7 @@ static void test_inertia_of_effects(void) {
     }
 }
 
-/* Without any T at all the mechanism itself is wrong. */
+/* Without any T the mechanism itself is wrong. */
 static void test_no_inertia_anywhere(void) {
     derived d =
         derived_text("mechanism m\ncoordinate x [m]\nV = 1 [N]*x\neffect e { V += 1 [N]*x }\n");
@@ -266,8 +265,8 @@ static void test_no_inertia_anywhere(void) {
 
 /* --- noise and inputs of effects -------------------------------------------------------------- */
 
-/* Noise is on the records alone, the same everywhere; inputs of effects. */
-#define SMALL 1e-9 /* far above what a parabola's rounding is in 1000 steps of RK4 */
+/* Noise acts on the records alone, the same everywhere; inputs of effects. */
+#define SMALL 1e-9 /* far above a parabola's round-off in 1000 steps of RK4 */
 
 /* --- noise ------------------------------------------------------------------------------------------------------ */
 
@@ -280,7 +279,7 @@ static uint32_t seed_of(const char *output, uint32_t seed) {
     return hash ^ seed;
 }
 
-/* An output with and without its noise, step by step: the state does not know of it. */
+/* An output with and without noise, step by step: the state must not depend on it. */
 static void compare_noise(const char *use, const char *with, const char *output, uint32_t seed,
                           double deviation) {
     char text[200];
@@ -319,7 +318,7 @@ static void test_noise_is_on_the_records_only(void) {
     compare_noise("eccentric_coupled", "sensor_noise", "speed", 1, 0.05);
 }
 
-/* The interpreter's float numbers are the generated C's, to the bit. */
+/* The interpreter's float numbers equal the generated C's to the bit. */
 extern const wh_scene rig_coupled;
 
 static void test_noise_is_the_same_in_generated_code(void) {
@@ -345,7 +344,7 @@ static void test_noise_is_the_same_in_generated_code(void) {
 
 /* --- an effect's input ------------------------------------------------------------------------------------------- */
 
-/* An effect not called for leaves nothing behind, its input neither; called for, its input counts. */
+/* An inactive effect leaves no trace, nor does its input; when active, its input acts. */
 static void test_inputs_of_effects(void) {
     static const char start[] = "mechanism t\ncoordinate X [m]\nT = 2 [kg]*X'^2/2\n"
                                 "effect push { input f = 6 [N]; Q(X) += f }\n"

@@ -1,5 +1,5 @@
-/* test_effect_subsets.c: `whirl effects` against brute force: two carts with up to four drawn effects. All subsets are
- * integrated here, from the numbers that are written into the scene, by RK4 with bisected events: no code is shared. */
+/* test_effect_subsets.c: `whirl effects` against brute force: two carts with up to four random effects. All subsets are
+ * integrated here from the numbers in the scene, by RK4 with bisected events, without shared code. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,10 +50,10 @@ typedef struct carts {
 
 typedef struct state {
     double q[N];
-    int slides; /* sign of y' under friction; 0: stuck, or no friction */
+    int slides; /* sign of y' under friction; 0: sticking or without friction */
 } state;
 
-/* One run: which effects are in it, and what acted. */
+/* A run: its effects, and those that acted. */
 typedef struct world {
     const carts *of;
     bool with[KINDS];
@@ -100,7 +100,7 @@ static void go(const world *w, const double *from, int slides, double h, double 
     }
 }
 
-/* 0: nothing; else what has happened at q: 1 the stop, 2 the end of sliding, 3 the end of sticking. */
+/* The event at q: 0 no event, 1 the stop, 2 the end of sliding, 3 the end of sticking. */
 static int happened(const world *w, const double *q, int slides) {
     const double *p = w->of->p;
     if (w->with[STOP] && q[X] > p[STOP] && q[VX] > 0.0) {
@@ -112,7 +112,7 @@ static int happened(const world *w, const double *q, int slides) {
     return w->with[FRICTION] && slides == 0 && fabs(pull_y(w, q)) > 0.3 * p[FRICTION] ? 3 : 0;
 }
 
-/* Sticks where static friction holds it, else slides the way it is pulled. */
+/* Sticks if static friction suffices, else slides in the direction of the pull. */
 static void settle(const world *w, state *s) {
     const double pull = pull_y(w, s->q);
     s->q[VY] = 0.0;
@@ -157,7 +157,7 @@ static state begin(const world *w) {
     return s;
 }
 
-/* How far leaving out the effects of these bits moves x and y, and what acted in the full run. */
+/* Change of x and y without the effects of these bits, and the effects that acted in the full run. */
 static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world full = {.of = c};
     for (int i = 0; i < c->effects; i++) {
@@ -166,7 +166,7 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world less = full;
     for (int i = 0; i < c->effects; i++) {
         less.with[c->kind[i]] = (out >> (unsigned)i & 1U) == 0;
-        /* those that always do: the others never */
+        /* these always act, the others never do */
         full.acted[c->kind[i]] =
             c->kind[i] <= HARD || c->kind[i] == FRICTION || c->kind[i] == NOISE;
     }
@@ -188,7 +188,7 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
 
 /* --- drawn cases -----------------------------------------------------------------------------------------*/
 
-/* A number that three digits write. */
+/* A number of three digits. */
 static double drawn(dice *d, double low, double high, bool is_log) {
     const double value = dice_between(d, low, high);
     char text[32];
@@ -242,7 +242,7 @@ static void write_scene(const carts *c, char *text, size_t size) {
              c->start[X], c->start[VX], c->start[Y], c->start[VY], STEP_S, STEP_S * STEPS);
 }
 
-/* A limit just above one of the movements, in a gap that no rounding bridges. */
+/* A limit just above one of the movements, with a gap larger than round-off. */
 static double limit_between(dice *d, const double (*moved)[2], int count, int which) {
     for (int tries = 0; tries < 200; tries++) {
         const double near = moved[dice_one_of(d, (unsigned)count)][which];
@@ -261,7 +261,7 @@ static double limit_between(dice *d, const double (*moved)[2], int count, int wh
 
 typedef struct figures {
     int scenes, sets, events, untested, left_out, ties;
-    double off; /* largest difference of a movement, as a part of the range */
+    double off; /* largest difference of a movement, relative to the range */
 } figures;
 
 static whirl_model *model;
@@ -292,12 +292,12 @@ static void closed(subsets *s) {
 
 static int ones(uint64_t bits) { return __builtin_popcountll(bits); }
 
-/* Does this set keep the limits, by brute force? Effects that did not act stay. */
+/* Does this set meet the limits by brute force? Effects that did not act stay. */
 static bool keeps(const subsets *s, const double moved[2]) {
     return moved[0] * 1000.0 <= s->limit[1] && moved[1] <= s->limit[2];
 }
 
-/* How many sets of the fewest effects keep the limits. */
+/* Number of smallest sets that meet the limits. */
 static int ties(const subsets *s, const double (*moved)[2], unsigned acting, unsigned count) {
     int most = 0;
     int found = 0;
@@ -310,7 +310,7 @@ static int ties(const subsets *s, const double (*moved)[2], unsigned acting, uns
     return found;
 }
 
-/* In every other case those of many draws for which most sets are equally small: then the price decides. */
+/* In every second case, the limits for which most sets are equally small: then the price decides. */
 static void draw_limits(dice *d, subsets *s, const double (*moved)[2], unsigned acting,
                         unsigned count) {
     double best[2] = {0.0, 0.0};
@@ -410,7 +410,7 @@ static void test_against_brute_force(void) {
                      (f.events > 0 && f.untested > 0 && f.left_out > 0 && f.ties > 0));
 }
 
-/* Seven that act: one more is left out at a time, until no other may be. */
+/* Seven active effects: they are removed one by one until no removal is allowed. */
 static void test_greedy(void) {
     const overrides none = {0};
     dice d = dice_of("greedy effects", 4502);

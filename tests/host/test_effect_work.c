@@ -1,5 +1,5 @@
-/* test_effect_work.c: additive effects of the built-in models by their work: the energies of the bodies are
- * written out here with complex numbers, and must change by the integral of the effect's power. */
+/* test_effect_work.c: additive effects of the built-in models by their work. The energies of the bodies, written here
+ * in complex numbers, must change by the integral of the effect's power. */
 #include "motion.h"
 
 #include <complex.h>
@@ -91,7 +91,7 @@ static double no_power_W(const motion *m) {
     return 0.0;
 }
 
-/* A motor of -2 N*m whose torque is gone at -20 rad/s. */
+/* A motor of -2 N*m whose torque vanishes at -20 rad/s. */
 static double line_W(double rate) { return -2.0 * (1.0 - rate / -20.0) * rate; }
 static double motor_W(const motion *m) { return line_W(motion_value(m, "theta1'")); }
 
@@ -153,8 +153,8 @@ static const balance balances[] = {
     {"driven_hinge.whirl", "driven_hinge", "motor_line", "start theta1' = 3 [rad/s]", hinge_J,
      motor_W}};
 
-/* E(t) - E(0) is the work, by Simpson's rule over every step. Both it and RK4 are of fourth order: the
- * bound holds at 0.125 ms for 1 s with some ten times to spare. */
+/* E(t) - E(0) is the work, by Simpson's rule over every step. Simpson and RK4 both have order 4: the bound holds at
+ * 0.125 ms for 1 s with a margin of ten. */
 static void test_energy_changes_by_the_work_of_the_effect(void) {
     for (size_t i = 0; i < sizeof balances / sizeof balances[0]; i++) {
         const balance *b = &balances[i];

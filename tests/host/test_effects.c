@@ -1,8 +1,8 @@
-/* test_effects.c: the additive effects of the built-in models, each against a closed form or the same
- * motion in other coordinates; test_effect_work.c has their work.
+/* test_effects.c: additive effects of the built-in models, against closed forms or the same motion in other
+ * coordinates; test_effect_work.c checks their work.
  *
- * Where a motion is smooth, RK4 at the steps used here is good to 1e-10 or better of the values (all are
- * of the order of one); 1e-9 is the bound unless another is named. */
+ * For smooth motions RK4 at these steps is accurate to 1e-10 relative or better (values have order one). The bound is
+ * 1e-9 unless stated otherwise. */
 #include "motion.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ void suite_effects(void);
 
 typedef struct decay {
     const char *file;
-    const char *scene; /* nothing else moves in it, so that the carriage's equation stands alone */
+    const char *scene; /* nothing else moves in it, so the carriage's equation stands alone */
     double mass_kg;
     double start_mps[2]; /* X', Y' */
 } decay;
@@ -114,7 +114,7 @@ static void test_quadratic_drag_decays_hyperbolically(void) {
 
 /* --- a particle in air --------------------------------------------------------------------------------------- */
 
-/* Falling from rest: z' = -v tanh(g t/v), v = sqrt(m g/c) the terminal velocity. */
+/* Falling from rest: z' = -v tanh(g t/v), with the terminal velocity v = sqrt(m g/c). */
 static void test_fall_reaches_the_terminal_velocity(void) {
     motion m;
     const double terminal_mps = sqrt(9.81 / 0.1);
@@ -146,7 +146,7 @@ static void test_drag_is_along_the_velocity(void) {
     motion_close(&m);
 }
 
-/* The same flight, dragged, in spherical and in Cartesian coordinates. */
+/* The same flight with drag in spherical and Cartesian coordinates. */
 static void test_drag_is_the_same_in_spherical_coordinates(void) {
     static const char *const names[] = {"x", "y", "z"};
     motion a;
@@ -171,7 +171,7 @@ static void test_drag_is_the_same_in_spherical_coordinates(void) {
 
 /* --- motor line ---------------------------------------------------------------------------------------------- */
 
-/* A wheel of constant inertia J spins up as w0 (1 - exp(-t M/(J w0))), and ends at the no-load speed. */
+/* A wheel of constant inertia J spins up as w0 (1 - exp(-t M/(J w0))) to the no-load speed. */
 static void follow_spin_up(const char *file, const char *text, double torque_Nm,
                            double inertia_kgm2, double until_s) {
     motion m;
@@ -200,8 +200,8 @@ static void test_motor_line_ends_at_the_no_load_speed(void) {
 
 /* --- small swings, equilibria ----------------------------------------------------------------------------------- */
 
-/* The gear hanging straight down swings with w^2 = g/(2 r): with the carriage's momentum zero its energy is
- * 2 m r^2 q'^2 + m g r q^2. Swings of 1e-4 rad are slower by q^2/16 or so: 1e-9 of the phase. */
+/* The gear hanging straight down swings with w^2 = g/(2 r): with the carriage's momentum zero its energy is 2 m r^2
+ * q'^2 + m g r q^2. Swings of 1e-4 rad are slower by about q^2/16, 1e-9 of the phase. */
 static void test_hanging_gear_swings(void) {
     motion m;
     motion_open_more(&m, "epicyclic.whirl",
@@ -216,7 +216,7 @@ static void test_hanging_gear_swings(void) {
     motion_close(&m);
 }
 
-/* A tenth of the stall torque holds the arms where gravity's torque S g is as large. */
+/* A tenth of the stall torque holds the arms at the angle of equal gravity torque S g. */
 static void test_motor_holds_the_arms_against_gravity(void) {
     const double S_kgm =
         2.0 * 0.45359237 * 0.0254 * (0.152 * 7.25 / 2.0 + 0.15 * 6.5); /* the header's 0.035163 */
@@ -225,7 +225,7 @@ static void test_motor_holds_the_arms_against_gravity(void) {
     for (int i = 0; i < 3; i++) {
         motion m;
         char text[200];
-        /* on the carriage theta is measured from the level rail */
+        /* on the carriage theta counts from the level rail */
         const double at = i == 1 ? rise - PI / 2.0 : rise;
         int length = snprintf(text, sizeof text,
                               "scene t { use %s; with gravity; set duty = 0.1; start theta = %.17g",
@@ -248,8 +248,8 @@ static void test_motor_holds_the_arms_against_gravity(void) {
 #define LB 0.45359237
 #define IN 0.0254
 
-/* Undamped, motor and arms swing against each other with w^2 = k (1/I_arms + 1/J_rotor) and stay together on
- * the whole. RK4 at 0.1 ms is late by (w h)^4/120 of the phase: 1e-7 of the amplitude in 0.2 s. */
+/* Undamped, motor and arms swing against each other with w^2 = k (1/I_arms + 1/J_rotor) and have no mean drift. RK4 at
+ * 0.1 ms is late by (w h)^4/120 of the phase: 1e-7 of the amplitude in 0.2 s. */
 static void test_coupling_swings(void) {
     const double arms = 2.0 * LB * IN * IN * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) + 1e-4;
     const double rotor = 4e-4;
@@ -270,8 +270,8 @@ static void test_coupling_swings(void) {
     motion_close(&m);
 }
 
-/* At the end the motor's line meets the bearing's drag: stall (duty - w/w0) = b w, and that torque twists
- * the coupling. */
+/* At the end the motor's line meets the bearing's drag: stall (duty - w/w0) = b w, and that torque twists the
+ * coupling. */
 static void test_coupled_motor_ends_at_its_load_speed(void) {
     motion m;
     motion_open_more(&m, "eccentric.whirl", "scene t { use eccentric_coupled; set duty = 0.6 }\n",

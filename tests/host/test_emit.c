@@ -1,5 +1,5 @@
-/* test_emit.c: what is printed says what was derived: the text's equations are read back and evaluated;
- * the short ones look as a textbook has them; LaTeX is well formed. */
+/* test_emit.c: printed equations equal the derived ones: they are read back and evaluated. Short ones look as in a
+ * textbook; LaTeX is well formed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ enum { STATES = 10 };
 
 /* --- reading back --------------------------------------------------------------------------------*/
 
-/* The text that is read, for the lets that it defines. */
+/* The text, for its lets. */
 static const char *whole_text;
 
 static double value_of_name(void *context, const char *name, int length) {
@@ -54,7 +54,7 @@ static double value_of_name(void *context, const char *name, int length) {
                       : formula_value(at + strlen(label), &end, value_of_name, context);
 }
 
-/* `formula = formula` (with what stands in front of it): both sides' values. */
+/* Values of both sides of `formula = formula`, which may have a prefix. */
 static void both_sides(const char *name, const char *text, state_values *s, double *left,
                        double *right) {
     const char *end;
@@ -113,20 +113,20 @@ static void check_text(const char *name, derived *d) {
         }
         line = strchr(line, '\n') + 1;
     }
-    TEST_ASSERT_TRUE_MESSAGE(*line == '\n', name); /* one line a coordinate, then a gap */
+    TEST_ASSERT_TRUE_MESSAGE(*line == '\n', name); /* one line per coordinate, then a gap */
     free(text);
 }
 
 static void test_printed_equations_say_what_was_derived(void) { each_mechanism(check_text); }
 
-/* The value of what stands behind `label` at a line's beginning; NaN if it is not there. */
+/* The value of the formula after `label` at a line's beginning; NaN without one. */
 static double labelled(const char *text, const char *label, state_values *s) {
     const char *at = strstr(text, label);
     const char *end;
     return at == NULL ? (double)NAN : formula_value(at + strlen(label), &end, value_of_name, s);
 }
 
-/* The first-order form: closed formulas put into the equations, or the printed A and b. */
+/* The first-order form: closed formulas inserted into the equations, or the printed A and b. */
 static void check_first_order(const char *name, derived *d) {
     const equations *e = d->equations;
     char *text = printed(d, TEXT);
@@ -227,7 +227,7 @@ static void test_short_equations_look_as_in_the_dissertation(void) {
                      NULL});
 }
 
-/* Braces, \left( \right) and environments close what they open, in turn. */
+/* Braces, \left( \right) and environments are nested. */
 static void check_latex(const char *name, derived *d) {
     char *text = printed(d, LATEX);
     char open[256];

@@ -1,6 +1,5 @@
-/* test_emitted_c.c: generated C, read back word by word, of scenes that are drawn: every name that is used is there and the
- * other way round, and operations come to what they are of the list. (That it compiles, and steps with the same bits:
- * scripts, which take longer.) */
+/* test_emitted_c.c: generated C of random scenes, read back word by word. Used and declared names agree, and operations
+ * have the values of the list. Scripts, which take longer, check that it compiles and steps with the same bits. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +12,7 @@ void suite_emitted_c(void);
 
 /* --- operations --------------------------------------------------------------------------------------------- */
 
-/* What the operations of a list are, in the values that c_read.h makes up; of pairs, waves[] are numbered. */
+/* Values of a list's operations with c_read.h's made-up values; waves[] numbers the pairs. */
 static double phase_value(const op_list *t, const op *o, const double *x) {
     double phase = o->value;
     for (int k = 0; k < t->angles; k++) {
@@ -50,7 +49,7 @@ static double row_value(const op_list *t, const op *o, const double *x) {
     case OP_SQRT: return sqrt(a);
     case OP_ABS: return fabs(a);
     case OP_SIGN: return isnan(a) ? a : (double)((a > 0.0) - (a < 0.0));
-    case OP_MIN: return isnan(b) || b < a ? b : a; /* as op_rows.h has it: of zeros the first */
+    case OP_MIN: return isnan(b) || b < a ? b : a; /* as in op_rows.h: the first of two zeros */
     case OP_MAX: return isnan(b) || b > a ? b : a;
     case OP_CALL:
         snprintf(name, sizeof name, "wh_%s", function_name(o->function));
@@ -67,7 +66,7 @@ static double row_value(const op_list *t, const op *o, const double *x) {
     return (double)NAN;
 }
 
-/* What no number would compare with is no comparison: how many there were of each. */
+/* NaN cannot be compared: counts of finite and undefined values. */
 static unsigned finite, undefined;
 
 static void expect_same(double wanted, double got, const char *what) {
@@ -88,7 +87,7 @@ static bool is_taken(const op_list *t, op_code code, int i) {
     return found;
 }
 
-/* A function of the file against the list that it is of; `waves`: its sines are given. */
+/* A function of the file against its list; `waves`: its sines are given. */
 static void check_list(const op_list *t, const char *function, const char *result, bool waves) {
     static c_values v;
     double x[SCENE_OPS];
@@ -136,7 +135,7 @@ static void check_list(const op_list *t, const char *function, const char *resul
     }
 }
 
-/* The phase and the rate of each pair, which is what a step turns it on by. */
+/* Phase and rate of each pair, by which a step rotates it. */
 static void check_waves(const op_list *t) {
     static c_values v[2];
     c_run(&emitted.file, "wave_sines", "result", &v[0]);
@@ -207,8 +206,8 @@ static void check_whole(const image *im) {
 
 static void test_all_names_are_there_and_used(void) { each_emitted(check_whole); }
 
-/* Layout: what stands on a line of its own begins behind an empty line, none comes twice, none ends with a blank; what goes
- * on is below what it goes on from. */
+/* Layout: blocks of their own follow an empty line, without double empty lines and trailing blanks. Continuation lines
+ * are indented. */
 static void check_layout(const image *im) {
     (void)im;
     size_t open = 0;
@@ -242,7 +241,7 @@ static void check_layout(const image *im) {
 
 static void test_the_layout_is_regular(void) { each_emitted(check_layout); }
 
-/* What is called by a pointer need not be inlined, what is long is not. */
+/* Functions called by pointer need no inlining, and long ones are not inlined. */
 static void expect_linkage(const char *function, const char *inlined, const op_list *t) {
     char words[100];
     snprintf(words, sizeof words, "%s void %s (", op_list_operations(t) > 150 ? "static" : inlined,

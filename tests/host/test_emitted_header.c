@@ -1,5 +1,5 @@
-/* test_emitted_header.c: generated headers of drawn scenes, read from their first to their last line: each name with its number,
- * its unit and its text; and texts of the user, which no comment ends or is warned of for. */
+/* test_emitted_header.c: generated headers of random scenes, read line by line: each name with its number, unit and
+ * text. The user's texts must neither end a comment nor cause a warning. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static char *commented(const char *text) {
     return written;
 }
 
-/* Characters that change the direction of writing, made of their numbers: a compiler warns of them here, too. */
+/* Characters that change the writing direction, by number, since a compiler warns of them here, too. */
 enum { TURNING = 7 };
 static const unsigned turning_codes[TURNING] = {0x200e, 0x200f, 0x202a, 0x202e,
                                                 0x2066, 0x2069, 0x061c};
@@ -47,12 +47,12 @@ static void make_turning(void) {
     }
 }
 
-/* What may not stand in a comment, or only behind something else; each changes what a compiler reads, or the order in which
- * people see it. */
+/* Texts that are forbidden in a comment or after certain characters. Each changes the compiler's reading or the visible
+ * order. */
 static const char *const odd[] = {
     "*/",   "/*",       "?\?/",     "?\?",      "\\",       "\n",       "\t",       "\x7f",
     "\x01", turning[0], turning[1], turning[2], turning[3], turning[4], turning[5], turning[6]};
-/* And what is near one of these, and stays. */
+/* Similar texts that are allowed. */
 static const char *const plain[] = {"a",
                                     "b c",
                                     "*",
@@ -81,11 +81,11 @@ static bool turns_writing(const char *text) {
     return false;
 }
 
-/* Pieces that stay as they are, and of others what is left of them. */
+/* Allowed pieces stay as they are; of others the expected text. */
 static void test_comments_stay_comments(void) {
     for (unsigned c = 0; c < dice_cases(400); c++) {
         char text[200] = "";
-        char bare[200] = ""; /* without blanks and what becomes one */
+        char bare[200] = ""; /* without blanks and pieces that become one */
         for (unsigned n = dice_one_of(&die, 12); n > 0; n--) {
             const bool is_plain = dice_one_of(&die, 2) == 0;
             const unsigned which = dice_one_of(&die, is_plain ? PLAIN : ODD);
@@ -114,12 +114,12 @@ static void test_comments_stay_comments(void) {
         TEST_ASSERT_EQUAL_STRING("", want + strspn(want, " "));
         free(got);
     }
-    for (int i = 0; i < PLAIN; i++) { /* alone, a character of any width is not touched */
+    for (int i = 0; i < PLAIN; i++) { /* alone, a character of any width is unchanged */
         char *got = commented(plain[i]);
         TEST_ASSERT_EQUAL_STRING(plain[i], got);
         free(got);
     }
-    for (int i = 5; i < ODD; i++) { /* and what cannot stand is one blank */
+    for (int i = 5; i < ODD; i++) { /* forbidden pieces become one blank */
         char *got = commented(odd[i]);
         TEST_ASSERT_EQUAL_STRING(" ", got);
         free(got);
@@ -135,7 +135,7 @@ static const char *said_comment(const char *at, const char *text) {
     return at;
 }
 
-/* "    drawn_RATE2_X = 3, /" and its comment. */
+/* " drawn_RATE2_X = 3, /" and its comment. */
 static const char *said_item(const char *at, const char *kind, int primes, const char *name,
                              int number, const char *si, const char *text) {
     char words[200];
@@ -258,7 +258,7 @@ static const char *said_bounds(const char *at) {
     return said_exactly(at, words);
 }
 
-/* "#define NAME_KIND_WHAT WH_R(number)" of that value, which a compiler reads as one of the core's numbers. */
+/* "#define NAME_KIND_WHAT WH_R(number)" of this value, as a compiler reads it for the core's number type. */
 static const char *said_number_of(const char *at, const char *kind, const char *what,
                                   double value) {
     char words[200];
@@ -387,7 +387,7 @@ static void test_a_header_has_every_name(void) {
     }
 }
 
-/* What a scene in fixed point says of the same. */
+/* The same for a scene in fixed point. */
 static void test_a_fixed_state_has_every_name(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 30)); c++) {
         drawn_scene_draw(&drawn, &die);

@@ -1,5 +1,5 @@
-/* test_emitted_heads.c: what stands at the head of generated C, for readers and for the core's headers, and its numbers, are
- * those of the image; of scenes that are drawn. */
+/* test_emitted_heads.c: the head of generated C, for readers and the core's headers, and its numbers agree with the
+ * image, for random scenes. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -134,7 +134,7 @@ static void check_directives(const image *im) {
     emitted_expect_line("#include \"core/step/table.h\"", im->settings.tables != TABLES_NONE);
     emitted_expect_line("#include \"core/function.h\"", calls);
     emitted_expect_line("#include \"core/noise.h\"", observes_noise(im));
-    /* what a header is told stands before it */
+    /* a header's settings precede it */
     const char *include = strstr(emitted.text, "#include");
     for (const char *at = strstr(emitted.text, "#define WH_"); at != NULL;
          at = strstr(at + 1, "#define WH_")) {
@@ -177,7 +177,7 @@ static void check_starts(const image *im) {
 
 static void test_starts_are_read_back(void) { each_emitted(check_starts); }
 
-/* The tables, a cell a line; those of the other half only where boards do not fold. */
+/* The tables, a cell per line; cells of the other half only on boards that do not fold. */
 static void check_tables(const image *im) {
     const op_list_tables *t = &im->list[IMAGE_STEP]->tables;
     TEST_ASSERT_EQUAL(t->count > 0, emitted_says("const wh_real cells ["));
@@ -204,7 +204,7 @@ static void check_tables(const image *im) {
         at += power > 0;
         TEST_ASSERT_TRUE(c_is(&emitted.file, at, ","));
         at++;
-        if (i % width == 0) { /* a line of its own, or one that is only there unless folded */
+        if (i % width == 0) { /* a line of its own, or one that exists only without folding */
             line = strchr(line, '\n') + 1;
             const bool first_left_out = t->folds && i == (cells / 2 + 1) * width;
             TEST_ASSERT_EQUAL(first_left_out, strncmp(line, "#if !WH_TABLE_FOLD\n", 19) == 0);

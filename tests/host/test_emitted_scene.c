@@ -1,5 +1,4 @@
-/* test_emitted_scene.c: what generated C says to the core is what the image has; of scenes that are drawn, read back word by
- * word. */
+/* test_emitted_scene.c: the scene in generated C agrees with the image, for random scenes, read back word by word. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,9 +11,9 @@
 
 void suite_emitted_scene(void);
 
-/* --- what the core is told ------------------------------------------------------------------------------------ */
+/* --- the scene's fields --------------------------------------------------------------------------------------- */
 
-/* ".NAME = VALUE," in the object that begins behind word `at`. */
+/* ".NAME = VALUE," in the object that begins after word `at`. */
 static void expect_field(int at, const char *name, const char *value) {
     char words[300];
     char found[300];
@@ -96,7 +95,7 @@ static void check_scene(const image *im) {
 
 static void test_the_scene_is_the_images(void) { each_emitted(check_scene); }
 
-/* WH_SPAN(step, what float leaves of it) */
+/* WH_SPAN(step, its remainder in float) */
 static int expect_span(int at, double step_s) {
     at = c_need(&emitted.file, at, "WH_SPAN (");
     TEST_ASSERT_TRUE(c_number(&emitted.file, &at) == step_s);
@@ -255,7 +254,7 @@ static void check_books(const image *im) {
 
 static void test_books_are_the_images(void) { each_emitted(check_books); }
 
-/* What an observer's arrays are of. */
+/* The arrays of an observer. */
 static void check_observer(const image *im) {
     char words[200];
     if (im->outputs == 0) {

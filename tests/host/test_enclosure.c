@@ -1,5 +1,5 @@
-/* test_enclosure.c: interval arithmetic holds what is exact: operations on drawn ends and on drawn numbers between them,
- * against numbers of 113 bits, in which sums and products of doubles are exact; and is no wider than it must be. */
+/* test_enclosure.c: interval arithmetic contains exact results: operations on random ends and on random numbers between
+ * them, against 113 bits, with exact sums and products of doubles. Results are no wider than necessary. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,14 +13,14 @@ void suite_enclosure(void);
 
 static dice die;
 
-/* Of every size between 2^-20 and 2^20, either sign, with all bits or with few: sums have 113 bits at most. */
+/* Sizes between 2^-20 and 2^20, either sign, with all bits or few: sums have 113 bits at most. */
 static double drawn(void) {
     const double size = ldexp(dice_between(&die, 1.0, 2.0), (int)dice_one_of(&die, 40) - 20);
     const double few = dice_one_of(&die, 4) == 0 ? nearbyint(size) : size;
     return dice_one_of(&die, 2) == 0 ? few : -few;
 }
 
-/* A point, a narrow one, or a wide one, which may hold zero. */
+/* A point, a narrow interval, or a wide one, which may contain zero. */
 static enclosure drawn_enclosure(void) {
     const double a = drawn();
     const unsigned kind = dice_one_of(&die, 3);
@@ -40,7 +40,7 @@ static void expect_holds(const char *what, enclosure got, quad exact) {
     TEST_ASSERT_TRUE_MESSAGE((quad)got.low <= exact && exact <= (quad)got.high, message);
 }
 
-/* Of points: at most so many units of the last place between the ends. */
+/* For points: at most so many units in the last place between the ends. */
 static void expect_narrow(const char *what, enclosure got, double units) {
     const double unit = fmax(fabs(got.low), fabs(got.high)) * 0x1p-52 + 1e-300;
     TEST_ASSERT_TRUE_MESSAGE(got.high - got.low <= units * unit, what);
@@ -77,7 +77,7 @@ static void test_four_operations(void) {
 #endif
 }
 
-/* At the ends of the range, where the products that tell the next double from this one lose their bits. */
+/* At the ends of the range, where the error terms of products lose their bits. */
 static void test_smallest_and_largest(void) {
     static const double sizes[] = {0x1p-1074, 0x1.8p-1073, 0x1p-1022, 0x1.fffffffffffffp-1022,
                                    0x1p-1000, 1.0,         0x1p1022,  0x1.fffffffffffffp1023};
@@ -99,14 +99,14 @@ static void test_smallest_and_largest(void) {
     TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_add(lost, enclosure_of(0.0))));
 }
 
-/* Any finite double, subnormal ones and the largest as often as others. */
+/* Any finite double; subnormal and the largest ones as often as others. */
 static double drawn_bits(void) {
     const int exponent = (int)dice_one_of(&die, 2098) - 1074;
     const double size = ldexp(dice_between(&die, 1.0, 2.0), exponent);
     return dice_one_of(&die, 40) == 0 ? 0.0 : dice_one_of(&die, 2) == 0 ? size : -size;
 }
 
-/* What an operation may give up on: what is as large as the largest doubles. */
+/* An operation may give up on the largest doubles. */
 static void expect_holds_or_large(const char *what, enclosure got, quad exact) {
     if (enclosure_is_finite(got)) {
         expect_holds(what, got, exact);
@@ -126,7 +126,7 @@ static void expect_whole_range(double x, double y) {
     expect_holds_or_large("a square", enclosure_square(a), (quad)x * (quad)x);
     const enclosure both = {fmin(x, y), fmax(x, y)};
     const enclosure parts[] = {enclosure_mul(both, a), enclosure_times(both, x)};
-    for (int i = 0; i < 2; i++) { /* what lies between holds both products, or one is large */
+    for (int i = 0; i < 2; i++) { /* the interval contains both products, or one is large */
         const bool finite = enclosure_is_finite(parts[i]);
         expect_holds_or_large("all products", parts[i],
                               finite || fabs(x) > fabs(y) ? (quad)x * (quad)x : (quad)x * (quad)y);
@@ -149,7 +149,7 @@ static void expect_whole_range(double x, double y) {
                      (quad)both.high <= (quad)middle + (quad)radius);
 }
 
-/* Any double, or one whose product with x, or ratio, is subnormal. */
+/* Any double, or one with a subnormal product or ratio with x. */
 static double drawn_beside(double x) {
     const double y = drawn_bits();
     if (x == 0.0 || y == 0.0 || dice_one_of(&die, 2) == 0) {
@@ -173,7 +173,7 @@ static void test_whole_range(void) {
 #endif
 }
 
-/* What is not finite stays so, whatever is done with it. */
+/* Non-finite values stay so under every operation. */
 static void test_not_finite(void) {
     static const double large = 0x1.fffffffffffffp1023;
     const double ends[] = {-(double)INFINITY, (double)INFINITY, (double)NAN, 0.0, 1.0, -large};
@@ -231,7 +231,7 @@ static void test_sines(void) {
 #endif
 }
 
-/* Against the C library in long double, which is right to some 1e-19 of them. */
+/* Against the C library in long double, with an error of some 1e-19. */
 static void test_exponentials(void) {
     const long double known = 4.0L * (long double)LDBL_EPSILON;
     if (LDBL_MANT_DIG < 64) {
@@ -257,7 +257,8 @@ static void test_exponentials(void) {
     }
 }
 
-/* Of each function of the language: what is between the ends is mapped between the bounds, and a point to a narrow one. */
+/* For each function of the language: values between the ends are mapped between the bounds, and a point to a narrow
+ * interval. */
 static void test_functions(void) {
     for (unsigned i = 0; i < dice_cases(60000); i++) {
         const function_id function = (function_id)(i % (unsigned)FUNCTIONS);

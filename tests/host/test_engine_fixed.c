@@ -1,6 +1,6 @@
-/* test_engine_fixed.c: steps in fixed point (host/fixed/engine_fixed.h) of drawn mechanisms beside the same steps in double: so
- * long steps, and so few, that what tells them apart is rounding, while a stage that is not Runge-Kutta's would be seen; and
- * what else a run is asked. test_fixed.c has whole runs. */
+/* test_engine_fixed.c: steps in fixed point (host/fixed/engine_fixed.h) of random mechanisms against the same steps in
+ * double. The steps are so long and few that the difference is round-off, while a stage other than Runge-Kutta's would
+ * be visible. Also other queries of a run. test_fixed.c has whole runs. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static dice die;
 
 static double some(double low, double high) { return dice_between(&die, low, high); }
 
-/* A mechanism m with a scene s. Every operation of the lists is in one of them. */
+/* A mechanism m with a scene s. Every operation of the lists occurs in one of them. */
 static void write_mechanism(char *text, int which) {
     char rest[200];
     snprintf(rest, sizeof rest, "step %.3f [s]; until %.1f [s] }\n",
@@ -66,7 +66,7 @@ static void write_mechanism(char *text, int which) {
             "output o = v*q\noutput e = d\nscene s { range d = -2 .. 2 [V], v = -4 .. 4 [V], q = -4 .. 4, q' = -30 .. 30 [1/s]; %s",
             some(0.2, 1), some(1, 4), some(0.5, 3), some(0.1, 0.4), rest);
         break;
-    default: /* a denominator that is below zero, and one of a wide range */
+    default: /* a negative denominator, and one of a wide range */
         snprintf(
             text, TEXT_SIZE,
             "mechanism m\nstate x\nstate y\ninput d = %.6f\n"
@@ -102,7 +102,7 @@ static void state_of(const engine_kind *kind, const image *im, const void *run, 
     kind->state(run, state, state + im->angles);
 }
 
-/* In units of what each is kept in; the most of any. */
+/* The largest difference, each in its own fixed-point unit. */
 static double units_off(const image *im, const void *fixed, const void *exact) {
     double is[MOST];
     double wanted[MOST];
@@ -112,15 +112,15 @@ static double units_off(const image *im, const void *fixed, const void *exact) {
     for (int i = 0; i < im->angles + im->reals; i++) {
         const double unit = engine_fixed.unit(fixed, i);
         const double units = is[i] / unit;
-        TEST_ASSERT_TRUE(i < im->angles || units == rint(units)); /* what is kept is whole */
+        TEST_ASSERT_TRUE(i < im->angles || units == rint(units)); /* stored values are integers */
         most = fmax(most, fabs(is[i] - wanted[i]) / unit);
     }
     return most;
 }
 
-/* How far rounding may get: results of the list are known to some units, a step has four of them, and positions get on by
- * rates that are off; a force that is a square of a rate has fewer digits than it. The most of 25 seeds
- * are 482, 36, 631, 10 and 7. */
+/* Bound on round-off: list results have errors of some units, a step has four of them, and positions integrate the
+ * rates' errors. A force with a squared rate has fewer digits than the rate. Maxima of 25 seeds: 482, 36, 631, 10 and
+ * 7. */
 static const double units_most[KINDS] = {1200.0, 90.0, 1600.0, 25.0, 25.0};
 
 static void test_steps(void) {
@@ -142,7 +142,7 @@ static void test_steps(void) {
                 worst[which] = fmax(worst[which], units_off(im, fixed, exact));
                 TEST_ASSERT_EQUAL_INT(WH_OK, engine_fixed.step(fixed));
                 TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(exact));
-                if (k == im->steps / 2) { /* from now on another input */
+                if (k == im->steps / 2) { /* another input from here on */
                     const double input = im->input[0].value * some(0.2, 0.9);
                     engine_fixed.set_input(fixed, 0, input);
                     engine_double.set_input(exact, 0, input);
@@ -159,8 +159,7 @@ static void test_steps(void) {
     }
 }
 
-/* Outputs are those of the state that is told; an input is kept to half a unit, and held at the ends of its range, which is
- * counted. */
+/* Outputs belong to the reported state. An input is stored to half a unit and clamped to its range, with a count. */
 static void test_outputs_and_inputs(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
         static char text[TEXT_SIZE];
@@ -200,7 +199,7 @@ static void test_outputs_and_inputs(void) {
     }
 }
 
-/* The same run has the same hash after each step, and another after the next; nothing of it fails or happens. */
+/* The same run has the same hash after each step, and the next step another; no failures, no events. */
 static void test_asked(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(5, 5)); c++) {
         static char text[TEXT_SIZE];
