@@ -8,7 +8,7 @@ void suite_equations(void);
 
 enum { STATES = 50 };
 
-/* Left side minus right side of equation i, and the size of its parts. */
+/* Left side minus right side of equation i, and the size of its terms. */
 static double residual(const equations *e, state_values *s, int i, double *size) {
     const double parts[] = {poly_evaluate(e->velocity[i], state_value, s),
                             poly_evaluate(e->potential[i], state_value, s),

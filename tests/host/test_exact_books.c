@@ -1,5 +1,5 @@
-/* test_exact_books.c: steps of --matrix exact are believed however long they are: what the books integrate between them is too
- * coarse there, and the motion is not. */
+/* test_exact_books.c: steps of --matrix exact are accepted at any length: the energy balance's integration between them
+ * is too coarse, but the motion is exact. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ void suite_ledger_scenes(void);
 
 /* === exact books ============================================================================== */
 
-/* Two masses between springs, driven and damped. */
+/* Two driven, damped masses between springs. */
 static char *made_up(uint64_t *seed) {
     double r[8];
     for (int i = 0; i < 8; i++) {
@@ -36,7 +36,7 @@ static char *made_up(uint64_t *seed) {
         r[0], r[1], r[2], 90 * r[3], 60 * r[4], 0.3 * r[5], 0.02 * r[6], 0.3 * r[7]);
 }
 
-/* Largest distance of its places from the closed form, which is the run's own in double at a fine step that ends there too. */
+/* Largest error of its places relative to the closed form: the run's own in double at a fine step with the same end. */
 static double try_one(const char *text, const engine_kind *kind, image_matrix_of matrix,
                       double step_s, bool *lost) {
     motion m;
@@ -79,7 +79,7 @@ static void test_long_exact_steps_are_believed(void) {
                 TEST_ASSERT_TRUE_MESSAGE(off < 1e-5, text);
                 TEST_ASSERT_FALSE_MESSAGE(lost, text);
             }
-            /* the same by stages at steps that are too long for them is not believed */
+            /* the same by stages at too long steps is not accepted */
             const double off = try_one(text, &engine_double, MATRIX_NONE, step_s[n], &lost);
             coarse += lost;
             TEST_ASSERT_TRUE_MESSAGE(lost || off < 0.05, text);
@@ -92,31 +92,30 @@ static void test_long_exact_steps_are_believed(void) {
 void suite_exact_books(void) { RUN_TEST(test_long_exact_steps_are_believed); }
 
 /* === force free =============================================================================== */
-/* The scenes that feel no force from outside: their momentum and their centre of
- * mass stay, at the step each scene names, and what is left is the method's error.
+/* Scenes without external forces: momentum and centre of mass stay constant at each scene's own step, up to the
+ * method's error.
  *
- * Which scenes these are is not the list's word: a scene belongs here when the deriver finds the
- * momentum of a length coordinate conserved (no force, potential, loss or contact acts on it), or,
- * for equations given outright, which have no momenta, when it records its centre of mass. */
+ * The deriver selects them: the momentum of a length coordinate is conserved, since no force, potential, loss or
+ * contact acts on it. Explicit equations have no momenta; such a scene is included if it records its centre of mass. */
 
-/* What the project asks of every such scene: drift of the momenta [kg m/s] and of the centre of mass
- * [m] over the scene's whole run, in double. */
+/* The project's limit for every such scene: drift of the momenta [kg m/s] and of the centre of mass [m] over the whole
+ * run, in double. */
 #define DRIFT_MOST 1e-8
 
-/* Rounding: some hundred units in the last place of a metre. A drift below that has no order, and a
- * scene whose design leaves nothing to drift must stay below it. */
+/* Round-off: some hundred units in the last place of a metre. A smaller drift has no order, and a scene without
+ * possible drift must stay below it. */
 #define ROUNDING 1e-13
 
 typedef struct free_scene {
     const char *name;
-    /* Where the order is measured: at this step and at a quarter of it, up to a time at which the
-     * motion is not chaotic yet. Zeros: nothing can drift but by rounding. */
+    /* The order is measured at this step and a quarter of it, up to a time before chaos. Zeros: only round-off can
+     * drift. */
     double step_s;
     double until_s;
 } free_scene;
 
 static const free_scene FREE[] = {
-    /* no force along x and y, where the speed is a component of the state */
+    /* no force along x and y, whose speed is a component of the state */
     {"cartesian_flight", 0.0, 0.0},
     {"cartesian_near_pole", 0.0, 0.0},
     {"epicyclic_from_rest", 4e-3, 9.0},
@@ -143,12 +142,12 @@ static const free_scene FREE[] = {
     {"cuff_uneven", 8e-3, 5.0},
     {"carriage_free", 4e-3, 2.0},
     {"carriage_ratio", 4e-3, 2.0},
-    /* the fourth-order error comes and goes with every turn; what adds up later is of the fifth */
+    /* the fourth-order error is periodic in a turn; the accumulating error is of fifth order */
     {"halvorson_smooth", 1.6e-3, 1.0},
     /* the hold acts between disc and carriage */
     {"thomson_magnet", 1e-3, 5.0},
     {"thomson_magnet_conserved", 0.0, 0.0},
-    /* the belt's own momentum: it runs on, whatever rubs on it */
+    /* the belt's own momentum: it keeps its speed under any friction */
     {"belt_stick_slip", 0.0, 0.0},
     {"belt_stiffening", 0.0, 0.0},
 };
@@ -166,7 +165,7 @@ static bool is_length(const symbol *s) {
     return !s->is_angle;
 }
 
-/* A coordinate along which nothing pushes the mechanism as a whole. */
+/* A coordinate without external force on the mechanism as a whole. */
 static bool is_free_along(const equations *e, int i) {
     return e->conserved != NULL && e->conserved[i] && is_length(e->unknowns[i].symbol);
 }
@@ -227,7 +226,7 @@ static int check_listed(const scene *s) {
     return is_free;
 }
 
-/* The list has every scene that is free of outside forces, and no other. */
+/* The list has exactly the scenes without external forces. */
 static void test_no_force_free_scene_is_forgotten(void) {
     TEST_ASSERT_EQUAL_INT(FREE_COUNT, each_builtin_scene(check_listed));
 }
@@ -239,7 +238,7 @@ enum { QUANTITIES_MAX = 8 };
 /* The momenta, then the places of the centre of mass, along the free coordinates. */
 typedef struct drifts {
     unsigned count;
-    unsigned momenta; /* the first so many */
+    unsigned momenta; /* count of momenta, which come first */
     char name[QUANTITIES_MAX][32];
     double drift[QUANTITIES_MAX]; /* largest distance from the start, SI */
 } drifts;
@@ -253,8 +252,8 @@ static void look(const motion *m, const char *const *centre, unsigned centres, c
     }
 }
 
-/* A run of the scene, looked at every millisecond or at every step, whichever is longer; zeros: the
- * scene's own step and end. */
+/* A run of the scene, sampled every millisecond or every step, whichever is longer; zeros: the scene's own step and
+ * end. */
 static drifts drifts_of(const char *name, double step_s, double until_s) {
     motion m;
     drifts d = {0};
@@ -272,7 +271,7 @@ static drifts drifts_of(const char *name, double step_s, double until_s) {
             centres++;
         }
     }
-    /* Only the books' momenta are read, which need not be entered at every step. */
+    /* Only the momenta are read, which need no entry at every step. */
     books *b = books_open(m.image);
     const double own_step_s = m.instance->step_s;
     const double end_s = until_s > 0.0 ? until_s : m.instance->until_s;
@@ -295,7 +294,7 @@ static drifts drifts_of(const char *name, double step_s, double until_s) {
             snprintf(d.name[d.count], sizeof d.name[0], "momentum of %.16s",
                      m.equations->unknowns[i].symbol->name);
             d.drift[d.count++] = b->drift[i];
-            /* where it is not zero, the centre of mass moves on as it should */
+            /* with a nonzero momentum the centre of mass moves as it should */
             TEST_ASSERT_TRUE_MESSAGE(centres == 0 || fabs(b->momentum[i]) <= ROUNDING, name);
         }
     }
@@ -325,9 +324,8 @@ static void test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step(void) 
     }
 }
 
-/* Runge-Kutta's error at a step and at a quarter of it: 2^8 lies between, give or take what a sum of
- * thousands of steps' errors, which partly cancel, makes of it. What is below rounding at the coarse
- * step already (Y of the mirrored pair) has no order, but must stay there. */
+/* Runge-Kutta's error at a step and at a quarter of it: about 2^8 apart, apart from partial cancellation over thousands
+ * of steps. A drift below round-off at the coarse step (Y of the mirrored pair) has no order, but must stay there. */
 static void test_drift_falls_at_fourth_order(void) {
     for (unsigned i = 0; i < FREE_COUNT; i++) {
         const free_scene *f = &FREE[i];
@@ -362,8 +360,8 @@ void suite_force_free(void) {
 }
 
 /* === ledger scenes ============================================================================ */
-/* The books of energy and momentum on the built-in scenes: they close, they say who
- * gave what, and they leave the run as it is. */
+/* Energy and momentum balances of the built-in scenes: they close, attribute each change, and leave the run
+ * unchanged. */
 
 enum { ENTRIES_MAX = 400 };
 
@@ -409,8 +407,8 @@ static account_book run_to_end(motion *m, const char *scene_name, const char *ac
 
 /* --- smooth scenes ----------------------------------------------------------------------------- */
 
-/* The gear's torque M = 2 N m is constant, so its work is M theta exactly, and all of it is motion; the
- * momentum of X gets nothing from anybody. */
+/* The gear's torque M = 2 N m is constant, so its work is exactly M theta, all of it kinetic; the momentum of X has no
+ * entries. */
 static void test_the_gears_torque_gives_what_theta_says(void) {
     motion m;
     motion_open(&m, "epicyclic_from_rest", booked);
@@ -424,7 +422,7 @@ static void test_the_gears_torque_gives_what_theta_says(void) {
     motion_close(&m);
 }
 
-/* What the books leave is the method's error: of fourth order. */
+/* The residual is the method's error: of fourth order. */
 static void test_what_is_left_over_falls_at_fourth_order(void) {
     double left[3];
     for (int k = 0; k < 3; k++) {
@@ -448,8 +446,8 @@ static void test_what_is_left_over_falls_at_fourth_order(void) {
 
 /* --- scenes with contacts ------------------------------------------------------------------------ */
 
-/* The carriage's net momentum is what the stop and the friction gave it, and nothing else has an entry:
- * within 1e-9 N s, over 60 s of impacts, slips and sticks. */
+/* The carriage's net momentum comes from stop and friction alone: within 1e-9 N s, over 60 s of impacts, slips and
+ * sticks. */
 static void test_the_carriages_momentum_is_from_stop_and_friction(void) {
     motion m;
     motion_open(&m, "carriage_stop", booked);
@@ -459,14 +457,14 @@ static void test_the_carriages_momentum_is_from_stop_and_friction(void) {
     const double net = motion_value(&m, "momentum") - before;
     TEST_ASSERT_TRUE(book.smooth == 0.0);
     TEST_ASSERT_TRUE(book.contact[0] > 0.1);  /* the stop pushes away from itself */
-    TEST_ASSERT_TRUE(book.contact[1] < -0.1); /* friction ends the walk */
+    TEST_ASSERT_TRUE(book.contact[1] < -0.1); /* friction ends the motion */
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, net, book.contact[0] + book.contact[1]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over);
     motion_close(&m);
 }
 
-/* Halvorson's vehicle: the ground gave all of its momentum; without friction there is no entry, and what
- * momentum there is lies within the drift that the book tells. */
+/* Halvorson's vehicle gets all its momentum from the ground. Without friction there is no entry, and its momentum lies
+ * within the account's drift. */
 static void test_the_vehicles_momentum_is_from_the_ground(void) {
     motion m;
     account_book book = run_to_end(&m, "halvorson_ground", "X");
@@ -518,12 +516,12 @@ static int check_bits_with_books(const scene *s) {
     return 1;
 }
 
-/* With books, every scene runs to the same bits, in float and in double. */
+/* With energy balance, every scene runs to the same bits, in float and double. */
 static void test_books_leave_every_scene_as_it_is(void) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_bits_with_books) > 40);
 }
 
-/* A system given by equations has no energies: it is refused, not booked as zero. */
+/* A system given by equations has no energies: its balance is refused, not zero. */
 static void test_systems_have_no_books(void) {
     static const char text[] = "mechanism decay\nstate x\nparameter k = 1 [1/s]\n"
                                "equation x' = -k*x\nscene d {\n  with ledger\n  start x = 1\n}\n";

@@ -1,5 +1,5 @@
-/* test_f405.c: how the STM32F405's clocks are set up, on registers that answer as RM0090, 7.2, 7.3 and 3.5.1 say, or do
- * not: whatever is broken, the start ends, and the core never runs faster than flash and buses can. */
+/* test_f405.c: clock setup of the STM32F405, on registers that follow RM0090, 7.2, 7.3 and 3.5.1, or fail. With any
+ * fault the start ends, and the core never runs faster than flash and buses allow. */
 #include <math.h>
 #include <string.h>
 
@@ -17,21 +17,21 @@ void suite_f405_clock(void);
 void suite_f405_motor(void);
 void suite_f405_parts(void);
 
-/* === f405 clock =============================================================================== */
+/* boards/cortexm/cortexm.h; comes with a board's data. */
 
 /* boards/cortexm/cortexm.h, which a board's data comes with. */
 enum { CRYSTAL, FALLBACK, GIVEN };
 void board_clock_start(void);
 extern unsigned board_clock_is;
 
-#define CRYSTAL_MHz 25U /* the data that the driver is compiled with: boards/netduinoplus2 */
+#define CRYSTAL_MHz 25U /* the driver's compile-time data: boards/netduinoplus2 */
 #define LOADS_MOST 60000UL
 
 static struct {
-    bool there; /* an emulator has none */
+    bool there; /* absent in an emulator */
     bool crystal;
     bool pll;
-    bool turns;   /* the switch does what it is told */
+    bool turns;   /* the switch works */
     bool latency; /* the flash's register takes a value */
 } unit;
 
@@ -48,7 +48,7 @@ static uint32_t load(uint32_t address) {
 
 static unsigned divider(unsigned bits) { return (bits & 4U) != 0 ? 2U << (bits & 3U) : 1U; }
 
-/* What runs the core by now, MHz. */
+/* Current clock of the core, MHz. */
 static unsigned core_MHz(void) {
     const uint32_t pll = fake_get(RCC_PLLCFGR);
     if ((fake_get(RCC_CFGR) & RCC_CFGR_SWS) != RCC_CFGR_SWS_PLL) {
@@ -80,7 +80,7 @@ static void store(uint32_t address, uint32_t value) {
     if (address == RCC_CR) {
         uint32_t now = value;
         if ((fake_get(RCC_CFGR) & RCC_CFGR_SWS) == RCC_CFGR_SWS_PLL) {
-            now |= RCC_CR_PLLON; /* what the core runs on cannot be switched off */
+            now |= RCC_CR_PLLON; /* the core's clock source cannot be switched off */
         }
         now = ready(now, RCC_CR_HSION, RCC_CR_HSIRDY, true);
         now = ready(now, RCC_CR_HSEON, RCC_CR_HSERDY, unit.crystal);
@@ -107,7 +107,7 @@ static void store(uint32_t address, uint32_t value) {
 
 static bool draw(void) { return scattered() >> 62 != 0; }
 
-/* What a reset leaves, or a loader that ran on the loop from the same crystal. */
+/* State after a reset, or after a loader that used the PLL with the same crystal. */
 static void leave(bool loader) {
     fake_start(load, store);
     fake_put(RCC_CR, RCC_CR_HSION | RCC_CR_HSIRDY);
@@ -156,8 +156,8 @@ void suite_f405_clock(void) {
 }
 
 /* === f405 motor =============================================================================== */
-/* The drive stage's driver, on a timer whose output is as RM0090 has it (17.4.18 and table 94): orders and
- * breaks at random, and after each what the pins do. */
+/* The motor driver on a timer with outputs as in RM0090 (17.4.18 and table 94): random orders and breaks, with the pins
+ * checked after each. */
 
 void stm32f4_motor_start(void);
 
@@ -173,7 +173,7 @@ static uint32_t odr[3];
 
 float hal_motor_supply_V(void) { return supply_V; }
 
-/* The break acts by level: it clears MOE at once, and MOE cannot be set meanwhile (17.3.12). */
+/* The break is level-sensitive: it clears MOE at once, and MOE cannot be set meanwhile (17.3.12). */
 static void see_break(void) {
     if (pressed && (fake_get(BDTR) & TIM_BDTR_BKE) != 0) {
         fake_put(BDTR, fake_get(BDTR) & ~TIM_BDTR_MOE);
@@ -210,7 +210,7 @@ static bool enabled(void) {
     return mode_of(ENABLE_PIN) == 1U && (odr[ENABLE_PIN / 16U] >> ENABLE_PIN % 16U & 1U) != 0;
 }
 
-/* The part of the time that PB13 is high; -1: nobody drives it. */
+/* Duty of PB13; -1: floating. */
 static double output(void) {
     const uint32_t bdtr = fake_get(BDTR);
     const uint32_t ccer = fake_get(TIM_CCER(TIM1));
@@ -258,14 +258,14 @@ static void test_starts_off(void) {
     TEST_ASSERT_DOUBLE_WITHIN(1.0, 20e3, frequency);
 }
 
-/* Orders and breaks at random: the output is what was ordered last of a motor that is started, else low, and after a break low
- * until off was ordered. */
+/* Random orders and breaks: the output is the last order of a started motor, otherwise low. After a break it is low
+ * until off is ordered. */
 static void test_orders_and_breaks(void) {
     scattered_state = 7;
     start();
     bool driving = false;
     bool cut = false;
-    bool seen = false; /* it was pressed since the last off */
+    bool seen = false; /* pressed since the last off */
     for (unsigned i = 0; i < 20000; i++) {
         const unsigned what = (unsigned)(scattered() >> 61);
         const unsigned before = fake.stores = 0;
@@ -317,7 +317,7 @@ void suite_f405_motor(void) {
 }
 
 /* === f405 parts =============================================================================== */
-/* Watchdog, flash and captures of the STM32F405, on registers that do what RM0090 says (21.4, 3.6, 18.4). */
+/* Watchdog, flash and captures of the STM32F405, on registers that follow RM0090 (21.4, 3.6, 18.4). */
 
 void stm32f4_slots_start(void);
 void on_tim2(void);
@@ -462,7 +462,7 @@ static void test_settings_are_kept(void) {
     for (unsigned i = 0; i < sizeof outside / sizeof *outside; i++) {
         TEST_ASSERT_EQUAL(HAL_SETTINGS_OUTSIDE, outside[i]);
     }
-    busy = UINT32_MAX; /* it does not come to rest */
+    busy = UINT32_MAX; /* stays busy */
     TEST_ASSERT_EQUAL(HAL_SETTINGS_BUSY, hal_settings_erase(0));
     TEST_ASSERT_EQUAL(HAL_SETTINGS_BUSY, hal_settings_write(0, 0, bytes, 4));
     busy = 0;
@@ -485,7 +485,7 @@ static void capture_store(uint32_t address, uint32_t value) {
 
 static const uint8_t inputs[2] = {1, 3}; /* of the Netduino Plus 2 */
 
-/* CCxS (18.4.7): 1 of its own input, 2 of the other's of its pair; CCxP: falling. */
+/* CCxS (18.4.7): 1 for its own input, 2 for the other input of its pair; CCxP: falling. */
 static void edge(unsigned sensor, hal_slot_end end, uint32_t ticks) {
     const unsigned channel = ((inputs[sensor] - 1U) ^ end) + 1U;
     const uint32_t status = fake_get(TIM_SR(TIM2));
@@ -504,7 +504,7 @@ static void interrupt(void) {
     }
 }
 
-/* Edges at random, up to four before the interrupt comes: each once, in order of time, wraps included. */
+/* Random edges, up to four before the interrupt: each is reported once, in order of time, across wraps. */
 static void test_captures_in_order(void) {
     hal_slot_edge got;
     uint32_t ticks = 0xFFF00000U;
@@ -513,7 +513,7 @@ static void test_captures_in_order(void) {
     stm32f4_slots_start();
     const uint32_t overruns = hal_slots_overruns();
     for (unsigned i = 0; i < 20000; i++) {
-        unsigned left = 0xFU; /* of the two sensors' two ends each */
+        unsigned left = 0xFU; /* two sensors with two ends each */
         hal_slot_edge made[4];
         const unsigned count = 1U + below(4);
         for (unsigned k = 0; k < count; k++) {
@@ -535,14 +535,14 @@ static void test_captures_in_order(void) {
         TEST_ASSERT_FALSE(hal_slots_take(&got));
     }
     TEST_ASSERT_EQUAL_UINT32(overruns, hal_slots_overruns());
-    edge(0, HAL_SLOT_LEADING, ++ticks); /* one before the one ahead of it was read */
+    edge(0, HAL_SLOT_LEADING, ++ticks); /* a second edge before the first was read */
     edge(0, HAL_SLOT_LEADING, ++ticks);
     interrupt();
     TEST_ASSERT_TRUE(hal_slots_take(&got) && got.ticks == ticks && !hal_slots_take(&got));
     TEST_ASSERT_EQUAL_UINT32(overruns + 1U, hal_slots_overruns());
 }
 
-/* A storm takes no more interrupts than there is room, the oldest are kept, and afterwards it goes on. */
+/* A storm causes no more interrupts than there is room; the oldest edges are kept, and capture continues afterwards. */
 static void test_storm_ends_by_itself(void) {
     hal_slot_edge pulse;
     uint32_t ticks = 5;

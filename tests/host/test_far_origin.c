@@ -1,8 +1,8 @@
-/* test_far_origin.c: what is left over of runs far from the origin. Energies are computed multiplied out, so that
- * with x near b the terms of k (x - b)^2/2 are larger than it by (b/amplitude)^2: their rounding is no fault of
- * the step. Generated mechanisms whose origin is 1 to 1e8 amplitudes away: silent with a fine step, and not believed
- * with a coarse one where rounding leaves room to tell. Where the run's number has too few digits for what moves so far away,
- * that is told, on both sides, and what would do is done. */
+/* test_far_origin.c: energy residual of runs far from the origin. Energies are expanded, so the terms of k (x - b)^2/2
+ * with x near b are (b/amplitude)^2 larger than the energy; their round-off is not the step's error. Random mechanisms
+ * with an origin 1 to 1e8 amplitudes away: no warning with a fine step, and no trust in a coarse one as far as
+ * round-off allows a verdict. A number format with too few digits must be reported exactly when it matters, and the
+ * proposed remedy is applied. */
 #include "command.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@
 
 void suite_far_origin(void);
 
-/* Swings of the angular frequency omega (SOFT, WAVE: at small amplitudes) about a place or a speed far away. */
+/* Oscillations of the angular frequency omega (SOFT, WAVE: at small amplitudes) about a distant place or speed. */
 typedef enum far_kind {
     SPRING,
     APART,
@@ -141,7 +141,7 @@ static void run(const char *text, bool is_float, said *what) {
 
 static bool is_of_digits(const said *what) { return strstr(what->err, "warning: ") != NULL; }
 
-/* What a warning of too few digits names is done, and nothing is said. */
+/* The remedy in a warning of too few digits is applied: no warning remains. */
 static void cure_digits(const char *text, bool is_float, const said *warned, const char *every) {
     said what;
     bool named = false;
@@ -166,15 +166,15 @@ static far_case case_of(dice *d, double far) {
     return c;
 }
 
-/* Tens of amplitudes at most. Multiplied out, the square under a root is known to within 1e-16, in float 6e-8, of
- * far^2, and may come out negative beyond that; a phase is known to so much of itself, and beyond a radian there is
- * no wave: these runs are wrong, and may say so. */
+/* At most tens of amplitudes. An expanded square under a root has an error of 1e-16, in float 6e-8, of far^2, and may
+ * be negative beyond that. A phase has the same relative error, and beyond a radian the wave is lost. Such runs are
+ * wrong, and may say so. */
 static double far_most(far_kind kind, bool is_float) {
     return kind == SOFT ? (is_float ? 2.0 : 6.0) : kind == WAVE && is_float ? 5.0 : 8.0;
 }
 
-/* A float is rounded to some 1e-7 of the distance, thousands of times: up to a thousand amplitudes that is little of a
- * swing, and from a hundred thousand on more than a hundredth of it. Beyond 1e7 it does not know of any swing. */
+/* A float has thousands of round-offs of 1e-7 of the distance: little of a swing up to a thousand amplitudes, more than
+ * a hundredth from a hundred thousand on. Beyond 1e7 the swing is lost. */
 static void expect_fine(const said *what, far_kind kind, bool is_float, double tens,
                         const char *text) {
     const bool swings = kind == SPRING || kind == APART || kind == PARAMETER || kind == DAMPED;
@@ -216,8 +216,8 @@ static void test_fine_steps_are_silent(void) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* Runge-Kutta's step then takes more than a hundredth of a spring's energy in 60 steps; rounding, of 1e5 amplitudes in
- * double and of 30 in float, can take less. (On the belt and with the push, the books' entries are themselves so much
+/* Runge-Kutta's step then takes more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5 amplitudes in
+ * double and 30 in float can take less. (On the belt and with the push, the balance's entries themselves are as much
  * larger.) */
 static void test_coarse_steps_are_told(void) {
     static const far_kind kinds[] = {SPRING, APART, PARAMETER, DAMPED};
@@ -240,7 +240,7 @@ static void test_coarse_steps_are_told(void) {
     model_drop();
 }
 
-/* The far end of a run, of two records. */
+/* Final value of a run with two records. */
 static double end_of(const said *what) {
     const char *last = what->out;
     for (const char *line = what->out; (line = strchr(line, '\n')) != NULL && line[1] != '\0';) {
@@ -252,7 +252,7 @@ static double end_of(const said *what) {
     return end;
 }
 
-/* `whirl trust` alone calls nothing right to the end that is off by more than a thousandth of the way, however far that is. */
+/* `whirl trust` alone accepts no run to the end whose error exceeds a thousandth of the way, at any distance. */
 static void ask_trust(const char *text, bool is_float, double off) {
     said what;
     const char *words[] = {model_keep(text), "--number", is_float ? "float" : "double", NULL};
@@ -262,8 +262,8 @@ static void ask_trust(const char *text, bool is_float, double off) {
     TEST_ASSERT_TRUE_MESSAGE(trusted ? off < 1.5e-3 : off > 5e-4, what.out);
 }
 
-/* A cart that rolls, far away: where its steps are less than half a place of its number it stands, and its energy is that of
- * a cart that rolls. */
+/* A rolling cart far away: if its steps are below half a unit in its number's last place, it stands still with the
+ * energy of a rolling cart. */
 static void test_carts_that_stand(void) {
     dice d = dice_of("carts", 4103);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 400));
@@ -298,7 +298,7 @@ static void test_carts_that_stand(void) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_of_digits(&what), text);
             run(text, is_float,
-                &what); /* nor do both runs agree to the end, as far as the start's size goes */
+                &what); /* and both runs differ, as far as the start's size allows */
             TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), what.out);
             cure_digits(text, is_float, &what, every);
             run_with(text, is_float, "--compensated", every, &what);
@@ -317,7 +317,7 @@ static void test_carts_that_stand(void) {
     TEST_ASSERT_TRUE(told > cases / 5 && sound > cases / 5);
 }
 
-/* Far away, and in steps too coarse for crude methods: of what is named as a cure of too few digits nothing is to be said. */
+/* Far away and in steps too coarse for crude methods: the remedy for too few digits must leave no warning. */
 static void test_cures_are_silent(void) {
     static const char *const methods[] = {"euler", "heun", "semi-implicit-euler", "rk4"};
     dice d = dice_of("far cures", 20261130);
@@ -354,7 +354,7 @@ static void test_cures_are_silent(void) {
             said then;
             const int end = named_words(&list[c], method, "float", words, 2);
             if (i % 3U == 0 && !list[c].compensated) {
-                words[end] = "--compensated"; /* as it was */
+                words[end] = "--compensated"; /* as before */
                 words[end + 1] = NULL;
             }
             command_say(command_run, words, &then);

@@ -1,6 +1,6 @@
-/* test_far_slopes.c: runs far from the origin whose slopes, not whose steps, have too few digits: roots, quotients and
- * exponentials of differences. The reference is the same mechanism at the origin, in double: nothing else is different. What is
- * off is told, what is named as a cure is none that leaves it off, and nothing is trusted to the end that is not right. */
+/* test_far_slopes.c: runs far from the origin whose slopes, not steps, have too few digits: roots, quotients and
+ * exponentials of differences. The reference is the same mechanism at the origin in double. Errors must be reported, a
+ * named cure must remove them, and only accurate runs are trusted to the end. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -25,7 +25,7 @@ typedef struct slope_case {
     int steps;
 } slope_case;
 
-/* Lengths: beyond, two double runs may stand still alike. */
+/* Lengths; further away, two double runs may stand still alike. */
 #define TOLD_MOST 4e7
 
 enum { RECORDS = 40, COLUMNS = 5 };
@@ -99,7 +99,7 @@ static motion_rows rows_of(const slope_case *c, const char *text, double far_m) 
     return m;
 }
 
-/* The most, of a column's range. */
+/* Largest error relative to a column's range. */
 static double off_by(const motion_rows *m, const motion_rows *reference) {
     double worst = 0.0;
     for (int k = 1; k < reference->columns; k++) {
@@ -122,13 +122,13 @@ static double draw_tens(dice *d, unsigned i, bool is_float) {
                     : (i % 2 == 0 ? dice_between(d, 5.0, 7.5) : dice_between(d, 7.0, 8.3));
 }
 
-static slope_case draw(dice *d, unsigned i, double tens) { /* from where it matters on */
+static slope_case draw(dice *d, unsigned i, double tens) { /* at distances that matter */
     slope_case c = {.kind = (slope_kind)(i % KINDS),
                     .length_m = pow(10.0, dice_between(d, -3.0, 2.0)),
                     .energy_J = pow(10.0, dice_between(d, -2.0, 2.0)),
                     .far = pow(10.0, tens),
                     .steps = RECORDS * 2 * (5 + (int)dice_one_of(d, 20))};
-    /* 1, 2 or 5, of which records an even number apart are whole numbers of any smaller such step, too */
+    /* 1, 2 or 5: records an even number apart are also multiples of any smaller such step */
     static const double digits[] = {1.0, 2.0, 5.0};
     const double most_s = 0.015 * c.length_m / sqrt(c.energy_J);
     const double decade_s = pow(10.0, floor(log10(most_s)));
@@ -140,8 +140,8 @@ static slope_case draw(dice *d, unsigned i, double tens) { /* from where it matt
     return c;
 }
 
-/* What a hint says would do, done: "--step 1ms --number double", either alone, or a method. Where nothing is then warned of and
- * the line says that all of it is right, it is. */
+/* Applies a hint: "--step 1ms --number double", either alone, or a method. If no warning follows and the run is called
+ * right to its end, it must be. */
 static void take_cure(const slope_case *c, const char *text, const char *number, const said *warned,
                       const motion_rows *reference, double far_m) {
     const char *hint = strstr(warned->err, "would do");
@@ -163,7 +163,7 @@ static void take_cure(const slope_case *c, const char *text, const char *number,
     TEST_ASSERT_TRUE_MESSAGE(off_by(&m, reference) < 0.05, warned->err);
 }
 
-/* Is nothing told but that the law's own constants, (D/l)^2 + 1, may have lost their 1? They may by that much, and need not. */
+/* Is the only report that the law's own constants, (D/l)^2 + 1, may have lost their 1? They may have, but need not. */
 static bool is_luck(const slope_case *c, bool is_float, const char *err) {
     const char *warning = strstr(err, "whirl run: warning: ");
     return !is_float && warning != NULL && strstr(warning, "constants of 'far' are sums") != NULL &&
@@ -198,7 +198,7 @@ static void hold(bool is_float) {
         if (off > 0.03) {
             ruined++;
             TEST_ASSERT_TRUE_MESSAGE(is_float ? warns : !to_the_end || c.far > TOLD_MOST, text);
-            /* what fails where nothing fails near the origin */
+            /* a failure that does not occur near the origin */
             TEST_ASSERT_TRUE_MESSAGE(what.status == said_owes(what.err) || !is_float ||
                                          strstr(what.err, "--number double would do") != NULL,
                                      what.err);

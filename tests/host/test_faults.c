@@ -1,5 +1,5 @@
-/* test_faults.c: the campaign of faults judges: what is drawn can be drawn again and read; the judge's truth is that of
- * closed forms, it finds what is wrong and nothing else. */
+/* test_faults.c: the verdicts of the fault campaign: draws are reproducible and readable; the judge's truth equals
+ * closed forms; it finds every violation and nothing else. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -29,7 +29,8 @@ void suite_replay(void);
 #define AMPLITUDE_N 42.0
 #define PHASE_RAD 0.3
 
-/* A rotor whose speed swings by a twentieth within a turn; of a second order and of a mean the first knows nothing. */
+/* A rotor whose speed swings by a twentieth within a turn; it is independent of the firmware's model of second order
+ * and mean. */
 static const char *const text =
     "mechanism bench \"a rotor with a known force\"\n"
     "coordinate theta [rad]\ninput duty = 0\ninput enable = 0\n"
@@ -53,7 +54,7 @@ static const wh_hello hello_faults = {.program = "bench",
                                       .signals = sizeof signals / sizeof signals[0]};
 enum { NOTES_AT = 2 };
 
-/* What a made-up controller says from said_s on, and how it ends. */
+/* Messages of a synthetic controller from said_s on, and its end. */
 typedef struct made_up {
     double rpm;
     double swing_J;
@@ -70,7 +71,7 @@ typedef struct made_up {
     bool drives;
     bool calibration;
     bool runs_away;
-    int state; /* that it tells, */
+    int state; /* that it reports, */
     int trip;
     int state_after; /* and after a reset */
     int trip_after;
@@ -94,7 +95,7 @@ static const made_up honest = {.rpm = 330.0,
                                .cause = 2,
                                .end = LOCKSTEP_DONE};
 
-/* A processor in reset is started again; true: it is, and has nothing to say yet. */
+/* A processor in reset starts again; true: it started and is silent so far. */
 static bool starts_again(plant *on) {
     if (on->reset.now) {
         TEST_ASSERT_TRUE(plant_advance(on, on->reset.last_ticks + on->reset.takes_ticks));
@@ -163,7 +164,7 @@ static verdict judged(const made_up *m) {
     return j.verdict;
 }
 
-/* What is beyond the interval and 1 % is a lie, by so much. */
+/* An error beyond the interval and 1 % is a lie of that size. */
 static void test_truth(void) {
     for (int i = -6; i <= 6; i++) {
         for (int which = 0; which < 2; which++) {
@@ -181,7 +182,8 @@ static void test_truth(void) {
     }
 }
 
-/* Whom nobody believes does not lie: not good, no turns, or what only calibration can tell; who states it does not either. */
+/* A result without credit is no lie: not good, without turns, or wrong by calibration only. A stated doubt is none
+ * either. */
 static void test_no_lies(void) {
     made_up wrong = honest;
     wrong.amplitude_N = 21.0;
@@ -203,7 +205,7 @@ static void test_no_lies(void) {
     m = wrong;
     m.half_N = 25.0;
     TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
-    m = honest; /* more turns than there were */
+    m = honest; /* more turns than recorded */
     m.turns = 40;
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
     m = honest;
@@ -225,11 +227,11 @@ static void test_speeds(void) {
         m.drives = true;
         TEST_ASSERT_FALSE(judged(&m).overspeed);
         m.drives = false;
-        m.off_s = 2.0; /* commanded off is enough, where the drive obeys */
+        m.off_s = 2.0; /* commanded off is enough if the drive obeys */
         TEST_ASSERT_FALSE(judged(&m).runs_on);
     }
     m = honest;
-    m.rpm = 410.0; /* fastest, at the bottom */
+    m.rpm = 410.0; /* fastest at the bottom */
     m.swing_J = 60.0;
     const verdict v = judged(&m);
     TEST_ASSERT_TRUE(v.turn_rpm < 400.0 && v.peak_rpm > 409.0 && !v.overspeed);
@@ -246,13 +248,13 @@ static void test_runaways(void) {
     m.off_s = 99.0;
     v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && v.off_s < 0.0 && !v.runs_on);
-    m.on_s = 2.4; /* from when it is on */
+    m.on_s = 2.4; /* from its enable on */
     m.off_s = 2.55;
     v = judged(&m);
     TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.15) < 2.1e-3);
     m.on_s = 0.0;
     m.off_s = 99.0;
-    m.rpm = 420.0; /* such a drive is on with whatever duty */
+    m.rpm = 420.0; /* such a drive is on at any duty */
     TEST_ASSERT_TRUE(judged(&m).runs_on);
     m.fault = "runaway@2+0.3";
     TEST_ASSERT_FALSE(judged(&m).lasting);
@@ -261,7 +263,7 @@ static void test_runaways(void) {
     TEST_ASSERT_FALSE(v.lasting || v.happened);
 }
 
-/* The motor must not drive, and turns show that something does: off, and tripped, within a second. */
+/* The motor must not drive, but turns show a drive: enable off and a trip within a second. */
 static void test_off_is_off(void) {
     static const int states[] = {0, 1, 4, 9, 15}; /* idle, armed, tripped, tare, coast */
     made_up m = honest;
@@ -283,7 +285,7 @@ static void test_off_is_off(void) {
     }
 }
 
-/* Pressed at 1 s: off by the next orders, and for good. */
+/* Pressed at 1 s: off by the next orders, permanently. */
 static void test_stops(void) {
     made_up m = honest;
     m.fault = "stop@1+0.5";
@@ -297,7 +299,7 @@ static void test_stops(void) {
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
     m.off_s = 99.0; /* or never */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    for (int when = 0; when < 12; when++) { /* again, while it is pressed or afterwards */
+    for (int when = 0; when < 12; when++) { /* again, while pressed or afterwards */
         m.on_s = 1.02 + when * 0.13;
         m.off_s = m.on_s + 0.02;
         TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
@@ -306,7 +308,7 @@ static void test_stops(void) {
     TEST_ASSERT_FALSE(judged(&m).halted);
 }
 
-/* Off in that very instant, for good; what tripped is known afterwards, and so is the reset. */
+/* Off in that instant, permanently; the trip is known afterwards, and so is the reset. */
 static void test_resets(void) {
     made_up m = honest;
     for (int when = 0; when < 10; when++) {
@@ -318,7 +320,7 @@ static void test_resets(void) {
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.halted && v.happened && v.halted_s < 1e-9 && v.halted_s >= 0.0);
         TEST_ASSERT_FALSE(v.forgets || v.latched);
-        m.off_s = 99.0; /* it goes on where it was */
+        m.off_s = 99.0; /* it continues in its state */
         v = judged(&m);
         TEST_ASSERT_TRUE(v.halted_s < 0.0);
         m.on_s = 2.0;
@@ -348,7 +350,7 @@ static void test_resets(void) {
     }
 }
 
-/* A watchdog that cuts says that something was late; where nothing was it is the controller's doing. */
+/* A watchdog that cuts reports a delay; without any delay it is the controller's fault. */
 static void test_cuts(void) {
     for (int i = 0; i < 4; i++) {
         made_up m = honest;
@@ -362,7 +364,7 @@ static void test_hangs(void) {
     made_up m = honest;
     m.end = LOCKSTEP_FAILED;
     TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
-    m.end = LOCKSTEP_LET_GO; /* it is still there, and the motor is off */
+    m.end = LOCKSTEP_LET_GO; /* it is still running, and the motor is off */
     TEST_ASSERT_EQUAL_INT(OUTCOME_GOOD, judged(&m).outcome);
     m.off_s = 99.0;
     TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
@@ -381,14 +383,14 @@ void suite_faults(void) {
 }
 
 /* === lockstep ================================================================================= */
-/* A firmware and a plant in turns, with somebody who listens to them: what taps see and change, and the
- * tape. The firmware is build/pil_cart, a process of its own. */
+/* A firmware and a plant in turns, with an observer: taps that watch or change, and the tape. The firmware is
+ * build/pil_cart in its own process. */
 
 static char firmware[512];
 static motion cart;
 static lockstep_report report;
 
-/* Beside the folder of this program. */
+/* In the folder of this program. */
 static void find_firmware(void) {
     const ssize_t length = readlink("/proc/self/exe", firmware, sizeof firmware - 20);
     firmware[length > 0 ? length : 0] = '\0';
@@ -468,7 +470,7 @@ static bool refuse_start(void *of, const wh_hello *hello, plant *on) {
     return hello == NULL || on == NULL;
 }
 
-/* Every millisecond, and no step between. */
+/* Every millisecond, without missing steps. */
 static void see_plant(void *of, double time_s, const plant *on) {
     listener *l = of;
     l->readings++;
@@ -477,7 +479,7 @@ static void see_plant(void *of, double time_s, const plant *on) {
     l->last_s = time_s;
 }
 
-/* Who only listens hears all of it, and changes nothing. */
+/* A listening tap hears everything and changes nothing. */
 static void test_listening(void) {
     lockstep_wish wish = wish_until(1.5);
     run(&wish);
@@ -492,11 +494,11 @@ static void test_listening(void) {
     TEST_ASSERT_EQUAL_UINT64(1500, report.exchanges);
     TEST_ASSERT_EQUAL_UINT64(1500, heard.orders);
     TEST_ASSERT_EQUAL_UINT64(1500, heard.readings);
-    TEST_ASSERT_EQUAL_UINT64(2 * 1499, heard.samples); /* the first reading is of the start */
+    TEST_ASSERT_EQUAL_UINT64(2 * 1499, heard.samples); /* the first reading is the start */
     TEST_ASSERT_TRUE(heard.most_N > 1.0F && heard.most_N <= 20.0F);
 }
 
-/* Who watches the plant sees it go on and changes nothing, also while the firmware computes for ten milliseconds. */
+/* A watching tap sees the plant move and changes nothing, also while the firmware computes for ten milliseconds. */
 static void test_watching(void) {
     for (int late = 0; late < 2; late++) {
         lockstep_wish wish = wish_until(1.5);
@@ -526,7 +528,7 @@ static void test_refused_start(void) {
     TEST_ASSERT_EQUAL_UINT64(0, report.exchanges);
 }
 
-/* Whose orders are lost on the way has a plant that moves as if it were alone. */
+/* A plant whose orders are lost moves as if alone. */
 static void test_deaf_plant(void) {
     lockstep_wish wish = wish_until(1.0);
     const tap taps[] = {{.name = "deaf", .orders = forget_orders}};
@@ -537,7 +539,7 @@ static void test_deaf_plant(void) {
     TEST_ASSERT_TRUE(report.plant_hash == engine_double.hash(cart.run));
 }
 
-/* A firmware that sees nothing pushes nothing. */
+/* A firmware without inputs pushes nothing. */
 static void test_blind_firmware(void) {
     lockstep_wish wish = wish_until(0.2);
     listener heard = {.orders = 0};
@@ -550,7 +552,7 @@ static void test_blind_firmware(void) {
     TEST_ASSERT_TRUE(heard.most_N == 0.0F);
 }
 
-/* A tape has what the firmware heard and said, whatever taps made of it: it answers the same again. */
+/* A tape contains the firmware's inputs and answers after all taps: replay gives the same answers. */
 static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
     char name[] = "/tmp/whirl_tape_XXXXXX";
     const int file = mkstemp(name);
@@ -580,7 +582,7 @@ static void test_tapes_of_tapped_runs(void) {
     tape_of_a_tapped_run(&taps[1], 300);
 }
 
-/* A processor that is reset says hello again; of the time that it takes no exchange is missed but those in it. */
+/* A processor says hello again after a reset; only exchanges during the reset are missing. */
 static void test_tapes_of_resets(void) {
     static const struct {
         const char *words;
@@ -590,7 +592,7 @@ static void test_tapes_of_resets(void) {
         {"reset=0@0.1005", 1, 301}, /* one at 0.1005 s, and then every millisecond from there */
         {"reset=5ms@0.1005", 1, 296},
         {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
-        {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* one is in another's */
+        {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* a reset within another */
         {"reset=0@0", 1, 301},                                        /* before its first orders */
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -602,7 +604,7 @@ static void test_tapes_of_resets(void) {
     }
 }
 
-/* Somebody asks it to stop: it does, and the process is gone. */
+/* After an interrupt it stops, and the process has ended. */
 static void test_interrupt(void) {
     lockstep_wish wish = wish_until(100.0);
     interrupted = 1;
@@ -628,10 +630,10 @@ void suite_lockstep(void) {
 }
 
 /* === replay =================================================================================== */
-/* A tape in the plant's place (host/pil/taped.c), drawn: played to its end, or to the firmware's; ended at the
- * first answer that is not the tape's, which is said; refused where it is another firmware's, or none. */
+/* A random tape in place of the plant (host/pil/taped.c): played to its end or the firmware's. It ends at the first
+ * different answer, with a message, and is refused if it belongs to another firmware or is invalid. */
 
-/* Plays it: ends so, after so many turns; returns what was said. */
+/* Plays it: expects this end after so many turns; returns the message. */
 static const char *replay(lockstep_end end, unsigned turns, bool with_hello) {
     static stream heard;
     char name[] = "/tmp/whirl-talk-XXXXXX";
@@ -655,7 +657,7 @@ static double time_of(unsigned turn) {
     return (double)(talk_drawn.ticks[turn] - talk_drawn.hello.start_ticks) / 1e6;
 }
 
-/* Until the tape's end; or the firmware's, which is the tape's, too; or the tape's last word, which nobody had answered. */
+/* Until the tape's end; or the firmware's, which is also the tape's; or the tape's last, unanswered message. */
 static void test_replayed(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         talk_draw();
@@ -676,7 +678,7 @@ static void test_replayed(void) {
     }
 }
 
-/* Another answer in one turn: there it ends, and says which outputs. What was counted is no matter. */
+/* A different answer in one turn: replay ends there and names the outputs. Counts do not matter. */
 static void test_other_orders(void) {
     unsigned hints = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(50, 24)); c++) {
@@ -726,7 +728,7 @@ static void test_not_replayed(void) {
         talk_tape_all(talk_drawn.turns);
         const unsigned turns = talk_one_of(talk_drawn.turns);
         talk_say_all(turns);
-        if (c % 4 == 0) { /* the firmware ends, and the tape goes on */
+        if (c % 4 == 0) { /* the firmware ends, and the tape continues */
             talk_put_end(&talk_line, 0, 4);
             const char *told = replay(LOCKSTEP_DIFFERENT, turns, true);
             snprintf(words, sizeof words,
@@ -748,7 +750,7 @@ static void test_not_replayed(void) {
             talk_say_all(talk_drawn.turns);
             const char *told = replay(LOCKSTEP_BAD, talk_drawn.turns - 1U, true);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: it is broken after "), told);
-        } else { /* none */
+        } else { /* no tape */
             talk_on_tape.length = 2;
             const char *told = replay(LOCKSTEP_BAD, 0, false);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: no tape of this version after 0"),
@@ -757,7 +759,7 @@ static void test_not_replayed(void) {
     }
 }
 
-/* A tape on which the firmware was reset: over a line nobody can. */
+/* A tape with a reset of the firmware: a line cannot replay it. */
 static void test_reset_on_tape(void) {
     uint8_t payload[WH_RESET_BYTES];
     const wh_reset reset = {.cause = WH_RESET_WATCHDOG};

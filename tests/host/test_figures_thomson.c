@@ -1,8 +1,8 @@
-/* test_figures_thomson.c: what figures 50 to 58 of the dissertation show: Thomson's device on the slider
- * and free in the plane. Thresholds and sources as in test_dissertation.c.
+/* test_figures_thomson.c: figures 50 to 58 of the dissertation: Thomson's device on the slider and free in the plane.
+ * Thresholds and sources as in test_dissertation.c.
  *
- * The device is chaotic: what is asked of a whole run holds for every trajectory near it (ranges,
- * invariants), and single times are early enough to be trusted. */
+ * The device is chaotic. Limits on whole runs hold for every trajectory near it (ranges, invariants), and single times
+ * are early enough to be accurate. */
 #include "ranges.h"
 
 #include <math.h>
@@ -59,8 +59,8 @@ static void test_figure_50_five_turns_of_the_arm(void) {
 static void test_figure_53_back_within_a_fifth_of_a_metre_each_turn(void) {
     const turns t = count_turns("thomson_a", 0.125e-3, 9.5);
     for (unsigned i = 0; i < t.count; i++) {
-        /* dissertation: back at its first place. Closed form at a full turn, from the momentum:
-         * X = (r/3)(1 - cos theta2), which is zero only where disc 33 points outwards. */
+        /* dissertation: back at its first place. Closed form at a full turn, from the momentum: X = (r/3)(1 - cos
+         * theta2), zero only if disc 33 points outwards. */
         expect_between("fig 53: X at a full turn, m", 0.0, 0.2, t.X[i]);
     }
 }
@@ -68,13 +68,13 @@ static void test_figure_53_back_within_a_fifth_of_a_metre_each_turn(void) {
 static void test_figures_51_to_53_ranges(void) {
     range r[] = {{.name = "X"}, {.name = "projection"}, {.name = "X'"}, {.name = "theta1'"}};
     ranges_of("thomson_a", IN_DOUBLE_STEP(0.25e-3), 10.0, 1e-3, r, 4);
-    /* independent: 0 to 0.9987 m; momentum leaves it 0 to 1 m */
+    /* independent: 0 to 0.9987 m; momentum limits it to 0 to 1 m */
     expect_between("fig 53: X from, m", -1e-8, 1e-8, r[0].least);
     expect_between("fig 53: X to, m", 0.998, 1.0 + 1e-8, r[0].most);
     /* closed form: 2 r to either side */
     expect_between("fig 53: projection from, m", -0.6 - 1e-12, -0.599, r[1].least);
     expect_between("fig 53: projection to, m", 0.6 - 1e-12, 0.6 + 1e-12, r[1].most);
-    /* energy bounds the rates: T = M theta1 < 2 x 5.9 x 2 pi J, carriage and discs 2 kg each */
+    /* energy limits the rates: T = M theta1 < 2 x 5.9 x 2 pi J, carriage and discs 2 kg each */
     expect_between("fig 51: |X'|, m/s", 2.0, 8.6, fmax(r[2].most, -r[2].least));
     expect_between("fig 52: |theta1'|, rad/s", 5.0, 20.0, fmax(r[3].most, -r[3].least));
 }
@@ -86,8 +86,8 @@ static void test_figure_54_shifted_not_larger(void) {
     range b[] = {{.name = "X"}, {.name = "x_cm"}};
     ranges_of("thomson_a", IN_DOUBLE_STEP(0.25e-3), 10.0, 1e-3, a, 1);
     ranges_of("thomson_b_conserved", IN_DOUBLE, 10.0, 1e-3, b, 2);
-    /* dissertation: the amplitude did not change, both ends are shifted alike. Closed form: by the
-     * centre of mass, from 0.6 to 0.5 m. Independent: -0.0998 to 0.8999 m. */
+    /* dissertation: the amplitude is unchanged, both ends are shifted alike. Closed form: by the centre of mass, from
+     * 0.6 to 0.5 m. Independent: -0.0998 to 0.8999 m. */
     expect_between("fig 54: X's width, set B / set A", 0.99, 1.01,
                    range_width(&b[0]) / range_width(&a[0]));
     expect_between("fig 54: X from, m", -0.1 - 1e-9, -0.099, b[0].least);
@@ -101,8 +101,8 @@ static void test_figure_54_quicker(void) {
     const turns a = count_turns("thomson_a", 0.125e-3, 5.0);
     const turns b = count_turns("thomson_b", 0.125e-3, 2.0);
     TEST_ASSERT_TRUE(a.count >= 1 && b.count >= 1);
-    /* dissertation: the magnet raises the frequency. It is the arm's speed at the start that does:
-     * independent, 0.6065 s for the first turn instead of 3.5455 s. */
+    /* dissertation: the magnet raises the frequency. The cause is the arm's speed at the start: independent, 0.6065 s
+     * for the first turn instead of 3.5455 s. */
     expect_between("fig 54: first turn, set B, s", 0.606, 0.607, b.at_s[0]);
     expect_between("fig 54: first turn, set A / set B", 5.8, 5.9, a.at_s[0] / b.at_s[0]);
     /* dissertation: the carriage moves by -0.1 m within the first cycle */
@@ -112,7 +112,7 @@ static void test_figure_54_quicker(void) {
 static void test_figure_57_on_the_slider_as_a_rigid_body(void) {
     range r[] = {{.name = "X"}, {.name = "x_cm"}};
     ranges_of("thomson_b_spin", IN_DOUBLE_STEP(0.125e-3), 10.0, 1e-3, r, 2);
-    /* dissertation: a harmonic motion in X and no other. Closed form: within 0.4 +- 0.5 m. */
+    /* dissertation: a harmonic motion in X only. Closed form: within 0.4 +- 0.5 m. */
     expect_between("fig 57: X from, m", -0.1 - 1e-8, -0.09, r[0].least);
     expect_between("fig 57: X to, m", 0.89, 0.9 + 1e-8, r[0].most);
     expect_between("fig 57: drift of the centre of mass, m", 0.0, 1e-8, range_drift(&r[1]));
@@ -147,7 +147,7 @@ static void check_plane(const char *which, double x_cm, double y_cm) {
     expect_between("fig 58: carriage from the centre of mass, nearest, m", 0.2 - 1e-8, 0.21,
                    nearest);
     expect_between("fig 58: the same, furthest, m", 0.59, 0.6 + 1e-8, furthest);
-    /* dissertation: it moves in a circle. It goes round as often as the arm does, to a turn. */
+    /* dissertation: it moves in a circle, as often as the arm does, within a turn. */
     expect_between("fig 58: turns round the centre of mass / turns of the arm", 0.9, 1.1,
                    fabs(turned) / arm);
     TEST_ASSERT_TRUE(arm > 5.0 * 2.0 * PI);

@@ -1,5 +1,5 @@
-/* test_findings.c: whether what is left of a run's energy can be believed (host/check/energy_residual.h), by formulas: of books that are made up,
- * of runs with contacts whose totals are, and of what float loses of powers that are too small for it. */
+/* test_findings.c: verdict on a run's energy residual (host/check/energy_residual.h), by formulas: for synthetic
+ * balances, runs with contacts and synthetic totals, and powers too small for float. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -38,7 +38,8 @@ static void expect_near(double wanted, double is, const char *what) {
 
 static bool maybe(void) { return dice_one_of(&die, 2) == 0; }
 
-/* --- books that are made up ---------------------------------------------------------------------------------------------*/
+/* --- synthetic balances
+ * ------------------------------------------------------------------------------------------------ */
 
 static uint64_t held; /* values at an end of their range */
 static uint64_t held_values(const void *run) {
@@ -46,7 +47,7 @@ static uint64_t held_values(const void *run) {
     return held;
 }
 
-/* What explains it, by the root of the steps; the measure, and its part. */
+/* The verdict's measure and its round-off part, which grows with the root of the steps. */
 static void expect_measure(const energy_residual *made, books *b, const engine_kind *kind,
                            double entry_J, double left_J) {
     double computing_J = 0.0;
@@ -84,7 +85,7 @@ static void test_made_up_books(void) {
             books_enter(b, &kind, NULL);
         }
         made_run.at = end;
-        /* any of the entries may be the largest, rounding a part that counts */
+        /* any entry may be the largest; round-off a relevant part */
         const double size = exp(dice_between(&die, -30.0, 1.0));
         for (int k = 0; k < 2; k++) {
             b->energy_J[k] = size * dice_between(&die, -1.0, 1.0);
@@ -96,7 +97,7 @@ static void test_made_up_books(void) {
         b->rule_J = size * dice_between(&die, 0.0, 1e-3);
         b->jump_J = size * dice_between(&die, -9.0, 9.0);
         b->jump_s = 7.0;
-        if (c % 4U == 3) { /* nothing left over at all */
+        if (c % 4U == 3) { /* no residual at all */
             b->energy_J[1] = b->energy_J[0];
             b->input_J = 0.0;
             b->loss_J = 0.0;
@@ -132,7 +133,7 @@ static void test_made_up_books(void) {
 
 /* --- with contacts ------------------------------------------------------------------------------------------------------*/
 
-static double totals[400]; /* as the run keeps them */
+static double totals[400]; /* in the run's storage */
 static void told_totals(const void *run, double *total, double *error) {
     (void)run;
     memcpy(total, totals, sizeof totals[0] * (size_t)(error - total));
@@ -177,7 +178,7 @@ static void test_kept_books(void) {
         double inputs_J = 0.0;
         double losses_J = 0.0;
         double contacts_J = 0.0;
-        for (int i = 0; i < l->smooth; i++) { /* statements; of the energy's account */
+        for (int i = 0; i < l->smooth; i++) { /* statements of the energy's account */
             const ledger_kind by = l->entry[i].kind;
             if (l->entry[i].account == 0) {
                 const bool damper = by == LEDGER_LOSS || by == LEDGER_DAMPING;
@@ -216,9 +217,10 @@ static void test_kept_books(void) {
     derived_free(&d);
 }
 
-/* --- what float loses ---------------------------------------------------------------------------------------------------*/
+/* --- losses of float
+ * --------------------------------------------------------------------------------------------------- */
 
-/* Of a list's powers, in its bounds with and without what is below the least normal number. */
+/* Bound of a list's powers with and without values below the least normal number. */
 static double lost_W(const image *im, const double *real, const double *input) {
     const op_list *t = im->list[IMAGE_BOOKS];
     double value[60];
@@ -294,9 +296,9 @@ void suite_believed(void) {
 }
 
 /* === short runs =============================================================================== */
-/* Runs of one to nine steps, of a body that a force, or a spring, pulls back, with a stop that it never comes to or
- * without: to closed form. An odd number of steps has no pair for the books' last step, and one step beside a contact has nothing
- * behind it: what is right is silent, what is wrong is not trusted. */
+/* Runs of one to nine steps of a body pulled back by a force or a spring, with an unreached stop or without, against
+ * closed forms. An odd number of steps leaves the balance's last step without a pair, and a single step beside a
+ * contact has no successor. Accurate runs cause no warning; wrong ones are not trusted. */
 
 typedef struct short_run {
     double swing_radps;
@@ -305,7 +307,7 @@ typedef struct short_run {
     int steps;
     bool by_force; /* which does work; else a spring */
     bool stop;
-    double beside_N; /* a body beside it falls so: its energy may be most of all */
+    double beside_N; /* on a falling body beside it, whose energy may dominate */
 } short_run;
 
 static short_run draw(dice *d) {
@@ -337,12 +339,12 @@ static void write(const short_run *r, char *text, size_t size) {
              law, stop, r->start_m, r->step_s, r->steps * r->step_s);
 }
 
-/* The most, of the ranges that place and rate have. */
+/* Largest error relative to the ranges of place and rate. */
 static double off_by(const short_run *r, const char *csv) {
     double off[2] = {0.0, 0.0};
     double low[2] = {r->start_m, 0.0};
     double high[2] = {r->start_m, 0.0};
-    double value[5]; /* the time, both places, both rates */
+    double value[5]; /* time, both places, both rates */
     for (const char *row = csv; (row = said_row(row, 5, value)) != NULL;) {
         const double phase = r->swing_radps * value[0];
         const double is[2] = {r->start_m * cos(phase), -r->start_m * r->swing_radps * sin(phase)};
@@ -393,14 +395,14 @@ void suite_short_runs(void) {
 }
 
 /* === small told =============================================================================== */
-/* The figures of what is told of numbers that are small: an angle whose steps are a few of its units
- * (host/check/slow.h); and that a motion of a few of the least numbers is told. */
+/* Figures in reports on small numbers: an angle whose steps are a few of its units (host/check/slow.h), and a motion of
+ * a few of the least numbers. */
 
 static void expect_figure(double wanted, double is, const char *text) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 0.06 * wanted, text);
 }
 
-/* An angle goes by whole parts of 2^32 a turn: each step by the nearest number of them. */
+/* An angle moves by whole units of 2^-32 turn: each step is rounded to the nearest. */
 static void test_slow_angles(void) {
     for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
         char text[400];
@@ -451,8 +453,8 @@ static void test_slow_angles(void) {
     model_drop();
 }
 
-/* A body that goes some hundred least numbers of float away, or a few: what float rounds of that is told where it is more than a fiftieth
- * of the way, and not below a thousandth. A spring whose rates' products fall below the normal numbers likewise. */
+/* A body that moves by a few to some hundred of float's least numbers: round-off must be reported above a fiftieth of
+ * the way, and not below a thousandth. The same for a spring whose products of rates fall below the normal numbers. */
 static void test_small_numbers(void) {
     unsigned told = 0;
     for (unsigned n = 0; n < dice_cases(usual_or(40, 20)); n++) {
@@ -494,10 +496,10 @@ void suite_small_told(void) {
 }
 
 /* === sweeps told ============================================================================== */
-/* What a whole sweep says and leaves: its rows, which points failed, overran their events, turned too
- * slowly or cannot be believed, and the first of each, of grids in which that is known of every point. */
+/* Output of a whole sweep: its rows; the points that failed, overran their events, turned too slowly or cannot be
+ * trusted; and the first of each. The grids have known results at every point. */
 
-/* Where the point's row begins; a header stands in front of the first. */
+/* Begin of the point's row, after the header. */
 static size_t row_at(const char *rows, uint64_t row) {
     const char *at = rows;
     for (uint64_t i = 0; i <= row; i++) {
@@ -516,7 +518,7 @@ static unsigned times_in(const char *text, const char *words) {
 
 /* --- points that fail --------------------------------------------------------------------------------------------*/
 
-/* The end of all that is said: how many, of them how many there were, by how many workers. */
+/* The final summary: count, number of points, and the number of workers. */
 static void expect_end(const char *err, uint64_t points, uint64_t found, int workers) {
     char wanted[300];
     const int length = snprintf(wanted, sizeof wanted, "%llu points", (unsigned long long)points);
@@ -545,8 +547,8 @@ static void expect_end(const char *err, uint64_t points, uint64_t found, int wor
     TEST_ASSERT_EQUAL_STRING("\n", at);
 }
 
-/* A start below the floor fails, whichever point it is of: each of the first twenty is told, in order, then that there are
- * more, and in the end how many; a file that is gone on with counts those that it has, too. */
+/* A start below the floor fails at any point: the first twenty are reported in order, then that there are more, and the
+ * total at the end. A resumed file counts those that it already has. */
 static void test_failures(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(8, 4)); c++) {
         made_sweep m;
@@ -614,10 +616,10 @@ static void test_failures(void) {
     sessions_close();
 }
 
-/* --- points of which more is to be told --------------------------------------------------------------------------*/
+/* --- points with further reports -------------------------------------------------------------------------------- */
 
-/* A ball between stops a millimetre apart bounces v times a millisecond: from 8 m/s on more often than a step takes. It then
- * rests: one step of each. Beside it an angle turns, too slowly for float or not. */
+/* A ball between stops a millimetre apart bounces v times per millisecond: from 8 m/s on more often than a step takes.
+ * It then rests: one step of each. An angle beside it turns, sometimes too slowly for float. */
 static const char between_text[] =
     "mechanism m\ncoordinate z [m]\ncoordinate a [rad]\nT = 1 [kg]*z'^2/2 + 1 [kg*m^2]*a'^2/2\n"
     "stop z >= 0 [mm] restitution 1\nstop z <= 1 [mm] restitution 1\n"
@@ -647,7 +649,7 @@ static void test_notes(void) {
         const bool slow_first = c % 3U != 0;
         const unsigned count = 1 + dice_one_of(&die, 5);
         const double from = c % 2U == 0 ? 3.0 : dice_between(&die, 11.0, 20.0);
-        /* 3, 13, ...: all but one bounce too often; or all do; or none of them */
+        /* 3, 13, ...: all but one bounce too often; or all, or no point */
         const double to = count == 1    ? from
                           : c % 3U == 0 ? from + 1.0
                                         : from + 10.0 * (count - 1.0);
@@ -692,7 +694,7 @@ static void test_notes(void) {
     sessions_close();
 }
 
-/* A spring by Runge-Kutta 4 keeps |1 - (hw)^6/72 + (hw)^8/576| of its energy a step: nearly all of a soft one's in a
+/* A spring by Runge-Kutta 4 keeps |1 - (hw)^6/72 + (hw)^8/576| of its energy per step: nearly all of a soft one's in a
  * hundred steps, nothing of a hard one's. */
 static void test_not_believed(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
@@ -731,7 +733,7 @@ static void test_not_believed(void) {
 
 /* --- stopped, and lost -------------------------------------------------------------------------------------------*/
 
-/* Told to end before anything: what there is stays, and how it goes on is said. */
+/* Stopped before the first point: existing rows stay, and the message says how to resume. */
 static void test_stopped(void) {
     made_sweep m;
     const char *const axes[] = {"x=1..9:9"};
@@ -787,25 +789,25 @@ void suite_sweeps_told(void) {
 }
 
 /* === thresholds =============================================================================== */
-/* Each finding on both sides of its limit (host/check/finding.h). A scene with one parameter is silent at one end
- * of it and told of at the other. Between them its place is halved until the value stands at the limit: just beyond it the
- * finding is told, by a value that is just beyond, and just within it is not. Where that is is known as well, mostly in closed
- * form, so that a limit moved by a twentieth fails here. Findings that count steps have suites of their own (pole, missed, busy). */
+/* Each finding on both sides of its limit (host/check/finding.h). A scene with one parameter causes no report at one
+ * end and one at the other. Bisection finds the place of the limit: just beyond it the finding is reported, with a
+ * value just beyond the limit; just within it is not. That place is known, mostly in closed form, so that a limit wrong
+ * by a twentieth fails. Findings that count steps have their own suites (pole, missed, busy). */
 
 enum { TEXT = 1200, HALVINGS = 24 };
 
-/* "%1$.17g" is the parameter, in the decade `silent` to `told`, drawn a little further off at both ends. */
+/* "%1$.17g" is the parameter, in the decade `silent` to `told`, randomly extended at both ends. */
 static const struct {
     finding_id id;
     const char *number;
     double silent;
     double told;
-    double at; /* where it begins to be told, 0: somewhere between */
+    double at; /* where the report starts; 0: somewhere between */
     double limit;
     const char *text;
 } rows[] = {
     {FINDING_ENERGY, "double", 0.1, 10.0, 0.4335,
-     1e-3, /* N (h w)^6/72 of the energy, root 2 of which is the largest entry */
+     1e-3, /* N (h w)^6/72 of the energy; the largest entry is root 2 of that */
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.5 [s]\nuntil 40 [s] }\n"},
     {FINDING_ACCURACY, "double", 0.1, 4.0, 2.728,
@@ -813,7 +815,7 @@ static const struct {
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.25 [s]\nuntil 100 [s] }\n"},
     {FINDING_SINGULAR, "double", 0.15, 0.07, 0.0954,
-     1e-2, /* less than a tenth away, by the step that is nearest */
+     1e-2, /* less than a tenth away, at the nearest step */
      "mechanism m\ncoordinate r [m]\ncoordinate phi [rad]\n"
      "T = 1 [kg]*(r'^2 + r^2*phi'^2)/2\n"
      "scene s { start r = 1 [m], phi = 0, r' = -4 [m/s], phi' = 4*%1$.17g [rad/s]\n"
@@ -827,7 +829,7 @@ static const struct {
      "mechanism m\ncoordinate x [m]\ncoordinate t [s]\nT = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\n"
      "Q(x) = 1 [N] + %1$.17g [N]*cos(2*pi*400 [Hz]*t)\n"
      "scene s { start x' = 1 [m/s], t' = 1\nstep 10 [ms]\nuntil 2 [s] }\n"},
-    {FINDING_APART, "double", 1e-8, 1e-4, 1.25e-6, 1e-6, /* 0.8 of which is along the rod */
+    {FINDING_APART, "double", 1e-8, 1e-4, 1.25e-6, 1e-6, /* 0.8 of it is along the rod */
      "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
      "V = 9.81 [N]*y\nhold sqrt(x^2 + y^2) - 1 [m] while 1 > 0\n"
      "scene s { start x = 0.6 [m], y = 0.8 [m] + %1$.17g [m]\nstep 1 [ms]\nuntil 20 [ms] }\n"},
@@ -837,7 +839,7 @@ static const struct {
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
-/* The value by which this finding is told; NAN: it is not. */
+/* The reported value of this finding; NAN without a report. */
 static double told_by(unsigned row, double parameter) {
     static said what;
     char text[TEXT];

@@ -1,5 +1,5 @@
-/* test_fixed.c: what rounding takes of runs in fixed point is told, and what it does not take is not: generated
- * motions with closed forms, in ranges and steps of many sizes; and the books believe what is right. */
+/* test_fixed.c: fixed-point runs report significant round-off and nothing else: random motions with closed forms in
+ * ranges and steps of many sizes. Correct energy balances are accepted. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +54,7 @@ static outcome run_of(derived *d, const char *text) {
     return end;
 }
 
-/* Pushed evenly, turning evenly, and filling evenly, for 2 s. */
+/* Pushed, turning and filling evenly, for 2 s. */
 static void try_even_motion(int kind, double value, double times, int step_us, int *told,
                             int *quiet) {
     static const char *const texts[] = {
@@ -74,7 +74,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     const outcome end = run_of(&d, text);
     const double span = 2.0 * value;
     const double where = kind == 1 ? end.angle[0] : end.real[0];
-    /* a start and an input are rounded, too, once */
+    /* a start and an input are each rounded once, too */
     double worst = fabs(where - span) / span;
     worst = kind == 0 ? fmax(worst, fabs(end.real[1] - span) / span) : worst;
     TEST_ASSERT_FALSE_MESSAGE(end.held, text);
@@ -98,7 +98,7 @@ static void test_lost_steps_are_told(void) {
     for (int kind = 0; kind < 3; kind++) {
         for (int power = 0; power <= 6; power++) {
             for (int n = 0; n < 4; n++) {
-                /* a rotor's angle has units of its own: slow ones */
+                /* a rotor's angle has its own units: slow ones */
                 const double value = kind == 1 ? pow(10.0, -power) : 1.0;
                 try_even_motion(kind, value * random_between(&seed, 0.5, 2.0),
                                 kind == 1 ? 1.0 : pow(10.0, power), step_us[n], &told, &quiet);
@@ -109,7 +109,7 @@ static void test_lost_steps_are_told(void) {
     TEST_ASSERT_GREATER_THAN_INT(25, quiet);
 }
 
-/* Oscillators of all masses and springs, some so slow that they hardly begin: believed wherever they are right. */
+/* Oscillators of all masses and springs, some so slow that they hardly move: accepted whenever they are accurate. */
 static void test_books_believe_what_is_right(void) {
     int right = 0;
     for (int mass = -6; mass <= 6; mass += 2) {
@@ -143,13 +143,13 @@ void suite_fixed_loss(void) {
 }
 
 /* === fixed runs =============================================================================== */
-/* Runs in fixed point of made-up smooth mechanisms: beside the run in double, within what their formats
- * make of rounding; ranges that are too small; what is refused. */
+/* Fixed-point runs of random smooth mechanisms, against the run in double within the formats' round-off; ranges that
+ * are too small; refusals. */
 
 enum { KINDS = 5, CASES = 40, TEXT_SIZE = 3000, MOST = 8 };
 
-/* A mechanism m with a scene s that has these ranges, of kind `which`: masses between springs, one of them one-sided; a damped
- * pendulum on a carriage; a driven rotor with an uneven load; two coupled pendulums; a system of first order. */
+/* A mechanism m with a scene s of kind `which` with these ranges: masses between springs, one of them one-sided; a
+ * damped pendulum on a carriage; a driven rotor with an uneven load; two coupled pendulums; a system of first order. */
 static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t seed,
                             const char *ranges) {
     double r[10];
@@ -206,7 +206,7 @@ static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t see
     }
 }
 
-/* Its run to the end: real[reals] and angles behind them; how far each real got. */
+/* Its run to the end: real[reals], then angles; the largest value of each real. */
 static uint64_t run(const engine_kind *kind, const image *im, double *end, double *far) {
     void *of = kind->start(im);
     for (uint64_t k = 0; k <= im->steps; k++) {
@@ -221,7 +221,7 @@ static uint64_t run(const engine_kind *kind, const image *im, double *end, doubl
     return held;
 }
 
-/* "range x = -0.3 .. 0.3 [m]": so many times what the run gets to, for each real and input. */
+/* "range x = -0.3 .. 0.3 [m]": this factor times the run's largest value, for each real and input. */
 static void write_ranges(char *text, const image *im, const double *far, double times) {
     size_t length = 0;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -236,9 +236,9 @@ static void write_ranges(char *text, const image *im, const double *far, double 
     }
 }
 
-/* What rounding may make of component i of the reals by the end: in each step a unit of what is kept, one way or the other, and
- * two units of the list's results, which constants may leave each time; positions take along what rates are off. The
- * mechanisms are damped: nothing of it grows by itself, but a swing may be passed on for a while. */
+/* Bound on the round-off of component i of the reals at the end. Each step adds a unit of the stored number, and two
+ * units of the list's results, which constants may add each time. Positions integrate the rates' errors. The mechanisms
+ * are damped, so errors do not grow, but a swing may be passed on for a while. */
 static double bound_of(const fixed_plan *p, int i) {
     enum { PASSED_ON = 12 };
     const image *im = p->image;
@@ -274,7 +274,7 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
     for (int i = 0; i < d->image->reals; i++) {
         const double bound = bound_of(p, i);
         const double size = fmax(fabs(p->range[i].low), fabs(p->range[i].high));
-        TEST_ASSERT_TRUE_MESSAGE(bound < 3e-3 * size, text); /* it must say something */
+        TEST_ASSERT_TRUE_MESSAGE(bound < 3e-3 * size, text); /* the bound must be significant */
         TEST_ASSERT_TRUE_MESSAGE(fabs(fixed[i] - exact[i]) <= bound, text);
     }
     d->image->fixed = NULL;
@@ -337,7 +337,7 @@ static void test_made_up_mechanisms(void) {
     }
 }
 
-/* What fixed_plan_make() says of the scene. */
+/* Message of fixed_plan_make() for the scene. */
 static void check_refused(const char *text, const char *why) {
     char *report;
     size_t length;
@@ -400,7 +400,7 @@ static void test_ranges_keep_denominators_from_zero(void) {
     derived_free(&d);
 }
 
-/* What is no range says so, with its place. */
+/* An invalid range is reported with its place. */
 static void test_ranges_in_the_language(void) {
     static const char *const tried[][2] = {
         {"range x = 1 .. -1 [m]", "holds nothing"},

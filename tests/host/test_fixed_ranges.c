@@ -1,5 +1,5 @@
-/* test_fixed_ranges.c: ranges and steps of all sizes in fixed point: what is made of them ends, and is either a step or a
- * refusal whose hint helps; and what has no acceleration moves all the same. */
+/* test_fixed_ranges.c: ranges and steps of all sizes in fixed point: planning ends, with a step or with a refusal whose
+ * hint helps. Coordinates without acceleration still move. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 
 void suite_fixed_ranges(void);
 
-/* What fixed_plan_make() makes of it, and what it says; `report` to be freed. */
+/* Result and messages of fixed_plan_make(); `report` to be freed. */
 static fixed_plan *plan_of(const image *im, char **report) {
     size_t length;
     diags *errors = diags_new();
@@ -37,7 +37,6 @@ static bool is_made(const image *im) {
     return made;
 }
 
-/* All ranges: -size to size. */
 static void set_ranges(image *im, double size) {
     for (int i = 0; i < im->reals + im->inputs; i++) {
         im->range[i].declared = true;
@@ -59,7 +58,7 @@ static const char *const wide[] = {
     "state x\nstate y\nequation x'*1 [s] = 1/(1 + x^2) - y\nequation y'*1 [s] = x*y\n",
 };
 
-/* Who does what this hint says, and the next one, gets somewhere: by smaller steps, or narrower ranges. */
+/* Following this hint, and the next one, succeeds: by smaller steps, or narrower ranges. */
 static void check_hint(image *im, double size, const char *report) {
     const double step_s = im->step_s;
     bool helped = false;
@@ -106,7 +105,6 @@ static void test_ranges_and_steps_of_all_sizes(void) {
     TEST_ASSERT_GREATER_THAN_INT((int)few_or_all(25, 200), refused);
 }
 
-/* A run's reals and angles at its end. */
 static void run_to_end(const image *im, double *angle, double *real) {
     void *run = engine_fixed.start(im);
     for (uint64_t k = 0; k < im->steps; k++) {
@@ -117,18 +115,18 @@ static void run_to_end(const image *im, double *angle, double *real) {
     engine_fixed.stop(run);
 }
 
-/* Half a unit of each step, and of the rate that goes into it. */
+/* Half a unit of each step, and of the rate in it. */
 static double bound_of(const fixed_plan *p, int at, int rate, double until_s) {
     const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 1.4629180793e-9;
     const double of_rate = rate >= 0 ? ldexp(1.0, -p->format[rate].bits) : 0.0;
     return 0.51 * (double)p->image->steps * unit + until_s * of_rate;
 }
 
-/* Straight on: closed forms. */
+/* Uniform motion: closed forms. */
 static void test_what_has_no_acceleration_moves(void) {
     static const struct {
         const char *text;
-        int at, rate; /* of the reals; -1: the angle, or none */
+        int at, rate; /* of the reals; -1: the angle, or absent */
         bool moves;
     } kinds[] = {
         {"coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nscene s { start a' = %.9f [rad/s]", -1, 0,
@@ -174,7 +172,8 @@ static void test_what_has_no_acceleration_moves(void) {
     }
 }
 
-/* A swing so small that a step adds more at the lowest place than the whole range of the rate: with all ranges not declared. */
+/* A swing so small that a step adds more at the lowest place than the whole range of the rate: with all ranges not
+ * declared. */
 static void test_small_swings(void) {
     for (int power = -7; power <= 0; power++) {
         char *report;
@@ -195,7 +194,8 @@ static void test_small_swings(void) {
 
 enum { INPUTS_MOST = 3, RANGES_TEXT = 400 };
 
-/* A scene with inputs that push to either side, and these ranges. What `whirl derive` says of its code in fixed point. */
+/* A scene with inputs that push to either side, and these ranges. Returns the message of `whirl derive` on its
+ * fixed-point code. */
 static void derive_pushed(int inputs, const double *start, const char *ranges, said *what) {
     char text[1500];
     int length = snprintf(text, sizeof text, "mechanism pushed\ncoordinate x [m]\n");
@@ -215,7 +215,7 @@ static void derive_pushed(int inputs, const double *start, const char *ranges, s
     model_drop();
 }
 
-/* Each input without a range is refused with a hint, and the hints, pasted, are enough. */
+/* Each input without a range is refused with a hint; pasting the hints suffices. */
 static void test_inputs_must_declare_ranges(void) {
     dice d = dice_of("fixed_ranges", 46);
     const unsigned cases = dice_cases(usual_or(24, 8));
@@ -228,7 +228,7 @@ static void test_inputs_must_declare_ranges(void) {
         said what;
         for (int i = 0; i < inputs; i++) {
             start[i] = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -2.0, 2.0);
-            if ((declared >> i & 1U) != 0) { /* on both sides of its start, and of zero or not */
+            if ((declared >> i & 1U) != 0) { /* around its start, and perhaps zero */
                 length += (size_t)snprintf(
                     ranges + length, sizeof ranges - length, "; range u%d = %.17g .. %.17g [N]", i,
                     start[i] - dice_between(&d, 0.1, 3.0), start[i] + dice_between(&d, 0.1, 3.0));

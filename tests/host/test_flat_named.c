@@ -1,5 +1,5 @@
-/* test_flat_named.c: a linkage that lies flat ends its run, and the hold that is one too many there is named, whatever
- * stands before it and behind it in the file. */
+/* test_flat_named.c: a linkage that lies flat ends its run, and the redundant hold is named, in any order of the
+ * file. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,8 +33,8 @@ static void add_stops(writing *w, int count) {
     }
 }
 
-/* A parallelogram that comes to lie along the x axis, where lengths along it change with no angle: it is their hold that
- * tells nothing any more. */
+/* A parallelogram becomes flat along the x axis, where no angle changes lengths along it: that direction's hold becomes
+ * redundant. */
 static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     const double crank_m = dice_between(d, 0.05, 0.15);
     const double coupler_m = dice_between(d, 0.2, 0.4);

@@ -1,8 +1,8 @@
-/* test_folded.c: a light body, and a heavy one that a stiff spring holds and that is counted from the light one: k1 + k2, folded
- * to double, keeps few digits of the softer spring, which is all that the light body feels; and every run of the scene goes by
- * the same number. Given by energies or by equations, with parameters or numbers, with dampers or without, and a third body
- * between them at times. The reference never adds what belongs to two bodies: each by itself, in long double. What is off is
- * told; what is right is left alone. */
+/* test_folded.c: a light body, and a heavy one on a stiff spring that is counted from the light one. k1 + k2, folded to
+ * double, keeps few digits of the softer spring, the only force on the light body, and every run of the scene uses that
+ * number. Given by energies or equations, with parameters or numbers, with dampers or without, sometimes with a third
+ * body between. The reference never adds quantities of two bodies: each by itself, in long double. Errors are reported;
+ * accurate runs cause no report. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -33,7 +33,7 @@ typedef struct link {
     double damper_Nspm;
 } link;
 
-/* Bodies 0 ... bodies - 1, each counted from the one before it, the first from the ground. */
+/* Bodies 0 ... bodies - 1, each counted from the previous one, the first from the ground. */
 typedef struct held {
     int bodies;
     int links;
@@ -101,7 +101,7 @@ static void put_energies(FILE *out, const held *h) {
     fputc('\n', out);
 }
 
-/* Lagrange's, multiplied out by hand. */
+/* Lagrange's equations, expanded by hand. */
 static void put_equations(FILE *out, const held *h) {
     for (int q = 0; q < h->bodies; q++) {
         fputs("equation 0 [N]", out);
@@ -189,18 +189,18 @@ static void run_by_bodies(const held *h, long double *end, double *range) {
     by_bodies_run(&b, start, end, range);
 }
 
-/* --- what is said ------------------------------------------------------------------------------------------------ */
+/* --- messages ---------------------------------------------------------------------------------------------------- */
 
 typedef struct seen {
     bool refused;
-    bool told;    /* of what was folded */
-    bool warned;  /* of anything */
+    bool told;    /* of folding */
+    bool warned;  /* any warning */
     bool trusted; /* to the end */
-    bool untold;  /* by the bound of what rounding does in a run */
-    double off;   /* the most, of the coordinate's range */
+    bool untold;  /* by the bound on a run's round-off */
+    double off;   /* largest error relative to the coordinate's range */
 } seen;
 
-/* Whatever else is said: of two runs that go by the same numbers one would not know. */
+/* Whatever else is reported: two runs with the same folded numbers cannot show it. */
 static void no_trust_in(const char *text) {
     said what;
     command_say_model(command_trust, text, &what);
@@ -248,7 +248,7 @@ static double power_of_ten(dice *d, double low, double high) {
     return pow(10.0, dice_between(d, low, high));
 }
 
-/* The heavy body is `ratio` times as heavy; each moves at a rate of its own where it is held. */
+/* The heavy body has `ratio` times the mass; each oscillates at its own rate on its spring. */
 static held draw(dice *d, double ratio) {
     held h = {.bodies = 2 + (dice_one_of(d, 4) == 0 ? 1 : 0),
               .links = 2,
@@ -318,9 +318,9 @@ static void test_what_is_lost_is_told(void) {
     TEST_ASSERT_TRUE(10 * (told_right + ended_right) <= right);
 }
 
-/* --- what is no more than rounding -------------------------------------------------------------------------------- */
+/* --- round-off only ----------------------------------------------------------------------------------------------- */
 
-/* In how many other ways it was folded. */
+/* Reported number of other ways of folding. */
 static int ways_of(const char *text) {
     motion m;
     motion_open_text(&m, text, IN_DOUBLE);
@@ -329,8 +329,8 @@ static int ways_of(const char *text) {
     return ways;
 }
 
-/* A mass on an arm from a carriage, where the arm's zero is quarter turns off, which leave their cosines' last digits, and a
- * spring whose decimals leave theirs; `k` stands beside it. */
+/* A mass on an arm from a carriage. The arm's zero is quarter turns off, which leaves the last digits of their cosines,
+ * and a spring's decimals leave theirs; `k` is beside it. */
 static void arm_text(dice *d, double k, char *text, size_t size) {
     static const char *const angle[] = {"90 [deg]",  "pi/2",      "180 [deg]",
                                         "-90 [deg]", "270 [deg]", "pi"};
@@ -365,10 +365,10 @@ static void test_rounding_alone_is_nothing_lost(void) {
         TEST_ASSERT_TRUE_MESSAGE(ways_of(text) > 0, text);
     }
     printf("  %u arms with last digits alone: %u derived in other ways\n", cases, asked);
-    TEST_ASSERT_TRUE(20 * asked <= cases); /* where roundings add up to more */
+    TEST_ASSERT_TRUE(20 * asked <= cases); /* when round-offs add up to more */
 }
 
-/* The other way about: numbers that vanish beside a rest are lost, and rests that vanish beside numbers are not. */
+/* The converse: numbers that vanish beside such residues are lost, and residues that vanish beside numbers are not. */
 static void test_numbers_beside_a_rest(void) {
     dice d = dice_of("folded", 3);
     for (unsigned k = 0; k < dice_cases(200); k++) {
@@ -386,8 +386,8 @@ static void test_numbers_beside_a_rest(void) {
     }
 }
 
-/* Two stiff springs, one pulling and one pushing, that differ by 20 to 80 last digits: nothing to the nearest way of folding, as
- * decimals leave it, but all of what moves the mass. */
+/* Two stiff springs, one pulling and one pushing, that differ by 20 to 80 units in the last place: as small as
+ * decimals' round-off in the nearest folding, but the whole force on the mass. */
 static void test_what_is_nearly_the_same(void) {
     dice d = dice_of("folded", 4);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 5)); k++) {
@@ -420,15 +420,14 @@ void suite_folded(void) {
 }
 
 /* === folded numbers =========================================================================== */
-/* A soft spring that is computed, by parameters or where it stands, of numbers beside which it is small:
- * of differences, quotients, roots and functions. It holds a mass, or says where it starts, what pushes it, how it rubs,
- * or what an event sets. The reference is the
- * closed form with the spring as it was drawn. What is off is not trusted; what is right is left alone. */
+/* A soft spring computed from much larger numbers, by parameters or in place: differences, quotients, roots and
+ * functions. It holds a mass, or determines its start, push, friction or an event's assignment. The reference is the
+ * closed form with the intended spring. Wrong runs are not trusted; accurate ones cause no report. */
 
-/* The soft spring is `k`, or the number in the last column is drawn for it: what it makes of K is k. */
+/* The soft spring is `k`, or the number in the last column is chosen so that the formula of K yields k. */
 typedef struct maker {
     const char *numbers; /* parameters on the way, */
-    const char *soft;    /* and the spring of them */
+    const char *soft;    /* and their spring */
     enum { OF_K, OF_ANGLE, OF_EXPONENT, OF_ROOT, OF_SATURATION, OF_LIMIT } by;
 } maker;
 
@@ -449,13 +448,13 @@ static const maker makers[] = {
 };
 enum { MAKERS = sizeof makers / sizeof *makers };
 
-/* What it is for. */
+/* Its use. */
 typedef enum use { HOLDS, STARTS, PUSHES, RUBS, SETS, USES } use;
 
 typedef struct drawn {
     unsigned maker;
     use use;
-    bool inside; /* where it stands, without parameters of its own between */
+    bool inside; /* in place, without parameters of its own */
     double soft_Npm;
     double hard_Npm;
     double rate_radps;
@@ -467,7 +466,7 @@ static double power_of_ten_folded_numbers(dice *d, double low, double high) {
     return pow(10.0, dice_between(d, low, high));
 }
 
-/* The number that makes k of K, and k as it is with that number. */
+/* The number that makes k of K, and the k that it yields exactly. */
 static double made_by(const maker *of, double part, long double *of_hard) {
     switch (of->by) {
     case OF_ANGLE: {
@@ -493,9 +492,9 @@ static double made_by(const maker *of, double part, long double *of_hard) {
     return part;
 }
 
-/* What it holds, pushes, rubs ... and up to the scene's step. `soft` comes to the drawn spring. */
+/* Its use, up to the scene's step. `soft` evaluates to the intended spring. */
 static void put_motion(FILE *out, const drawn *w, const char *soft) {
-    char part[200]; /* 1, where nothing is lost */
+    char part[200]; /* 1, if nothing is lost */
     snprintf(part, sizeof part, "%s/(%.17g [N/m])", soft, w->soft_Npm);
     fputs("T = m*x'^2/2\n", out);
     switch (w->use) {
@@ -542,7 +541,6 @@ static void wanted_of(const drawn *w, double *x_m, double *v_mps) {
     }
 }
 
-/* The ranges that they have. */
 static double range_m(const drawn *w) {
     return w->use == RUBS ? 9.0 : w->use == SETS ? 2.0 * w->end_s - 1.0 : 0.2;
 }
@@ -583,7 +581,7 @@ static void draw_folded_numbers(dice *d, drawn *w) {
     TEST_ASSERT_EQUAL_INT(0, fclose(out));
 }
 
-/* Of the range, at the end. */
+/* Error relative to the range, at the end. */
 static double off_of(const drawn *w) {
     motion m;
     motion_open_text(&m, w->text, IN_DOUBLE);
@@ -611,7 +609,7 @@ static void test_what_numbers_lose_is_told(void) {
         said what;
         draw_folded_numbers(&d, &w);
         command_say_model(command_run, w.text, &what);
-        if (what.status == 2) { /* x is without a spring, or its own number divides by nothing */
+        if (what.status == 2) { /* x has no spring, or a division by zero */
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "error: "), what.err);
             continue;
         }
@@ -639,9 +637,10 @@ static void test_what_numbers_lose_is_told(void) {
     TEST_ASSERT_TRUE(20 * doubted <= right && 50 * by_luck <= right);
 }
 
-/* --- what stands still for want of digits -------------------------------------------------------------------------- */
+/* --- standstill for lack of digits
+ * --------------------------------------------------------------------------------- */
 
-/* A force of a small change of a large number: at some lengths nothing of it is left, and the mass stands. */
+/* A force from a small change of a large number: at some lengths nothing of it remains, and the mass stands still. */
 static void test_what_stands_for_want_of_digits(void) {
     static const char *const force[] = {
         "%s [N]*(1 - exp(x/%s [m]))",          "%s [N]*(1 - sqrt(1 + 2*x/%s [m]))",
@@ -678,7 +677,8 @@ static void test_what_stands_for_want_of_digits(void) {
     TEST_ASSERT_TRUE(cases < 40 || stand > 0);
 }
 
-/* --- what leaves all bounds when it is rounded otherwise ------------------------------------------------------------- */
+/* --- divergence under other rounding
+ * --------------------------------------------------------------------------------- */
 
 static void test_what_leaves_all_bounds(void) {
     dice d = dice_of("folded_numbers", 3);
@@ -698,7 +698,8 @@ static void test_what_leaves_all_bounds(void) {
     }
 }
 
-/* --- limits that decimals miss by a last digit ---------------------------------------------------------------------- */
+/* --- limits that decimals miss by a last digit
+ * ---------------------------------------------------------------------- */
 
 static int status_beside(const char *contact) {
     char text[400];

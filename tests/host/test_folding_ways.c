@@ -1,6 +1,6 @@
-/* test_folding_ways.c: constants folded otherwise (host/number/folding.h): sums, products, quotients, powers and functions of drawn
- * numbers, against what is exact in long double or by fma(). What is exact stays; what is not is moved by a double or two, in
- * one way to the other side of what is exact, in the others to either. */
+/* test_folding_ways.c: constants folded in other ways (host/number/folding.h): sums, products, quotients, powers and
+ * functions of random numbers, against long double or fma(). Exact results stay. Others move by one or two doubles: in
+ * one way to the other side of the exact value, in the others to either. */
 #include "host/number/folding.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static double drawn(dice *d) {
 
 typedef enum kind { SUM, PRODUCT, QUOTIENT, POWER, SINE, ROOT, KINDS } kind;
 
-/* Sign of what is exact less what is nearest; 0: exact, or not known. */
+/* Sign of the exact value minus the nearest; 0: exact or unknown. */
 static int side_of(kind of, double x, double y, double nearest) {
     switch (of) {
     case SUM: {
@@ -61,7 +61,7 @@ static double folded_by(int way, kind of, double x, double y) {
     return made;
 }
 
-/* By how many doubles, up; 9: by more than there are looked at. */
+/* Number of doubles upwards; 9: more than are examined. */
 static int doubles_from(double from, double to) {
     double up = from;
     double down = from;
@@ -114,7 +114,7 @@ static void test_what_is_not_exact_is_moved(void) {
     }
 }
 
-/* The ways are not the same, and what is folded twice, in either order, is moved alike. */
+/* The ways differ; a repeated folding, in any order, moves the same. */
 static void test_ways_are_several(void) {
     dice d = dice_of("folding ways", 2);
     unsigned alike = 0;
@@ -131,8 +131,8 @@ static void test_ways_are_several(void) {
     TEST_ASSERT_TRUE(alike < DRAWN * (FOLDING_WAYS - FOLDING_SOME - 1) * 2 / 5);
 }
 
-/* Sums, products and quotients of small whole numbers, roots of squares, absolute values, and what functions are where their
- * rows begin. */
+/* Sums, products and quotients of small integers, roots of squares, absolute values, and functions where their rows
+ * begin. */
 static void test_what_is_exact_stays(void) {
     static const struct {
         function_id function;

@@ -1,11 +1,10 @@
-/* test_function_accuracy.c: the float functions against the library's in long double, at arguments of every
- * exponent and where digits are lost most easily.
+/* test_function_accuracy.c: the float functions against the library's in long double, at arguments of every exponent
+ * and where digits are lost most easily.
  *
- *     WHIRL_FUNCTION_CASES=10000000 build/tests/host function_accuracy
+ * WHIRL_FUNCTION_CASES=10000000 build/tests/host function_accuracy
  *
- * takes so many arguments of each kind instead of thirty thousand. `make functions-exhaustive` takes all. The
- * bounds are what that found, rounded up; a function that errs by less than half a unit at its worst is not
- * being looked at. */
+ * tests that many arguments of each kind instead of thirty thousand. `make functions-exhaustive` tests all. The bounds
+ * are its results, rounded up. A worst error below half a unit would mean that the function is not tested. */
 #include "core/function.h"
 
 #include "tests/scattered.h"
@@ -47,7 +46,7 @@ static float quarter_turn(void) {
 
 /* --- the error, in units of the last place --------------------------------------------------------------- */
 static double error_of(float got, long double wanted) {
-    const long double truth = fminl(fabsl(wanted), 0x1p128L); /* where the infinite begins */
+    const long double truth = fminl(fabsl(wanted), 0x1p128L); /* where infinity begins */
     const long double reached = isinf(got) ? 0x1p128L : fabsl((long double)got);
     int exponent = -125;
     if (truth != 0.0L) {
@@ -107,7 +106,7 @@ static void test_functions_of_one(void) {
     }
 }
 
-/* Pairs for a power: of an exponent that leaves it in range. */
+/* An exponent that keeps the power in range. */
 static float exponent_for(float base) {
     return (float)(either(unit() * 150.0f) / log2f(fabsf(base)));
 }

@@ -1,9 +1,9 @@
-/* test_function_outputs.c: every function and power of the language, in forces and outputs of a float run, of
- * arguments of every size: right to the last places, and the tangent also where it is small or large.
+/* test_function_outputs.c: every function and power of the language, in forces and outputs of a float run, at arguments
+ * of every size: accurate to the last places, the tangent also where it is small or large.
  *
- *     WHIRL_FUNCTION_CASES=10000 build/tests/host function_outputs
+ * WHIRL_FUNCTION_CASES=10000 build/tests/host function_outputs
  *
- * takes so many arguments of each kind instead of twenty-five. */
+ * tests that many arguments of each kind instead of twenty-five. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,7 @@ static const form forms[] = {
     {"sinh(x/1 [m])", of_sinh, false, 80.0},
     {"cosh(x/1 [m])", of_cosh, false, 80.0},
     {"tanh(x/1 [m])", of_tanh, false, 1e9},
-    {"atan2(y, x)", NULL, false, 1e9}, /* the other way round */
+    {"atan2(y, x)", NULL, false, 1e9}, /* arguments exchanged */
     {"(x/1 [m])^0.375", of_power, true, 1e9},
     {"(x/1 [m])^(y/1 [m])", powl, true, 8.0},
 };
@@ -82,7 +82,7 @@ static double error_at(const form *f, float x, float y) {
     const long double wanted = f->of == NULL ? atan2l((long double)y, (long double)x)
                                              : f->of((long double)x, (long double)y);
     if (pushed != (double)((float)got * 1e-3f)) {
-        return HUGE_VAL; /* the force is another than the output */
+        return HUGE_VAL; /* force and output differ */
     }
     return (double)(fabsl((long double)got - wanted) / fabsl(wanted)) / (double)FLT_EPSILON;
 }

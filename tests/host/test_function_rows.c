@@ -1,11 +1,10 @@
-/* test_function_rows.c: every row of host/number/function_rows.h, in whatever is made of it: the slopes in numbers
- * and in symbols against differences, the operation list, the force of an energy, what dimensions are taken, and
- * that generated texts, the fuzzers' words and the docs have it. A function that is added is in all of these tests
- * by its row.
+/* test_function_rows.c: every row of host/number/function_rows.h in all its uses: slopes in numbers and symbols against
+ * differences, the operation list, an energy's force, accepted dimensions, and presence in generated texts, the
+ * fuzzers' words and the docs. A new function is tested through its row.
  *
- *     WHIRL_RANDOM_STATES=10000 build/tests/host function_rows
+ * WHIRL_RANDOM_STATES=10000 build/tests/host function_rows
  *
- * takes so many places for each function instead of two hundred. */
+ * tests that many places of each function instead of two hundred. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +28,6 @@ static function_id at(int f) { return (function_id)f; }
 static const char *name(int f) { return function_name(at(f)); }
 static bool of_two(int f) { return function_arguments(at(f)) == 2; }
 
-/* Fails with the function, the place and the seed. */
 static void expect_near(int f, double wanted, double got, double allowed, double x, double y) {
     char text[160];
     snprintf(text, sizeof text, "%s at (%.17g, %.17g): %.17g, not %.17g (seed %llu)", name(f), x, y,
@@ -41,7 +39,7 @@ static void expect_near(int f, double wanted, double got, double allowed, double
 
 #define WIDTH 1e-3
 
-/* By differences to fourth order. False where the function is not smooth about the place. */
+/* By fourth-order differences. False if the function is not smooth near the place. */
 static bool difference(int f, int which, double x, double y, double *slope) {
     double value[5];
     for (int k = -2; k <= 2; k++) {
@@ -52,7 +50,7 @@ static bool difference(int f, int which, double x, double y, double *slope) {
     const double narrow = (value[3] - value[1]) / (2.0 * WIDTH);
     const double wide = (value[4] - value[0]) / (4.0 * WIDTH);
     *slope = narrow + (narrow - wide) / 3.0;
-    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* NaN is no */
+    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false for NaN */
 }
 
 static const symbol variables[2] = {
@@ -97,7 +95,7 @@ static void test_slopes(void) {
     }
 }
 
-/* Where two meet, each has half; a size has no slope at zero. */
+/* At a tie both arguments have half of the slope; an absolute value has slope 0 at zero. */
 static void test_slopes_where_they_jump(void) {
     for (int which = 0; which < 2; which++) {
         TEST_ASSERT_TRUE(number_slope(FN_MIN, which, 2.0, 2.0) == 0.5);
@@ -107,7 +105,7 @@ static void test_slopes_where_they_jump(void) {
     TEST_ASSERT_TRUE(number_slope(FN_SIGN, 0, 0.0, 0.0) == 0.0);
 }
 
-/* A function that is real everywhere is a number at every place, any other is none at some of them. */
+/* A function that is real everywhere has a value at every place; any other lacks one at some places. */
 static void test_range(void) {
     uint64_t seed = SEED + 4;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -122,7 +120,7 @@ static void test_range(void) {
 
 /* --- the operation list ------------------------------------------------------------------------------ */
 
-/* The same bits as number_call(), but for sine and cosine, which are a phase's. */
+/* The same bits as number_call(), except for sine and cosine, which are a phase's. */
 static void test_operations(void) {
     uint64_t seed = SEED + 1;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -148,7 +146,7 @@ static void test_operations(void) {
             }
         }
         evaluator_free(ev);
-        /* of numbers, an operation is a number, where the list can tell */
+        /* an operation on numbers is a number, if the list can evaluate it */
         const int known = op_list_call(t, at(f), op_list_constant(t, 0.25), of_two(f) ? x : -1);
         double number;
         if (op_list_is_constant(t, known, &number)) {
@@ -160,7 +158,7 @@ static void test_operations(void) {
 
 /* --- from a text --------------------------------------------------------------------------------------- */
 
-/* An energy's force, as it comes out at the end of everything: a derivative that got lost shows here. */
+/* An energy's force at the end of the whole chain: a lost derivative shows here. */
 static void test_forces(void) {
     uint64_t seed = SEED + 2;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -231,7 +229,7 @@ static bool has_period(int f, double period) {
     return true;
 }
 
-/* What a unit that is chosen otherwise does to a value says what a function may be given. */
+/* The value under another choice of units tells the allowed dimensions of a function. */
 static void test_dimensions_of_values(void) {
     for (int f = 0; f < FUNCTIONS; f++) {
         const function_dimensions takes = function_takes(at(f));
@@ -246,7 +244,7 @@ static void test_dimensions_of_values(void) {
     }
 }
 
-/* A length, lengths, a length and a time: what comes out is a number, a length, a root, or an error. */
+/* A length, lengths, or a length and a time: the result is a number, a length, a root, or an error. */
 static void test_dimensions(void) {
     for (int f = 0; f < FUNCTIONS; f++) {
         char alike[80];
@@ -270,7 +268,7 @@ static void test_dimensions(void) {
     }
 }
 
-/* --- who must know of it ------------------------------------------------------------------------------- */
+/* --- places that list the functions -------------------------------------------------------------------- */
 
 static void test_names(void) {
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -299,7 +297,7 @@ static char *read_whole(const char *path) {
     return text;
 }
 
-/* `before` and `after` about its name, somewhere in the text? */
+/* `before` and `after` around its name, somewhere in the text? */
 static void expect_in(const char *text, const char *before, int f, const char *after,
                       const char *where) {
     char words[80];
@@ -312,7 +310,7 @@ static void expect_in(const char *text, const char *before, int f, const char *a
 static void test_words_of_the_docs(void) {
     char *docs = read_whole("docs/language.md");
     char *words = read_whole("tests/fuzz/fuzz_lang.dict");
-    for (char *c = docs; *c != '\0'; c++) { /* wherever the page breaks its lines */
+    for (char *c = docs; *c != '\0'; c++) { /* regardless of the page's line breaks */
         *c = *c == '\n' ? ' ' : *c;
     }
     char *list = strstr(docs, "`+ - * / ^`, parentheses, `");

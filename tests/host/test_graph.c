@@ -1,6 +1,5 @@
-/* test_graph.c: expressions as a graph (host/prove/graph.h, graph_slope.c): drawn ones, whose nodes must be worth what they
- * are made of; slopes, against those of a tiny imaginary part; what becomes of them without some variables; that what is
- * equal is one node, and what is simplified. */
+/* test_graph.c: random expressions as a graph (host/prove/graph.h, graph_slope.c): values of the nodes; slopes against
+ * complex-step derivatives; graphs without some variables; one node for equal expressions; simplification. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,7 +38,7 @@ static void draw(void) {
     drawn_graph_nodes(&drawn, g_graph, made_graph);
 }
 
-/* A node's value at x, of which those from `first` on are zero. */
+/* A node's value at x, with variables from `first` on zero. */
 static long double worth(int which, int first) {
     static long double value[NODES_MOST];
     long double at[DRAWN_VARIABLES];
@@ -51,7 +50,7 @@ static long double worth(int which, int first) {
     return value[which];
 }
 
-/* What the steps are there; with a tiny imaginary part of the variable `moved`, if there is one. */
+/* Values of the steps, with a tiny imaginary part of the variable `moved`, if any. */
 static void series_at(int first, int moved, series *of) {
     series at[DRAWN_VARIABLES] = {{{0.0L}}};
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
@@ -93,7 +92,7 @@ static void test_slopes(void) {
     }
 }
 
-/* Is a variable from `first` on reached from the node? */
+/* Does the node depend on a variable from `first` on? */
 static bool reaches(int from, int first) {
     static bool wanted[NODES_MOST];
     bool found = false;
@@ -139,7 +138,7 @@ static void test_without(void) {
     TEST_ASSERT_TRUE(reached > 100);
 }
 
-/* The same once more makes no node; all are found, however many there are. */
+/* Repetition makes no node; all are found again, in any number. */
 static void test_one_node(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         int again[DRAWN_STEPS];
@@ -183,7 +182,7 @@ static void test_one_node(void) {
     graph_free(NULL);
 }
 
-/* What is true of all values is simplified, and only that. */
+/* Only identities for all values are simplified. */
 static void expect_simple(int a, int b) {
     const int zero = graph_whole(g_graph, 0);
     const int one = graph_whole(g_graph, 1);
@@ -229,7 +228,7 @@ static void test_simple(void) {
             }
         }
         for (int i = 0; i < g_graph->count;
-             i++) { /* constants are in front of products, and but once */
+             i++) { /* constants are in front of products, and only once */
             const node *n = &g_graph->node[i];
             const node_kind left = n->kind == NODE_NUMBER || n->kind == NODE_VARIABLE
                                        ? NODE_VARIABLE
@@ -262,8 +261,8 @@ static void test_simple(void) {
     }
 }
 
-/* Whole exponents up to 64 are multiplied out, in as few products as halving takes; none beyond, nor of what is no whole
- * number for certain. */
+/* Integer exponents up to 64 become products, by repeated halving; others do not, nor does an exponent that may not be
+ * an integer. */
 static void test_whole_powers(void) {
     for (int exponent = -70; exponent <= 70; exponent++) {
         g_graph = graph_new();
@@ -297,7 +296,7 @@ static void expect_number(const char *what, int at, long double wanted) {
         (long double)a.high - (long double)a.low <= 1e-11L * fabsl(wanted) + 1e-300L, what);
 }
 
-/* What is made of numbers is one, and holds what long double makes of them. */
+/* An operation on numbers is a number that encloses the long double result. */
 static void test_numbers(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 100)); c++) {
         const double a = dice_between(&die, -5.0, 5.0);
@@ -325,7 +324,7 @@ static void test_numbers(void) {
     }
 }
 
-/* The number of a power's exponent as a file writes it, and the node that it is. */
+/* A power's exponent as a file writes it, and its node. */
 static enclosure read_number(const char *written) {
     char text[400];
     snprintf(text, sizeof text,
@@ -347,7 +346,7 @@ static enclosure read_number(const char *written) {
     return g_graph->node[number].number;
 }
 
-/* Whole numbers stay whole through sums, products, quotients and powers that are whole. */
+/* Integers stay exact through sums, products, quotients and powers with integer results. */
 static void test_whole_numbers_stay_whole(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 60)); c++) {
         const int a = 1 + (int)dice_one_of(&die, 12);
@@ -371,7 +370,7 @@ static void test_whole_numbers_stay_whole(void) {
             TEST_ASSERT_TRUE_MESSAGE(enclosure_is_point(is) && is.low == cases[i].value, written);
             graph_free(g_graph);
         }
-        /* what is no double must not become one */
+        /* a decimal must not become a double */
         g_graph = graph_new();
         const int part = graph_div(g_graph, graph_whole(g_graph, a), graph_whole(g_graph, 7));
         TEST_ASSERT_EQUAL_INT(a % 7 == 0, enclosure_is_point(g_graph->node[part].number));
@@ -379,7 +378,7 @@ static void test_whole_numbers_stay_whole(void) {
     }
 }
 
-/* Inverse functions of numbers hold what long double makes of them, within a few units of the last place. */
+/* Inverse functions of numbers enclose the long double result within a few units in the last place. */
 static void test_inverse_functions_of_numbers(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 60)); c++) {
         const double u = dice_between(&die, -1.0, 1.0);
@@ -421,13 +420,12 @@ void suite_graph(void) {
 }
 
 /* === reader =================================================================================== */
-/* A model's expressions as nodes of a graph (host/prove/reader.h): drawn formulas, each worth what long double
- * makes of the same, in numbers enclosures of it; which variable a derivative is; and what is not enclosed, told once, at its
- * place. */
+/* A model's expressions as nodes of a graph (host/prove/reader.h): random formulas with their long double values, and
+ * numbers as enclosures; the variables of derivatives; unsupported functions, reported once, at their place. */
 
 enum { LETS = 24, NUMBERS = 4, TEXT_SIZE = 6000, VARIABLES = 7 };
 
-/* A text, read, and the symbols as whoever reads expressions has them. */
+/* A parsed text with its symbols. */
 typedef struct reading {
     whirl_model *model;
     const mechanism *of;
@@ -487,7 +485,7 @@ static void close_text(void) {
 
 /* --- drawn formulas --------------------------------------------------------------------------------------------*/
 
-/* The names of what there is to take: states and their derivatives (times seconds), an input, parameters, lets so far. */
+/* Names of the leaves: states and their derivatives (times seconds), an input, parameters, earlier lets. */
 static const char *const leaves[] = {
     "a", "(a'*1 [s])", "b", "(a''*1 [s^2])", "(b'*1 [s])", "u", "p0", "p1", "p2", "p3"};
 enum { LEAVES = 10, MOVING = 5 };
@@ -515,7 +513,7 @@ static const char *name_of(int i, char name[24]) {
 
 enum { FORMULAS = 21 };
 
-/* Formula `which` of u and v, and what it is. Numbers alone may stand in what has corners. */
+/* Formula `which` of u and v, and its value. Only numbers may be arguments of functions with corners. */
 static long double write_formula(int which, const char *u, const char *v, long double x,
                                  long double y, char *text) {
     const char *form = NULL;
@@ -553,7 +551,7 @@ static void draw_text(void) {
     for (int i = 0; i < LEAVES; i++) {
         d.is_number[i] = i >= MOVING;
         d.value[i] = (long double)dice_between(&die, -2.0, 2.0);
-        if (d.is_number[i]) { /* of hundredths: decimals that no double is */
+        if (d.is_number[i]) { /* of hundredths: decimals that no double equals */
             d.value[i] = roundl(d.value[i] * 100.0L) / 100.0L;
             SAY("%s %s = %.2Lf\n", i == MOVING ? "input" : "parameter", leaves[i], d.value[i]);
         }
@@ -621,7 +619,7 @@ static void test_worth_reader(void) {
     TEST_ASSERT_TRUE(numbers > 50);
 }
 
-/* Nodes of the derivatives are the variables that were said. */
+/* Nodes of the derivatives are the given variables. */
 static void test_variables(void) {
     static const char *const words[] = {"a", "a'", "b", "a''", "b'"};
     for (int i = 0; i < MOVING; i++) {
@@ -635,7 +633,7 @@ static void test_variables(void) {
     }
 }
 
-/* --- corners of what is not quite known -------------------------------------------------------------------------*/
+/* --- corners of uncertain numbers ------------------------------------------------------------------------------ */
 
 static enclosure number_of(const char *formula) {
     char text[500];
@@ -680,9 +678,9 @@ static void test_corners(void) {
     expect_ends("max(0, z)", 0.0, z.high);
 }
 
-/* --- what is refused -------------------------------------------------------------------------------------------*/
+/* --- refusals ------------------------------------------------------------------------------------------------- */
 
-/* Told once: the function's name, in line 6 at this column. */
+/* Reported once: the function's name, in line 6 at this column. */
 static void expect_refused(const char *formula, const char *name) {
     char text[500];
     char wanted[200];
@@ -718,14 +716,14 @@ static void test_refused(void) {
             char formula[200];
             snprintf(formula, sizeof formula, inside[k], refused[i][0]);
             const bool is_other = strstr(formula, refused[i][1]) != strstr(formula, refused[i][0]);
-            if (!is_other) { /* else the place is another one's of the same name */
+            if (!is_other) { /* otherwise the place belongs to another of the same name */
                 expect_refused(formula, refused[i][1]);
             }
         }
     }
 }
 
-/* An output has no value of its own while the motion is proved. */
+/* An output has no value of its own during a proof. */
 static void test_outputs(void) {
     char *told = NULL;
     size_t length = 0;
@@ -750,9 +748,9 @@ void suite_reader(void) {
 }
 
 /* === taylor =================================================================================== */
-/* Taylor coefficients of drawn motions in enclosures (host/prove/taylor.h), and their slopes by the state,
- * against series in long double that are found by another way (drawn_graph.h): held, narrowly, at a point; held, whichever
- * point of a box they begin at. */
+/* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, against
+ * long double series by another method (drawn_graph.h): narrow enclosures at a point, and enclosures for every start in
+ * a box. */
 
 static int rate_step[DRAWN_VARIABLES]; /* the step that is a variable's rate */
 
@@ -779,7 +777,7 @@ static void draw_taylor(drawn_motion *m) {
                            .nodes = m->graph->count};
 }
 
-/* All steps' series along the motion from there, with a tiny imaginary part of state `moved`, if there is one. */
+/* All steps' series along the motion from there, with a tiny imaginary part of state `moved`, if any. */
 static void along(const double *from, int moved, int order, series *of) {
     series at[DRAWN_VARIABLES] = {{{0.0L}}};
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
@@ -799,7 +797,7 @@ static void expect_held(const char *what, enclosure a, long double wanted, long 
         (long double)a.low <= wanted + slack && wanted - slack <= (long double)a.high, what);
 }
 
-/* So large are a step's coefficient k and those before it. */
+/* Size of a step's coefficient k and the earlier ones. */
 static long double size_of(const series *s, int k) {
     long double size = 1.0L;
     for (int i = 0; i <= k; i++) {
@@ -821,8 +819,7 @@ static void test_at_a_point(void) {
         for (int i = 0; i < DRAWN_VARIABLES; i++) {
             at[i] = enclosure_of(x_graph[i]);
         }
-        for (int again = 0; again < 2;
-             again++) { /* what is left of the last time counts for nothing */
+        for (int again = 0; again < 2; again++) { /* results of an earlier call do not matter */
             TEST_ASSERT_TRUE(taylor_find(t, at));
         }
         along(x_graph, -1, order, of);
@@ -911,8 +908,8 @@ static void close_with(closed *c, int rate) {
         .states = 1, .rate = &c->rate, .node = c->graph->node, .nodes = c->graph->count};
 }
 
-/* x' = x^2 from 1/2 on is 1/(2 - t): (1/2)^(k+1), and its slope by the start; all exact in twos. x' = 1/x from 1 on is
- * sqrt(1 + 2 t). */
+/* x' = x^2 from 1/2 on is 1/(2 - t): (1/2)^(k+1), and its slope by the start, all exact in binary. x' = 1/x from 1 on
+ * is sqrt(1 + 2 t). */
 static void test_closed_forms(void) {
     enum { ORDER = 20 };
     closed c = {.graph = graph_new()};
@@ -949,7 +946,7 @@ static void test_closed_forms(void) {
     graph_free(c.graph);
 }
 
-/* What is no number is told, also where nothing is made of it. */
+/* A non-number is reported, even if it is unused. */
 static void test_no_number(void) {
     closed c = {.graph = graph_new()};
     (void)graph_variable(c.graph, 0);
@@ -964,7 +961,7 @@ static void test_no_number(void) {
     graph_free(c.graph);
 }
 
-/* What it costs grows with the square of the order, and with the slopes: products of a node, counted as they are written. */
+/* The cost grows with the square of the order and with the slopes: the counted products of a node. */
 static void test_products(void) {
     closed c = {.graph = graph_new()};
     const int a = graph_variable(c.graph, 0);

@@ -1,6 +1,5 @@
-/* test_hard.c: hard cases with contacts, and the resonance that nothing damps (docs/hard, docs/hard_cases.md), each
- * against a closed form: supports and frictions that repeat each other and break away, friction under a load that
- * vanishes, Newton's cradle. */
+/* test_hard.c: hard cases with contacts, and undamped resonance (docs/hard, docs/hard_cases.md), against closed forms:
+ * redundant supports and frictions that break away, friction under a vanishing load, Newton's cradle. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -19,7 +18,7 @@
 void suite_hard_contacts(void);
 void suite_hard_origin(void);
 
-/* === hard contacts ============================================================================ */
+/* --- redundant contacts ----------------------------------------------------------------------- */
 
 #define HARD "docs/hard/"
 
@@ -34,7 +33,7 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
 #define P0 15.0
 #define LIFTS_N 10.0 /* half the beam's weight; both blocks' static friction */
 
-/* From the moment at which P0 sin(rate t) is LIFTS_N on, under `factor` times the force less `against`. */
+/* Motion since the moment at which P0 sin(rate t) is LIFTS_N, under `factor` times the force minus `against`. */
 static double moved_m(double rate, double t, double factor, double against) {
     const double t0 = asin(LIFTS_N / P0) / rate;
     const double s = t - t0;
@@ -45,10 +44,10 @@ static double moved_m(double rate, double t, double factor, double against) {
 
 typedef struct breaking {
     double off_m;
-    double at_rest_m; /* the most that anything moved before */
+    double at_rest_m; /* largest motion before that */
 } breaking;
 
-/* Until 0.3 s behind that moment; both coordinates move as one. The force's phase goes on by `rate`, rad/s. */
+/* Until 0.3 s after that moment; both coordinates move together. The force's phase advances by `rate`, rad/s. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
                          double factor, double against, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";
@@ -89,7 +88,7 @@ static void check_breaking(const char *name, const char *second, double factor, 
         }
         printf("  %s, %s: at rest to %.1e m; off by %.1e m at 1 ms, %.1e m at 0.25 ms\n", name,
                kind->name, most[0].at_rest_m, most[0].off_m, most[1].off_m);
-        TEST_ASSERT_TRUE(most[0].at_rest_m <= (real == 0 ? 1e-12 : 1e-9)); /* not a creep */
+        TEST_ASSERT_TRUE(most[0].at_rest_m <= (real == 0 ? 1e-12 : 1e-9)); /* no creep */
         TEST_ASSERT_TRUE(most[0].off_m < (real == 0 ? 1e-8 : 1e-4));
         TEST_ASSERT_TRUE(most[1].off_m <= most[0].off_m + (real == 0 ? 1e-12 : 1e-5));
     }
@@ -105,7 +104,8 @@ static void test_two_blocks_break_loose_together(void) {
     check_breaking("blocks_slide", "y", 1.0 / 2.0, 8.0);
 }
 
-/* --- a load that pulsates and vanishes ----------------------------------------------------------------------------- */
+/* --- a pulsating load that vanishes
+ * -------------------------------------------------------------------------------- */
 
 #define PULL_N 2.0
 #define LOAD_N 30.0
@@ -113,7 +113,7 @@ static void test_two_blocks_break_loose_together(void) {
 #define KINETIC 0.4
 #define PHASE_RATE 10.0
 
-/* Velocity and place after `s` more seconds from phase p, sliding forward on, pressed or not. */
+/* Velocity and place after `s` more seconds from phase p of forward sliding, pressed or not. */
 static void slide(double p, double s, int pressed, double *v, double *x) {
     const double w = PHASE_RATE;
     const double k = pressed ? KINETIC * LOAD_N : 0.0;
@@ -122,12 +122,12 @@ static void slide(double p, double s, int pressed, double *v, double *x) {
     *v += PULL_N * s - k / w * (sin(p + w * s) - sin(p));
 }
 
-/* The first moment within `span` at which a pressed slide comes to rest, or -1: v falls to its least where the friction
- * is the pull again. */
+/* The first moment within `span` at which a pressed slide comes to rest, or -1: v is least when the friction equals the
+ * pull again. */
 static double stops_after(double p, double span, double v) {
     double low = 0.0;
     double high = -1.0;
-    for (int i = 1; i <= 20000 && high < 0.0; i++) { /* where it first is below zero */
+    for (int i = 1; i <= 20000 && high < 0.0; i++) { /* the first negative value */
         double at = v;
         double x = 0.0;
         slide(p, span * i / 20000.0, 1, &at, &x);
@@ -183,7 +183,7 @@ static double pulled_off_m(double step_s, const engine_kind *kind, uint64_t *eve
     double off = 0.0;
     motion m;
     open_hard(&m, HARD "pulsating_load.whirl", "load_pulsates", kind, step_s);
-    for (int i = 1; i <= 30; i++) { /* at the same moments, whatever the step */
+    for (int i = 1; i <= 30; i++) { /* at the same moments, at any step */
         double v;
         motion_to(&m, 0.1 * i);
         const double x = pulled_m(0.1 * i, &v);
@@ -251,7 +251,7 @@ static void test_the_cradle_swings(void) {
 
 /* --- resonance --------------------------------------------------------------------------------------------------------- */
 
-/* Off by, of the amplitude at the end, F0/(2 k) w t. */
+/* Error relative to the amplitude at the end, F0/(2 k) w t. */
 static double resonance_off(double step_s, const engine_kind *kind) {
     motion m;
     open_hard(&m, HARD "resonance.whirl", "resonance_grows", kind, step_s);
@@ -283,11 +283,10 @@ void suite_hard_contacts(void) {
 }
 
 /* === hard origin ============================================================================== */
-/* R -> 0: straight flights past the origin of polar and of spherical coordinates (docs/hard/polar.whirl,
- * docs/hard_cases.md). Where a flight ends off its line `whirl run` says so, and what it says would do is done; where
- * it is right nothing is said. */
+/* R -> 0: straight flights past the origin of polar and spherical coordinates (docs/hard/polar.whirl,
+ * docs/hard_cases.md). `whirl run` must warn exactly if a flight ends off its line, and its proposed remedy is
+ * applied. */
 
-/* What `whirl run` says of it; `set` may be NULL. */
 static void run_with(const char *target, const char *set, bool is_float, const char *step,
                      said *what) {
     const char *words[] = {target,
@@ -302,12 +301,11 @@ static void run_with(const char *target, const char *set, bool is_float, const c
     command_say(command_run, words, what);
 }
 
-/* Words a warning or a refusal has; or none. */
 static bool tells(const said *what) { return what->status != 0 || what->err[0] != '\0'; }
 
 /* --- r -> 0 ---------------------------------------------------------------------------------------------------- */
 
-/* A straight flight past the origin at a distance: how far off it ends, m. */
+/* A straight flight past the origin at a distance: its final error, m. */
 static double passage_by(wh_method method, double d_m, double step_s, const engine_kind *kind,
                          bool compensated) {
     char set[40];
@@ -350,7 +348,7 @@ static void test_past_the_origin_of_polar_coordinates(void) {
             off_course++;
             TEST_ASSERT_TRUE_MESSAGE(tells(&what) && strstr(what.err, "singular") != NULL, about);
             const double step_s = said_named_step_s(what.err);
-            if (step_s > 0.0 && step_s < 1e-3) { /* what it says would do, done */
+            if (step_s > 0.0 && step_s < 1e-3) { /* applies the proposed remedy */
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
                 const double now_m = passage_off_m(d_m, step_s, kind, compensated);
                 TEST_ASSERT_TRUE_MESSAGE(now_m < 2e-3, about);
@@ -366,7 +364,7 @@ static void test_past_the_origin_of_polar_coordinates(void) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* The method that a hint names, or the run's own. */
+/* The method in a hint, or the run's own. */
 static wh_method method_named(const char *hint, wh_method own) {
     const char *at = strstr(hint, "--method ");
     for (int m = 0; at != NULL && m < WH_METHODS; m++) {
@@ -378,8 +376,8 @@ static wh_method method_named(const char *hint, wh_method own) {
     return own;
 }
 
-/* Crude methods miss it by more, and would take steps that are no steps any more: what is named can be done, and is
- * done. (It used to be `--step 0ns`.) */
+/* Crude methods have larger errors and would need extremely small steps: the proposed remedy must be possible, and is
+ * applied. (A former version proposed `--step 0ns`.) */
 static void test_past_the_origin_by_crude_methods(void) {
     static const wh_method crude[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_NYSTROEM3};
     dice d = dice_of("crude", 15006);
@@ -389,7 +387,8 @@ static void test_past_the_origin_by_crude_methods(void) {
     double cured_m = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const wh_method own = crude[i % 4];
-        const double d_m = pow(10.0, dice_between(&d, -4.0, -2.6)); /* beyond, Nystroem 3 has it */
+        const double d_m =
+            pow(10.0, dice_between(&d, -4.0, -2.6)); /* beyond, Nystroem 3 is accurate */
         char set[40];
         char about[SAID_SIZE + 100];
         said what;
@@ -408,7 +407,7 @@ static void test_past_the_origin_by_crude_methods(void) {
         }
         const double step_s = strstr(hint, "--step ") != NULL ? said_named_step_s(hint) : 1e-3;
         const wh_method method = method_named(hint, own);
-        /* at 1 m/s the turn takes d/u: a hundredth of that and less is more than it needs */
+        /* at 1 m/s the turn takes d/u: a hundredth of that or less is more than it needs */
         TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s <= 1e-3, about);
         const double now_m = passage_by(method, d_m, step_s, &engine_double, false);
         snprintf(about + strlen(about), 40, " -> %.3g m", now_m);
@@ -422,8 +421,8 @@ static void test_past_the_origin_by_crude_methods(void) {
     TEST_ASSERT_TRUE(others > 0 && cures > 0);
 }
 
-/* Straight through: with nothing that turns it, r changes its sign and nothing else happens, unless a stage meets the
- * origin itself, where theta'' is no number: then the run ends and says so. */
+/* Straight through: without rotation, r changes its sign undisturbed. If a stage meets the origin itself, theta'' is
+ * not a number, and the run ends with a message. */
 static void test_through_the_origin(void) {
     static const char *const steps[] = {"1ms", "0.7ms", "0.3ms", "2ms"};
     unsigned through = 0;
@@ -443,7 +442,7 @@ static void test_through_the_origin(void) {
 
 /* --- in space ------------------------------------------------------------------------------------------------- */
 
-/* A flight without forces past the origin: away is the nearest point, of the length d, and way the direction. */
+/* A flight without forces past the origin: away is the nearest point, of length d, and way the direction. */
 typedef struct flight {
     double at[3], rate[3]; /* at its start; 1 m/s */
     char text[400];        /* its scene */

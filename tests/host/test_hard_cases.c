@@ -1,7 +1,6 @@
-/* test_hard_cases.c: cases that are hard for an integrator (docs/hard, docs/hard_cases.md), each against a closed form or
- * the same energies in numbers (linkage.h): a motor too weak for the resonance that it must pass (Sommerfeld), an inertia
- * that all but vanishes, hops on a moving floor that come to an end, a table that falls away faster than what lies on
- * it, fast rotation. */
+/* test_hard_cases.c: hard cases for an integrator (docs/hard, docs/hard_cases.md), against closed forms or the same
+ * energies in numbers (linkage.h). A motor too weak to pass a resonance (Sommerfeld), an almost vanishing inertia,
+ * decaying hops on a moving floor, a table that falls away from a body on it, fast rotation. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -25,8 +24,8 @@ void suite_hard_edges(void);
 
 /* --- resonance ------------------------------------------------------------------------------------------------- */
 
-/* A carriage of 10 kg between springs, 20 rad/s by itself, and on it a rotor with an eccentric mass, which a motor of
- * so much torque would take to 60 rad/s. */
+/* A carriage of 10 kg between springs, with its own 20 rad/s. On it is a rotor with an eccentric mass, which the
+ * motor's torque alone would take to 60 rad/s. */
 static linkage shaker(double torque_Nm) {
     linkage of = {.bodies = 2};
     of.body[0] = (linkage_body){.parent = -1,
@@ -45,7 +44,7 @@ static linkage shaker(double torque_Nm) {
     return of;
 }
 
-/* The rotor's speed after 12 s, as the reference has it, */
+/* The rotor's speed after 12 s by the reference, */
 static double reference_after(double torque_Nm) {
     const linkage of = shaker(torque_Nm);
     linkage_motion wanted;
@@ -53,7 +52,7 @@ static double reference_after(double torque_Nm) {
     return (double)wanted.state[LINKAGE_BODIES + 1];
 }
 
-/* and as the program has it. */
+/* and by the program. */
 static double speed_after(double torque_Nm, stepping how) {
     char stall[40];
     motion m;
@@ -78,14 +77,14 @@ static void test_a_motor_at_a_resonance(void) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, weak_reference, weak);
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, strong_reference, strong);
     TEST_ASSERT_DOUBLE_WITHIN(1e-2, weak_reference, in_float);
-    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* it does not get past */
+    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* it does not pass */
     TEST_ASSERT_TRUE(strong > 40.0);
 }
 
 /* --- almost no inertia ----------------------------------------------------------------------------------------- */
 
-/* A disc on a pivot without friction at a pendulum's end: it goes on turning as it did, however small its inertia is
- * beside the pendulum's, whose coordinate takes part in its angle. */
+/* A disc on a frictionless pivot at a pendulum's end keeps its rotation, however small its inertia is compared with the
+ * pendulum's, whose coordinate is part of its angle. */
 static void test_a_disc_of_hardly_any_inertia(void) {
     double worst[2] = {0.0, 0.0};
     for (int k = 0; k <= 12; k += 3) {
@@ -137,7 +136,7 @@ static void open_table(motion *m, double A_m, double w_radps, double height_m, d
 
 static void test_hops_on_a_moving_floor_end(void) {
     motion m;
-    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2: what lies on it stays there */
+    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2: a body on it stays */
     motion_to(&m, 2.0);
     for (int k = 0; k < 3000; k++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
@@ -148,7 +147,7 @@ static void test_hops_on_a_moving_floor_end(void) {
     motion_close(&m);
 }
 
-/* It leaves a ball behind when it falls faster than that: cos(w t) = -g/(A w^2). */
+/* It leaves a ball when it falls faster than that: cos(w t) = -g/(A w^2). */
 static void test_a_table_falls_away(void) {
     for (int k = 0; k < 5; k++) {
         const double A = 0.02 + 0.01 * k;
@@ -159,7 +158,7 @@ static void test_a_table_falls_away(void) {
         const double wanted =
             -A * cos(w * leaves) + A * w * sin(w * leaves) * t - 9.81 * t * t / 2.0;
         motion m;
-        const double step = at / 128.0; /* ends on the moment that is looked at */
+        const double step = at / 128.0; /* ends on the sampled moment */
         open_table(&m, A, w, 0.0, 0.0, step);
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 128));
         TEST_ASSERT_TRUE(motion_value(&m, "b") > motion_value(&m, "f"));
@@ -179,7 +178,7 @@ static void test_fast_rotation(void) {
         motion_open_file(&m, HARD "rotor.whirl", "", "rotor_fast",
                          (stepping){.kind = &engine_float, .method = WH_RK4, .start = start});
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 100000));
-        /* a step's part of a turn is rounded to 2^-32, and its rate and length are floats */
+        /* a step's part of a turn is rounded to 2^-32; its rate and length are floats */
         const double turned = rate * 100.0;
         TEST_ASSERT_DOUBLE_WITHIN(turned * 1.3e-7 + 1e-4, turned, motion_value(&m, "th"));
         motion_close(&m);
@@ -195,10 +194,10 @@ void suite_hard_cases(void) {
 }
 
 /* === hard edges =============================================================================== */
-/* Cases at an edge (docs/hard, docs/hard_cases.md), each against a closed form, and each on both sides:
- * what is off is told of by `whirl run`, and what is right is not. A floor stiffer than the step bears, inputs that jump, amplitudes from subnormal to the end of a number's range, unequal masses. */
+/* Borderline cases (docs/hard, docs/hard_cases.md) against closed forms, on both sides: `whirl run` warns of wrong runs
+ * and not of accurate ones. A floor too stiff for the step, jumping inputs, amplitudes from subnormal to the end of the
+ * range, unequal masses. */
 
-/* What `whirl run` says of a file's scene with one parameter set. */
 static void run_with(const char *target, const char *set, bool is_float, const char *step,
                      said *what) {
     const char *words[] = {target,   "--quiet", "--number", is_float ? "float" : "double",
@@ -207,12 +206,11 @@ static void run_with(const char *target, const char *set, bool is_float, const c
     command_say(command_run, words, what);
 }
 
-/* Words a warning or a refusal has; or none. */
 static bool tells(const said *what) { return what->status != 0 || what->err[0] != '\0'; }
 
 /* --- floors ---------------------------------------------------------------------------------------------------- */
 
-/* Of what it starts with, how much of its energy a ball gains or loses in 2 s on a floor of spring. */
+/* Relative energy change of a ball in 2 s on a floor of springs. */
 static double floor_off(double hw, const engine_kind *kind) {
     char set[40];
     motion m;
@@ -294,7 +292,7 @@ static void exactly(double w, double u, double t, double *x, double *v) {
     *x = x1 + u / (w * w);
 }
 
-/* Ten jumps between steps: how far off at the end, m. */
+/* Ten jumps between steps: the final error, m. */
 static double jumps_off_m(dice *d, double step_s, image_matrix_of matrix) {
     motion m;
     double x = 0.0;
@@ -361,7 +359,7 @@ static void test_a_jump_inside_a_step(void) {
 
 /* --- the ends of a number's range -------------------------------------------------------------------------------- */
 
-/* A swing of amplitude A: how far off after 1 s, of A; infinite when it ends. */
+/* A swing of amplitude A: its relative error after 1 s; infinite if it ends. */
 static double swing_off(double A_m, const engine_kind *kind, bool compensated) {
     char set[60];
     motion m;
@@ -410,7 +408,7 @@ static void scales(bool is_float, double least, double last) {
 static void test_amplitudes_to_the_ends_of_float(void) { scales(true, -45.0, 38.5); }
 static void test_amplitudes_to_the_ends_of_double(void) { scales(false, -305.0, 307.5); }
 
-/* A swing under a cube of the way: x/A at ten moments; the same at every amplitude. */
+/* A swing under a cubic force: x/A at ten moments; the same for every amplitude. */
 static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     char set[60];
     motion m;
@@ -426,7 +424,7 @@ static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     return went;
 }
 
-/* Its cube falls below what float holds long before the way does: told by that name. */
+/* Its cube underflows in float long before the distance does: the report names underflow. */
 static void test_products_that_fall_below_float(void) {
     double wanted[10];
     unsigned off_course = 0;
@@ -458,7 +456,7 @@ static void test_products_that_fall_below_float(void) {
     TEST_ASSERT_TRUE(off_course >= 3 && sound >= 20);
 }
 
-/* Beyond 1e15 no step is believed; beyond 6.28e9 rad no start of an angle in float. */
+/* Beyond 1e15 no step is accepted; beyond 6.28e9 rad no start of an angle in float. */
 static void test_starts_that_are_too_large(void) {
     static const struct {
         const char *file, *start;
@@ -495,7 +493,7 @@ static void test_starts_that_are_too_large(void) {
 
 /* --- unequal masses ------------------------------------------------------------------------------------------------ */
 
-/* How far both bodies are off after 5 s; 0.1 m is what they swing by. */
+/* Error of both bodies after 5 s; the amplitude is 0.1 m. */
 static double unequal_off_m(double mass, const engine_kind *kind) {
     char more[200];
     motion m;
@@ -513,8 +511,8 @@ static double unequal_off_m(double mass, const engine_kind *kind) {
     return off;
 }
 
-/* Up to 1e8 nothing is seen of it. Of a sum M + m the last place of m is 2^-53 m, which of M is as much as the ratio makes
- * of it: that is what a phase of 50 rad is off by, up to a ratio of 1e13. Beyond, the matrix is refused. */
+/* Up to 1e8 no effect. In a sum M + m the last place of m is 2^-53 m, relative to M as large as the mass ratio. That is
+ * the error of a phase of 50 rad, up to a ratio of 1e13. Beyond that, the matrix is refused. */
 static void test_two_bodies_of_very_different_mass(void) {
     double worst[2] = {0.0, 0.0};
     double beyond = 0.0;

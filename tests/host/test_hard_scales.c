@@ -1,6 +1,6 @@
-/* test_hard_scales.c: random planar linkages in other units, masses, lengths and times from 1e-12 to 1e12 of what they
- * were: powers of two, which change no digit of a product or a quotient, so that the same motion must follow but for
- * the order of sums; where float's range ends, a run says so and is never quietly another. */
+/* test_hard_scales.c: random planar linkages in other units, masses, lengths and times by factors from 1e-12 to 1e12.
+ * Powers of two change no digit of a product or quotient, so the motion must be the same, except for the order of sums.
+ * At the end of float's range a run must report it and never silently change. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -20,10 +20,10 @@ static unsigned cases(void) { return dice_cases(few_or_all(3, 30)); }
 
 typedef struct moved {
     wh_status status;
-    double value[2 * LINKAGE_BODIES]; /* values, then rates; of the units before scaling */
+    double value[2 * LINKAGE_BODIES]; /* values, then rates; in the units before scaling */
 } moved;
 
-/* The units that it is written in, in its own. */
+/* The new units, in the old ones. */
 typedef struct units {
     double mass, length, time;
 } units;
@@ -99,7 +99,6 @@ static double power_of_two(dice *d, int most) {
     return ldexp(1.0, (int)dice_one_of(d, (unsigned)(2 * most + 1)) - most);
 }
 
-/* Does `whirl run` in float warn of it? */
 static bool warns(const char *text) {
     static said what;
     const char *const words[] = {model_keep(text), "--number", "float", "--quiet", NULL};
@@ -108,15 +107,15 @@ static bool warns(const char *text) {
     return what.status == said_owes(what.err) && strstr(what.err, "float has no room") != NULL;
 }
 
-/* How far units are drawn: powers of two up to `most`; what came of the runs in them. */
+/* Range of the units: powers of two up to `most`; and results of the runs. */
 typedef struct reach {
     const int most;
-    unsigned same; /* in the same bits */
-    unsigned none; /* refused or warned of */
+    unsigned same; /* with identical bits */
+    unsigned none; /* refused or with a warning */
     double worst;  /* of the others */
 } reach;
 
-/* A linkage in drawn units, held against what it does in its own. */
+/* A linkage in random units, compared with its own run. */
 static void held_against(const moved *plain, const linkage *of, const engine_kind *kind, units u,
                          double most_off, reach *r) {
     const moved scaled = run_of(of, u, kind, ANGLES_TURNED);
@@ -140,7 +139,7 @@ static void held_against(const moved *plain, const linkage *of, const engine_kin
 
 enum { REACHES = 3 };
 
-/* Each linkage in units of each reach: within `most_off` of itself, or a run that was refused or warned of. */
+/* Each linkage in units of each range: within `most_off` of itself, or refused or with a warning. */
 static void in_all_units(const engine_kind *kind, double most_off, reach *reached) {
     dice d = dice_of("hard_scales", 16);
     uint64_t seed = d.state;
@@ -180,7 +179,8 @@ static void test_units_do_not_matter_in_float(void) {
 
 /* --- masses ---------------------------------------------------------------------------------------------------- */
 
-/* The same method with the same step and no sine turned, in long double and by the energies in numbers; *least of linkage_solve. */
+/* The same method and step without rotated sines, in long double from the energies in numbers; *least from
+ * linkage_solve(). */
 static moved by_numbers(const linkage *of, double *least) {
     linkage_motion wanted;
     moved end = {.status = WH_OK};
@@ -201,21 +201,21 @@ static double largest_of(const moved *m) {
     return largest;
 }
 
-/* Bodies' masses, inertias and forces by so many decades up or down, and by none. */
+/* Changes bodies' masses, inertias and forces by up to so many decades in either direction. */
 static void make_unequal(linkage *of, double decades, dice *d) {
     of->springs = 0;
     for (int i = 0; i < of->bodies; i++) {
         const double factor = pow(10.0, decades * ((double)dice_one_of(d, 3) - 1.0));
         of->body[i].mass_kg *= factor;
         of->body[i].inertia_kgm2 *= factor;
-        of->body[i].stiffness *= factor; /* what holds it, too */
+        of->body[i].stiffness *= factor; /* and its support */
         of->body[i].damping *= factor;
         of->body[i].drag_Nspm *= factor;
         of->body[i].drive *= factor;
     }
 }
 
-/* How far a motion ends elsewhere whose start is a share off. */
+/* Change of the final state after a relative change of the start. */
 static double carried(const linkage *of, const moved *wanted, double share) {
     linkage near = *of;
     double least;
@@ -227,17 +227,18 @@ static double carried(const linkage *of, const moved *wanted, double share) {
     return apart(wanted, &other);
 }
 
-/* What no motion of these comes near within 50 ms: its step is too long, as where the damper of a heavy body holds a
- * light one, and it grows without bound. */
+/* Larger than any of these motions within 50 ms: the step is too long, as for a heavy body's damper on a light body,
+ * and the run diverges. */
 #define GROWN 1e12
 
-/* How a run of unequal masses does; an acceleration is known to the last place (`last`) over what elimination leaves. */
+/* Results of runs with unequal masses. The relative error of an acceleration is a unit in the last place (`last`) over
+ * the remainder of the elimination. */
 typedef struct unequal {
     double
-        worst; /* off, of the largest value or rate, where elimination leaves a ten thousandth and more */
+        worst; /* error relative to the largest value or rate, if elimination leaves a ten thousandth or more */
     unsigned
-        beyond; /* more off than a start that is a hundred such shares off carries to the end, and than a hundred of the largest */
-    unsigned plain; /* of such as `worst` tells */
+        beyond; /* errors above a hundred times those that a start with such relative errors carries to the end, and above a hundred of the largest */
+    unsigned plain; /* of those in `worst` */
 } unequal;
 
 static unequal of_unequal(const engine_kind *kind, double decades, double last) {
@@ -253,7 +254,7 @@ static unequal of_unequal(const engine_kind *kind, double decades, double last) 
         const moved found = run_of(&of, (units){1.0, 1.0, 1.0}, kind, ANGLES_LOOKUP);
         const double largest = largest_of(&wanted);
         const double off = apart(&wanted, &found);
-        if (!(largest < GROWN)) { /* it grows, too, and is stopped where numbers end */
+        if (!(largest < GROWN)) { /* it diverges, too, and stops at the end of the number range */
             grown++;
             TEST_ASSERT_TRUE(found.status != WH_OK || (isfinite(largest) && off < 0.5 * largest));
             continue;

@@ -1,5 +1,5 @@
-/* test_held_text.c: what `whirl prove` says of drawn findings (host/prove/containment.h), read back: numbers that are not less
- * than what was found, nor much more; which state is told of at the end; rows to the last bit. */
+/* test_held_text.c: the text of `whirl prove` on random findings (host/prove/containment.h), read back: numbers round
+ * up, but not by much; the state named at the end; rows to the last bit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +69,7 @@ static const char *read_time(const char *at, double wanted_s) {
     return at;
 }
 
-/* So many places are shown of it: not less than it is, and not more than the next but one that so many places have. */
+/* Reads a number of so many places: at least the value, and at most two units of the last place above it. */
 static const char *read_not_less(const char *at, const image_unit *unit, double si, int places) {
     const long double wanted =
         (long double)si * (long double)unit->divisor / (long double)unit->scale;
@@ -143,7 +143,7 @@ static const char *name_of(int i, char *text) {
     return text;
 }
 
-/* Of those that are not proved to the end the one that never was, the first of these; else the first that ends. -1: none. */
+/* Among states not proved to the end: the first that was never proved, else the first that ends; -1 without any. */
 static int first_that_is_not(void) {
     for (int i = 0; i < found.states; i++) {
         if (!found.state[i].begun) {

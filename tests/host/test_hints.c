@@ -1,5 +1,4 @@
-/* test_hints.c: what is told though it is no error: dry friction written by hand, and nothing
- * that only looks like it. */
+/* test_hints.c: a hint on dry friction written by hand, and no hint on similar formulas. */
 #include <stdio.h>
 
 #include "derived.h"
@@ -9,7 +8,7 @@
 
 void suite_hints(void);
 
-/* The line of the Q that is told, or 0. The first Q stands in line 9. */
+/* The line of the reported Q, or 0. The first Q is in line 9. */
 static int told(const char *forces) {
     char text[900];
     snprintf(text, sizeof text,
@@ -37,7 +36,7 @@ static void test_friction_by_hand_is_told(void) {
                                    "scene s { with rub }\n"));
 }
 
-/* Losses that grow with the size of a rate, drawn: a factor, an exponent of that size, smooth losses beside it. */
+/* Random losses that grow with the absolute rate: a factor, its exponent, and smooth losses beside it. */
 static void test_losses_with_a_kink_are_told(void) {
     static const char *const sizes[] = {"abs(x')", "sqrt(x'^2)",   "x'*sign(x')",
                                         "x'*way",  "max(x', -x')", "abs(x' - y')"};

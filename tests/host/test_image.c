@@ -1,6 +1,6 @@
-/* test_image.c: an image stands by itself. All that runs and all that is written of it comes out the same when the
- * language and the algebra that it was made of are gone: under the sanitizers, a pointer into them that was kept
- * fails here. And one that is made again from other starts is the one that a derivation from them makes. */
+/* test_image.c: an image is self-contained. Runs and written output are the same after the language and algebra objects
+ * are freed; under the sanitizers, a remaining pointer into them fails here. An image remade with other starts equals
+ * one derived with them. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <inttypes.h>
@@ -72,7 +72,7 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
     diags_free(errors);
 }
 
-/* Every message about something that has no value: where nothing is a number. */
+/* All messages on undefined values: of a state in which nothing is a number. */
 static void write_undefined(FILE *out, const image *im) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -194,7 +194,7 @@ static int check_again(const scene *s) {
         other->input[i] += 0.5;
     }
     int compared = 0;
-    if (d.image->recovered == 0) { /* else the lists hold the momentum of the start */
+    if (d.image->recovered == 0) { /* otherwise the lists contain the momentum of the start */
         equations *e = equations_derive(other, errors);
         image *fresh = image_make(e, other->conserve, &plainly, IMAGE_TO_RUN, errors);
         image *again = image_again(d.image, other, errors);
@@ -226,8 +226,7 @@ void suite_image(void) {
 }
 
 /* === described drawn ========================================================================== */
-/* `whirl describe --json` of scenes that are drawn holds every field of the image, and is laid out as
- * its brackets say. */
+/* `whirl describe --json` of random scenes contains every field of the image, with the layout of its brackets. */
 
 static dice die;
 static drawn_scene drawn;
@@ -239,7 +238,7 @@ static void expect_text(const char *path, const char *wanted) {
     char value[200];
     char escaped[200];
     size_t used = 0;
-    for (const char *at = wanted; *at != '\0'; at++) { /* as it stands between its quotes */
+    for (const char *at = wanted; *at != '\0'; at++) { /* as written between its quotes */
         if (*at == '"' || *at == '\\') {
             escaped[used++] = '\\';
         }
@@ -496,7 +495,7 @@ static void check_head(const image *im) {
     expect_number("bounds/events", im->contacts > 0 ? WH_EVENTS_MAX : 0);
 }
 
-/* Two blanks a bracket that is open; one line a value; nothing behind a comma; a line's end at the end. */
+/* Two blanks per open bracket, one value per line, nothing after a comma, a line end at the end. */
 static void check_layout(void) {
     int depth = 0;
     for (const char *line = page; *line != '\0';) {
@@ -532,7 +531,7 @@ static void test_json_has_every_field(void) {
     }
 }
 
-/* Characters stay as they are; quotes, what steers, and bytes that are none of UTF-8 become what stands for them. */
+/* Characters stay; quotes, control characters and invalid UTF-8 are replaced by their escapes. */
 static void test_any_text_is_told(void) {
     static const char *const pieces[][2] = {{"a", "a"},
                                             {" ~", " ~"},
@@ -592,8 +591,8 @@ void suite_described_drawn(void) {
 }
 
 /* === generated texts ========================================================================== */
-/* What must hold for any mechanism is tried with every function: the writers of random expressions
- * and mechanisms know each row of host/number/function_rows.h. */
+/* Tests over any mechanism cover every function: the writers of random expressions and mechanisms know each row of
+ * host/number/function_rows.h. */
 
 enum { SEED = 7 };
 
@@ -601,7 +600,7 @@ static const char *name(int f) { return function_name((function_id)f); }
 
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/* Marks the functions that the text calls; how many are left. */
+/* Marks the functions that the text calls; returns the number of unmarked ones. */
 static int mark_called(const char *text, bool called[FUNCTIONS]) {
     int left = 0;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -629,7 +628,7 @@ static void expect_all(const bool called[FUNCTIONS], const char *where) {
     TEST_ASSERT_TRUE_MESSAGE(all, message);
 }
 
-/* Drawn until each was there, and then named. */
+/* Drawn until each function occurred; then missing ones are named. */
 static void test_generated_texts(void) {
     static char text[1 << 14];
     static const char *const coordinates[] = {"q"};

@@ -1,6 +1,5 @@
-/* test_influence.c: `conserve` beside forces, losses and contacts: what keeps a coordinate from
- * being conserved is named, and a conserved coordinate that the others feel is where it should
- * be. */
+/* test_influence.c: `conserve` with forces, losses and contacts: the message names the obstacle to conservation, and a
+ * conserved coordinate that others depend on is accurate. */
 #include <math.h>
 #include <string.h>
 
@@ -59,10 +58,9 @@ static void test_what_acts_on_others_only_is_no_reason(void) {
     equations_free(e);
 }
 
-/* A clock drives a mass on a spring: m x'' + k x = F sin(w t) from rest, resonances apart, has x
- * = F/(k - m w^2) (sin(w t) - w/w0 sin(w0 t)), w0 = sqrt(k/m). Runge-Kutta's error with h w0 =
- * 0.005 over 50 rad is of the order 50 (h w0)^4/120 = 3e-10 of 0.125 m; the clock's sum of 1e4
- * steps is off by 1e-12 at most. */
+/* A clock drives a mass on a spring: m x'' + k x = F sin(w t) from rest. Except at resonance, x = F/(k - m w^2) (sin(w
+ * t) - w/w0 sin(w0 t)), w0 = sqrt(k/m). Runge-Kutta's error with h w0 = 0.005 over 50 rad is about 50 (h w0)^4/120 =
+ * 3e-10 of 0.125 m; the clock's sum of 1e4 steps has an error of 1e-12 at most. */
 static void expect_driven(const char *clock) {
     char text[600];
     snprintf(text, sizeof text,
@@ -87,7 +85,7 @@ static void test_a_conserved_clock_drives(void) {
                   "let clock_T = 1e-9 [kg*m^2]*clock'^2/2");
 }
 
-/* x feels nothing, and y's contact names it in one of its expressions, whichever: then x must be in the state. */
+/* No force acts on x, but an expression of y's contact names it: then x must be in the state. */
 static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
     static const char *const contacts[] = {
         "stop y <= 1 [m] restitution x/10 [m]",
@@ -113,7 +111,7 @@ static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
     }
 }
 
-/* Every expression of a contact is asked whether it is a number, with its place. */
+/* Every expression of a contact is checked for a non-number, with its place. */
 static void test_a_contact_without_a_number_is_refused(void) {
     static const struct {
         const char *contact;

@@ -1,5 +1,5 @@
-/* test_input_rates.c: inputs with a rate: what a stop and a hold that follow them do, against closed forms and against the same
- * motion by another way. The inputs are set before each step, as firmware does, or left to move by themselves. */
+/* test_input_rates.c: inputs with a rate: stops and holds that follow them, against closed forms and the same motion by
+ * another method. The inputs are set before each step, as firmware does, or move by themselves. */
 #include "command.h"
 #include "derived.h"
 #include "motion.h"
@@ -30,10 +30,10 @@ static double course_at(const course *c, double t, int primes) {
     }
 }
 
-/* What the owner tells of a course: value and rate, value and mean rate of the coming step, or the acceleration, too. */
+/* Information on a course: value and rate, value and mean rate of the coming step, or also the acceleration. */
 enum { RATE, MEAN_RATE, ACCELERATION, TELLINGS };
 
-/* The first inputs are told of the course at t. */
+/* Sets the first inputs to the course at t. */
 static void set_course(motion *m, const course *c, int telling, double h, double t) {
     const double ahead = (course_at(c, t + h, 0) - course_at(c, t, 0)) / h;
     m->kind->set_input(m->run, 0, course_at(c, t, 0));
@@ -45,12 +45,12 @@ static void set_course(motion *m, const course *c, int telling, double h, double
 
 /* --- stops --------------------------------------------------------------------------------------------------- */
 
-/* A ball between two walls that move at constant speeds: it leaves each at V - e (v - V). */
+/* A ball between two walls at constant speeds leaves each at V - e (v - V). */
 static void exact_ball(const double *wall, const double *speed, double e, double until_s, double *x,
                        double *v) {
     double t = 0.0;
     for (;;) {
-        const int to = *v > speed[1] ? 1 : 0; /* it meets this one next, if any */
+        const int to = *v > speed[1] ? 1 : 0; /* the next wall that it meets, if any */
         const double closing = to == 1 ? *v - speed[1] : speed[0] - *v;
         const double way = to == 1 ? wall[1] + speed[1] * t - *x : *x - wall[0] - speed[0] * t;
         if (!(closing > 0.0) || t + way / closing >= until_s) {
@@ -108,7 +108,7 @@ static void test_a_ball_between_moving_walls(void) {
     TEST_ASSERT_TRUE(worst[0] <= 1e-11 && worst[1] <= 3e-4);
 }
 
-/* A ball on a table that shakes: it stays as long as the table falls slower than it would, then flies. */
+/* A ball on a shaking table stays while the table's downward acceleration is below g, then flies. */
 static void test_a_ball_on_a_shaking_table(void) {
     const unsigned cases = dice_cases(16);
     dice d = dice_of("input_rates", 4602);
@@ -156,7 +156,7 @@ static void test_a_ball_on_a_shaking_table(void) {
 
 /* --- holds --------------------------------------------------------------------------------------------------- */
 
-/* A pendulum on a rope of length L(t), by RK4 of its angle with L(t) itself: a'' = -(2 L' a' + g sin a) / L. */
+/* A pendulum on a rope of length L(t), by RK4 of its angle with the exact L(t): a'' = -(2 L' a' + g sin a) / L. */
 static void exact_pendulum(const course *c, double until_s, double *a, double *rate) {
     enum { PARTS = 20000 };
     const double h = until_s / PARTS;
@@ -179,7 +179,7 @@ static void exact_pendulum(const course *c, double until_s, double *a, double *r
 
 enum { BY_HOLD, BY_ANGLE, BY_WAYS };
 
-/* The pendulum, by a rope that is held or by its angle; how far its end is off after 2 s in steps of h. */
+/* The pendulum, by a rope as a hold or by its angle; its error after 2 s in steps of h. */
 static double rope_off(const course *c, int way, int telling, const engine_kind *kind, double h,
                        double *slipped) {
     static const char *const text_of[BY_WAYS] = {
@@ -225,7 +225,7 @@ static double rope_off(const course *c, int way, int telling, const engine_kind 
     double total[40];
     double left[8] = {0.0};
     m.kind->ledger(m.run, total, left);
-    /* float: what a place is put right by in a step is less than 20 J are known to, and is not booked */
+    /* float: a step's correction of a place is below the resolution of 20 J, and is not booked */
     TEST_ASSERT_TRUE(fabs(left[0]) < (kind == &engine_float ? 0.2 : 1e-6));
     motion_close(&m);
     return off;
@@ -237,8 +237,8 @@ static course draw_rope(dice *d) {
                     dice_between(d, -0.1, 0.2)};
 }
 
-/* A rope that is told its mean rate or its acceleration follows to second order of the step, with the rate at the step's begin
- * to first. So do energies that name L. What is held stays held in any case. */
+/* With the mean rate or acceleration, the rope follows to second order in the step; with the rate at the step's begin,
+ * to first. The same holds for energies with L. The hold is exact in any case. */
 static void test_a_pendulum_on_a_rope_of_changing_length(void) {
     const unsigned cases = dice_cases(6);
     dice d = dice_of("input_rates", 4602);
@@ -272,7 +272,8 @@ static void test_a_pendulum_on_a_rope_of_changing_length(void) {
 
 /* --- refused steps and corrections ---------------------------------------------------------------------------- */
 
-/* Scenes with any step: with books or without; x is free, at a wall that the input moves, or held, by one or several. */
+/* Scenes with any step, with energy balance or without; x is free, at a wall that the input moves, or held by one or
+ * several holds. */
 static void refused_text(dice *d, unsigned i, char text[static 900]) {
     static const char *const contact[] = {
         "",
@@ -293,8 +294,8 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
              i % 2 ? " with ledger" : "", dice_between(d, -0.3, 0.3));
 }
 
-/* A refused step, for whatever input, leaves the state as it was, and then no trace: the run goes on as one that was not asked
- * for it, also with other inputs than the last good ones. */
+/* A refused step leaves the state as it was, and no trace: the run continues as if it had not been requested, also with
+ * inputs other than the last good ones. */
 static void test_a_refused_step_leaves_no_trace(void) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
                                  1e30}; /* finite forces may be held */
@@ -328,7 +329,7 @@ static void test_a_refused_step_leaves_no_trace(void) {
         }
         TEST_ASSERT_EQUAL_UINT64(m[1].kind->hash(m[1].run), m[0].kind->hash(m[0].run));
         TEST_ASSERT_TRUE_MESSAGE(left[0][0] == left[1][0] && fabs(left[0][0]) < 1e-2, text);
-        /* What follows an input is not to be corrected, all else is. */
+        /* Coordinates that follow an input are not corrected, all others are. */
         const image *im = m[0].image;
         wh_real real[8] = {0};
         wh_contacts contacts;
