@@ -15,8 +15,7 @@ typedef struct beside {
     uint64_t records;
     uint64_t outside; /* first record with a state outside the tube; 0: no such record */
     double widest;    /* width of the tube, while inside */
-    double
-        nearest; /* least distance between the reference and an end, in parts of the width, while inside */
+    double nearest;   /* least distance of the reference from an end, over the width, inside */
 } beside;
 
 /* Runs scene `name` of the text by `kind` and compares it with its tube. */

@@ -7,8 +7,6 @@
 
 #include "unity.h"
 
-/* --- words ------------------------------------------------------------------------------------------------- */
-
 static char *without_comments(const char *text) {
     const size_t length = strlen(text);
     char *copy = malloc(length + 1);
@@ -150,8 +148,6 @@ double c_number(const c_file *f, int *i) {
     }
     return sign * number;
 }
-
-/* --- what a compiler would say ------------------------------------------------------------------------------ */
 
 enum { NAMES = 2000 };
 

@@ -7,8 +7,6 @@
 
 #include "unity.h"
 
-/* --- the other way ------------------------------------------------------------------------------------------ */
-
 /* Solve a x = b by elimination with pivots; false where a is singular. */
 static bool solve(int n, double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1], double *x) {
     for (int p = 0; p < n; p++) {
@@ -165,8 +163,6 @@ bool drawn_independent(const drawn *b) {
     return solve(b->contacts, a, x);
 }
 
-/* --- the program's way ---------------------------------------------------------------------------------------- */
-
 static void write_row(const drawn *b, const double *row, char *text, size_t size) {
     size_t end = 0;
     text[0] = '\0';
@@ -224,8 +220,6 @@ void drawn_open(motion *m, const drawn *b, const engine_kind *kind) {
 #undef PUT
     motion_open_text(m, text, (stepping){.kind = kind, .method = WH_RK4});
 }
-
-/* --- drawing --------------------------------------------------------------------------------------------------- */
 
 double drawn_whole(uint64_t *seed, int least, int most) {
     return least + (int)(random_bits(seed) % (uint64_t)(most - least + 1));

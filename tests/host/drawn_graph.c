@@ -61,8 +61,6 @@ static void derivatives(drawn_kind kind, number a, long double exponent, int ord
     }
 }
 
-/* --- series ------------------------------------------------------------------------------------------------*/
-
 static series constant(long double value) { return (series){.at = {value}}; }
 
 static series sum(series a, long double times, series b) {
@@ -137,8 +135,6 @@ void drawn_graph_series(const drawn_graph *d, const series *x, int order, series
     }
 }
 
-/* --- drawn -------------------------------------------------------------------------------------------------*/
-
 void drawn_graph_draw(drawn_graph *d, dice *die, const double *x) {
     static const double exponents[] = {0.5, -0.5, 1.25, -2.0, 3.0, -1.0};
     series of[DRAWN_STEPS];
@@ -199,8 +195,6 @@ void drawn_graph_nodes(const drawn_graph *d, graph *g, int *made) {
         made[i] = step_node(&d->step[i], g, made);
     }
 }
-
-/* --- a graph's nodes ---------------------------------------------------------------------------------------*/
 
 static long double middle(enclosure a) { return ((long double)a.low + (long double)a.high) / 2.0L; }
 

@@ -14,8 +14,6 @@ static const char *const output_names[] = {"power", "x_cm", "o3"};
 static const char *const parameter_names[] = {"m", "K1", "length_of_it"};
 static const char *const texts[] = {"", "a carriage", "\"of\" both \\ ends", "50 % /* or so */"};
 
-/* --- where things stand --------------------------------------------------------------------------------- */
-
 static const char file_text[] = "mechanism m\n"
                                 "    coordinate X [m] # the carriage\n"
                                 "\tinput M = 1 [N]  \n"
@@ -57,8 +55,6 @@ static place draw_place(dice *die) {
     return (place){&file, line, 1 + (int)dice_one_of(die, 40),
                    offset + (indent < behind ? indent : behind)};
 }
-
-/* --- names ------------------------------------------------------------------------------------------------ */
 
 static image_unit draw_unit(dice *die, bool turns) {
     static const image_unit units[] = {{"mm", "m", 1.0, 1000.0}, {"N", "N", 1.0, 1.0},
@@ -143,8 +139,6 @@ static void draw_ranges(dice *die, drawn_scene *d) {
     }
 }
 
-/* --- contacts and books --------------------------------------------------------------------------------- */
-
 static void draw_contacts(dice *die, drawn_scene *d) {
     static const char *const words[] = {"stop", "hold", "friction", "when"};
     image *im = &d->im;
@@ -205,8 +199,6 @@ static void draw_ledger(dice *die, drawn_scene *d) {
                      TAKES_RATES | (l->turned ? TAKES_RECORDS : 0U));
     drawn_scene_list(d, die, IMAGE_LEVELS, l->accounts, TAKES_RATES | TAKES_RECORDS);
 }
-
-/* --- all of it -------------------------------------------------------------------------------------------- */
 
 static void draw_matrix(dice *die, drawn_scene *d) {
     image *im = &d->im;
@@ -298,8 +290,6 @@ void drawn_scene_draw(drawn_scene *d, dice *die) {
                          (im->contacts > 0 ? TAKES_ACCEL : 0U));
 }
 
-/* --- what follows from it --------------------------------------------------------------------------------- */
-
 const char *const drawn_scene_roles[IMAGE_ROLES] = {"step",   "observe", "books",  "signals",
                                                     "forces", "sets",    "powers", "levels",
                                                     "matrix", "tables"};
@@ -307,8 +297,7 @@ const char *const drawn_scene_roles[IMAGE_ROLES] = {"step",   "observe", "books"
 int drawn_scene_numbers(const image *im) {
     int numbers = im->reals + im->inputs + im->held;
     numbers += im->settings.compensated ? im->angles + im->reals : 0;
-    if (im->ledger
-            .kept) { /* entries have carries, accounts have a start and a correction, inputs have old values */
+    if (im->ledger.kept) { /* entries have carries; accounts a start and correction; inputs */
         numbers += 2 * (im->ledger.entries + im->ledger.accounts) + im->ledger.inputs;
     }
     return numbers;

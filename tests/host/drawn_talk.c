@@ -70,8 +70,6 @@ void talk_draw(void) {
     }
 }
 
-/* --- frames ------------------------------------------------------------------------------------------------------*/
-
 void talk_put(stream *s, unsigned kind, unsigned sequence, uint32_t ticks, const uint8_t *payload,
               unsigned length) {
     const wh_frame frame = {.kind = (uint8_t)kind,

@@ -174,8 +174,7 @@ static void filled(writer *w, const expression_names *names, const char *text, i
 void expression_mechanism(int depth, uint64_t *seed, char *text, size_t size) {
     static const char *const own[] = {"theta1", "x"};
     static const char *const all[] = {"a1", "n_1", "mass_of_it", "Omega_", "x__2", "y1"};
-    const expression_names constant = {own, 2, 0, all,
-                                       3}; /* no inputs: they would change T's inertia */
+    const expression_names constant = {own, 2, 0, all, 3}; /* no inputs: they change T's inertia */
     const expression_names still = {own, 2, 0, all, 6};
     const expression_names force = {own, 2, 1, all, 6};
     writer w = {&still, 1, seed, text, size, 0};

@@ -124,12 +124,11 @@ typedef struct run_checks {
     bool latched;
     double time_s;
     uint64_t overruns;
-    uint32_t steps
-        [STEP_BINS]; /* histogram of instructions per control step; empty if they are not counted */
-    double most;     /* largest count of a step */
-    double most_s;   /* its time */
-    double loop;     /* largest count between two waits: HAL, steps and printing */
-    double start;    /* and before the loop */
+    uint32_t steps[STEP_BINS]; /* histogram of control steps; empty if not counted */
+    double most;               /* largest count of a step */
+    double most_s;             /* its time */
+    double loop;               /* largest count between two waits: HAL, steps and printing */
+    double start;              /* and before the loop */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };

@@ -105,8 +105,6 @@ static bool may_be_second(unsigned row) {
            kind != FAULT_STOP && kind != FAULT_RESET && fault_rows[kind].place != FAULT_PARAMETER;
 }
 
-/* --- what an operator dials in --------------------------------------------------------------------------------------*/
-
 #define NOMINAL_PART 0.25 /* share of runs at the rig's nominal speed */
 #define SLOW_PART 0.25    /* share of runs slower than possible without gravity feed-forward */
 #define FED_PART 0.2      /* share of the others with feed-forward */

@@ -43,8 +43,6 @@ void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
             one.words);
 }
 
-/* --- fault by state ---------------------------------------------------------------------------------------------*/
-
 typedef struct cell_count {
     unsigned of[OUTCOMES];
     unsigned runs;
@@ -101,8 +99,6 @@ static void print_matrix(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
-/* --- what tripped, and what was broken ----------------------------------------------------------------------------*/
-
 static unsigned count_of(const verdict *all, unsigned count, int row,
                          bool (*is)(const verdict *v)) {
     unsigned found = 0;
@@ -147,8 +143,6 @@ static void print_trips(FILE *out, const verdict *all, unsigned count) {
         }
     }
 }
-
-/* --- the worst ----------------------------------------------------------------------------------------------------*/
 
 static double by_lie(const verdict *v) { return v->lie; }
 static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }

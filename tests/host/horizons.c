@@ -14,8 +14,6 @@
 /* Most looks at the reference, and fewest steps between two. */
 enum { LOOKS = 10000 };
 
-/* --- a reference --------------------------------------------------------------------------------------*/
-
 typedef struct reference_of {
     extrapolation *smooth; /* or, with contacts: */
     image fine;
@@ -77,8 +75,6 @@ static void reference_go(reference_of *r, const image *im, uint64_t steps, doubl
         r->row[k] = (long double)r->records->row[k];
     }
 }
-
-/* --- the run beside it ---------------------------------------------------------------------------------*/
 
 typedef struct beside {
     horizons *h;
@@ -148,8 +144,6 @@ static void run_beside(horizons *h, uint64_t stride) {
     free(b.last);
 }
 
-/* --- both ------------------------------------------------------------------------------------------------*/
-
 static image *image_with(const derived *d, const image_settings *settings) {
     diags *errors = diags_new();
     image *im =
@@ -208,8 +202,6 @@ double horizons_column_ratio(const horizons *h, int column) {
     const double guess = h->estimate.column[column].until_s;
     return real > 0.0 ? guess / real : (guess > 0.0 ? (double)INFINITY : 1.0);
 }
-
-/* --- texts -----------------------------------------------------------------------------------------------*/
 
 static char *joined(const char *text, size_t length, const char *more) {
     char *all = malloc(length + strlen(more) + 1);

@@ -20,15 +20,13 @@ typedef struct horizons_setting {
 typedef struct horizons {
     derived made;
     image *image; /* with the setting */
-    image *
-        plain; /* with the settings of the finer run (host/check/step_doubling.h) and of the reference */
+    image *plain; /* settings of the finer run (host/check/step_doubling.h), and reference */
     step_doubling *twins;
     horizon estimate;
     double *true_s;      /* [columns] last accurate look; infinite: to the end */
     double true_until_s; /* the least of them; the end */
-    double
-        known; /* largest difference of the references at the ends, in parts of tolerance times range */
-    double look_s; /* between looks */
+    double known;        /* largest difference of the references, in tolerance times range */
+    double look_s;       /* between looks */
 } horizons;
 
 /* A scene of a text; `tolerance` as of `whirl trust`. */

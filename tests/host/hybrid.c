@@ -62,8 +62,6 @@ static long double limit_of(const hybrid_contact *c, const long double *state) {
 
 static bool holds(mode m) { return m == CLOSED || m == STUCK; }
 
-/* --- between events ------------------------------------------------------------------------------------------ */
-
 /* Accelerations in the present modes, and lambda of the active contacts; *at belongs to this state. */
 static void accelerate(const runner *r, const long double *state, long double *accel,
                        long double *lambda, linkage_numbers *at) {
@@ -173,8 +171,6 @@ static bool ended(const runner *r, const long double *state) {
     }
     return false;
 }
-
-/* --- at an event --------------------------------------------------------------------------------------------- */
 
 /* Tolerance for zero after the bisection of an event. */
 #define NEAR 1e-9L
@@ -288,8 +284,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     for (int c = 0; c < count; c++) {
         const int k = member[c];
         const double off = drawn_along(&b, c, to) - b.contact[c].target;
-        const bool slides =
-            fabs(lambda[c]) >= b.contact[c].limit; /* the target is exact for an active contact */
+        const bool slides = fabs(lambda[c]) >= b.contact[c].limit; /* exact target if active */
         const bool up = lambda[c] < 0.0 || (lambda[c] == 0.0 && off > 0.0);
         if (b.contact[c].kind == 's') {
             r->mode[k] = lambda[c] == 0.0 ? OPEN : CLOSED;
@@ -320,8 +315,6 @@ static bool event(runner *r, long double least_flight_s) {
     }
     return settle(r, &at, g);
 }
-
-/* --- the whole ----------------------------------------------------------------------------------------------- */
 
 hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double least_flight_s) {
     enum { HALVINGS = 62, EVENTS_MOST = 100 };

@@ -163,8 +163,6 @@ bool json_is_valid(const char *text, char *why) {
     return whole;
 }
 
-/* --- finding a value, in a text that is valid ------------------------------------------------------ */
-
 static bool step_to(reader *r, const char *name, size_t length) {
     const bool keyed = r->text[r->at] == '{';
     int left = keyed ? 0 : (int)strtol(name, NULL, 10);

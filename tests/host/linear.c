@@ -11,8 +11,6 @@
 
 quad quad_size(quad x) { return x < 0 ? -x : x; }
 
-/* --- drawing ------------------------------------------------------------------------------------ */
-
 static double eighths(uint64_t *seed, int more) {
     const double size = (double)(1 + random_bits(seed) % 64) / 8.0;
     return size * (double)(UINT64_C(1) << (random_bits(seed) % (uint64_t)(more + 1)));
@@ -151,8 +149,6 @@ void linear_draw(uint64_t *seed, int coordinates, linear_kind kind, char *text, 
     fprintf(d.out, "step %d [us]; until 10 [s] }\n", us);
     TEST_ASSERT_EQUAL_INT(0, fclose(d.out));
 }
-
-/* --- stepping ----------------------------------------------------------------------------------- */
 
 typedef quad square[LINEAR_COLUMNS][LINEAR_COLUMNS];
 

@@ -21,9 +21,8 @@ typedef struct linear {
 } linear;
 
 typedef struct linear_kind {
-    int stiff; /* springs and dampers up to 2^stiff times stronger */
-    bool
-        coupled; /* masses move together: the mass matrix is full, and its inverse is not exact in double */
+    int stiff;    /* springs and dampers up to 2^stiff times stronger */
+    bool coupled; /* coupled masses: full mass matrix, whose inverse is not exact in double */
 } linear_kind;
 
 /* A mechanism with a scene `s` of `coordinates` 1 to 4: masses, springs and dampers between them and to the ground

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- drawing ------------------------------------------------------------------------------------------------- */
-
 static uint64_t next(uint64_t *seed) {
     uint64_t z = *seed += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -83,8 +81,6 @@ linkage linkage_mirrored(const linkage *of) {
     }
     return m;
 }
-
-/* --- as text ------------------------------------------------------------------------------------------------- */
 
 enum { KINETIC, POTENTIAL, DISSIPATION, FORCE, SUMS = FORCE + LINKAGE_BODIES, SUM_TEXT = 4096 };
 

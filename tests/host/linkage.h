@@ -59,10 +59,9 @@ typedef enum linkage_forces {
 
 typedef struct linkage_writing {
     linkage_forces forces;
-    bool backwards; /* coordinates and terms in reverse order */
-    double until_s; /* end of the scene, which takes 500 steps; 0: half a second */
-    const char *
-        more; /* statements after the others; they may use q0, q0', ... and ey0, the height of an end */
+    bool backwards;   /* coordinates and terms in reverse order */
+    double until_s;   /* end of the scene, which takes 500 steps; 0: half a second */
+    const char *more; /* further statements; may use q0, q0', ... and ey0, an end's height */
 } linkage_writing;
 
 /* A mechanism `name` with a scene `name_moves`. Coordinates are q0, q1, ... */

@@ -160,8 +160,6 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
     }
 }
 
-/* --- motions ------------------------------------------------------------------------------------------------- */
-
 enum { STATE = 2 * LINKAGE_BODIES };
 
 static long double slopes(const linkage *of, const long double *state, long double *slope) {

@@ -15,8 +15,6 @@
 #define LINE_MAX_BYTES 1024
 #define OUTPUTS_MAX 64
 
-/* --- opening ------------------------------------------------------------------------------------ */
-
 static const scene *scene_named(const whirl_model *in, const char *name) {
     for (int i = 0; i < in->scene_count; i++) {
         if (strcmp(in->scenes[i]->name, name) == 0) {
@@ -140,8 +138,6 @@ void motion_close(motion *m) {
     diags_free(m->errors);
 }
 
-/* --- running ------------------------------------------------------------------------------------ */
-
 wh_status motion_step(motion *m, uint64_t steps) {
     wh_status status = WH_OK;
     for (uint64_t i = 0; i < steps && status == WH_OK; i++) {
@@ -157,8 +153,6 @@ void motion_to(motion *m, double time_s) {
     TEST_ASSERT_TRUE(wanted >= m->kind->steps(m->run));
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(m, wanted - m->kind->steps(m->run)));
 }
-
-/* --- reading ------------------------------------------------------------------------------------ */
 
 double motion_value(const motion *m, const char *name) {
     double angle_rad[IMAGE_COMPONENTS_MAX];

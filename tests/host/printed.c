@@ -53,8 +53,7 @@ char *printed(const derived *d, language as) {
     case OCTAVE: derived_octave(out, d, "x.whirl", false); break;
     }
     fclose(out);
-    char *copy =
-        malloc(size + 1); /* gcc takes the stream's own buffer for an address of this frame */
+    char *copy = malloc(size + 1); /* gcc takes the stream's buffer for an address of this frame */
     TEST_ASSERT_NOT_NULL(copy);
     memcpy(copy, text, size + 1);
     free(text);

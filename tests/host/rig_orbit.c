@@ -147,8 +147,6 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     }
 }
 
-/* --- measurements --------------------------------------------------------------------------------- */
-
 static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-53; }
 
 /* A normal variate (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */

@@ -56,11 +56,10 @@ typedef struct rig_noise {
     double conversion_N;
     double conversion_counts;
     /* faults of the cell, 0: none */
-    double gain_off; /* relative gain error */
-    double hum_N;    /* amplitude of mains hum */
-    double hum_Hz;   /* 0: of 60 Hz */
-    double
-        clips; /* clips at this part of the force's own peak, above or (negative) below; 0: never */
+    double gain_off;  /* relative gain error */
+    double hum_N;     /* amplitude of mains hum */
+    double hum_Hz;    /* 0: of 60 Hz */
+    double clips;     /* clips at this part of its peak, above or (negative) below; 0: never */
     double play_N;    /* hysteresis: the reading follows the force after a change of this size */
     double bend;      /* shows F (1 - bend (F/peak)^2) */
     double frozen_s;  /* freezes for this long in the middle of the recorded turns */

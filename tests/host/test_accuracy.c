@@ -559,8 +559,7 @@ static void test_drawn_mechanisms(void) {
         horizons h = horizons_of(text, "s", s.how, HORIZON_TOLERANCE);
         char what[60] = "";
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
-        if (h.known >=
-            0.05) { /* the references differ before the run does: they are not accurate enough */
+        if (h.known >= 0.05) { /* the references differ earlier: not accurate enough */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
             regular++; /* both accurate to the end */

@@ -555,8 +555,7 @@ static void test_powers_are_multiplied_out_up_to_a_size(void) {
             algebra *a = algebra_new();
             const poly *sum = sum_of_rates(a, rates, count);
             const poly *p = poly_pow(a, sum, exponent);
-            double products =
-                1.0; /* equal products merge: (count + exponent - 1 over exponent) remain */
+            double products = 1.0; /* equal products merge: (count + exponent - 1 over exponent) */
             double left = 1.0;
             for (int i = 0; i < exponent; i++) {
                 products *= count;

@@ -12,8 +12,6 @@
 
 void suite_angle_places(void);
 
-/* --- places that act on the motion -------------------------------------------------------------- */
-
 static const struct {
     const char *text;
     double times;
@@ -92,8 +90,6 @@ static void test_all_that_acts_takes_part(void) {
         }
     }
 }
-
-/* --- places that only observe ------------------------------------------------------------------- */
 
 static const char pendulums[] =
     "mechanism m\ncoordinate th [rad]\ncoordinate ph [rad]\n"
@@ -174,8 +170,7 @@ static void test_recovered_angle(void) {
         kinds[k]->state(run, &th, real);
         kinds[k]->outputs(run, output);
         const double ph = 0.5 + (-2.0 + 0.37 * 3.0) * 0.05 - 0.37 * (th - 6283.0);
-        const double bound =
-            k == 0 ? 4e-12 : 3e-7; /* round-off of 6283 * 0.37; of t and of sines */
+        const double bound = k == 0 ? 4e-12 : 3e-7; /* round-off of 6283 * 0.37; t and sines */
         TEST_ASSERT_TRUE(fabs(output[0] - sin(ph)) <= bound);
         TEST_ASSERT_TRUE(fabs(output[1] - cos(ph / 2.0)) <= bound);
         TEST_ASSERT_TRUE(fabs(output[2] - sin(th / 2.0 + ph)) <= bound);
@@ -224,8 +219,6 @@ static void test_systems_and_large_multiples(void) {
     equations_free(e);
     drop();
 }
-
-/* --- the books -----------------------------------------------------------------------------------*/
 
 /* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation contains half of
  * th. */

@@ -695,8 +695,7 @@ static void test_the_energy_is_accounted_for(void) {
         const double fine = left_over_linkages(&of, 5e-4, &turnover);
         double least = fine;
         double step_s = 5e-4;
-        while (!(least <
-                 1e-7 * turnover)) { /* too fast for the step: the method's own error dominates */
+        while (!(least < 1e-7 * turnover)) { /* too fast for the step: the method's own error */
             const double coarser = least;
             step_s /= 4.0;
             fast += coarser == fine ? 1U : 0U;

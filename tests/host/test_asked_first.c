@@ -25,8 +25,6 @@ static unsigned draw(uint64_t *from, unsigned bound) {
     return (unsigned)(random_bits(from) % bound);
 }
 
-/* --- questions ----------------------------------------------------------------------------------*/
-
 static const poly *any_symbol(algebra *a, const mechanism *m, uint64_t *from) {
     const unsigned which =
         draw(from, (unsigned)(3 * m->coordinate_count + m->parameter_count + m->input_count));
@@ -81,8 +79,6 @@ static void ask(void *context, algebra *a, const instance *inst) {
         }
     }
 }
-
-/* --- answers --------------------------------------------------------------------------------------*/
 
 typedef enum before { ALONE, OTHER_THINGS, OTHER_FORMS, OTHER_PROGRAM, WAYS } before;
 static const char *const way_names[WAYS] = {"alone", "other things made", "other forms printed",

@@ -23,8 +23,7 @@ typedef struct line {
     double mass_kg[MOST];
     double spring_Npm[MOST]; /* between a body and the previous one; [0] to the ground */
     double start_m[MOST];
-    int order
-        [MOST]; /* order of reference: each counts from the previous one; [0] from the ground */
+    int order[MOST]; /* order of reference: each counts from the previous; [0] from the ground */
 } line;
 
 /* The coordinates in that order, at the places x. */
@@ -67,8 +66,6 @@ static void line_text(const line *l, char *text, size_t size) {
     TEST_ASSERT_EQUAL_INT(0, fclose(out));
 }
 
-/* --- the reference ---------------------------------------------------------------------------------------------- */
-
 static void accelerate(const void *of, const bodies_state *s, long double *a_mps2) {
     const line *l = of;
     for (int b = 0; b < l->bodies; b++) {
@@ -90,8 +87,6 @@ static void run_by_bodies(const line *l, long double *end, double *range) {
     }
     by_bodies_run(&b, start, end, range);
 }
-
-/* --- messages ---------------------------------------------------------------------------------------------------- */
 
 typedef struct seen {
     bool refused;
@@ -131,8 +126,7 @@ static seen see(const line *l) {
         char name[8];
         snprintf(name, sizeof name, "q%d", i);
         const double off = fabs((double)((long double)motion_value(&m, name) - wanted[i]));
-        if (range[i] >
-            2e-3 * largest) { /* a smaller range may be round-off alone, and is reported as such */
+        if (range[i] > 2e-3 * largest) { /* a smaller range may be round-off, and is reported */
             s.off = fmax(s.off, off / range[i]);
         }
         s.off_of_all = fmax(s.off_of_all, off / largest);

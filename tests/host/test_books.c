@@ -80,8 +80,7 @@ static void test_entries_across_impacts_are_closed_forms(void) {
         command_say(command_run, words, &what);
         TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
         const double work = push * (told(what.out, "\n  z ") - height);
-        const double lost =
-            1.5 * 1.5 * (exp(-2.0 * damping) - 1.0); /* m v^2/2, x' falls by b t/m */
+        const double lost = 1.5 * 1.5 * (exp(-2.0 * damping) - 1.0); /* m v^2/2; x' loses b t/m */
         const double change = told(what.out, "\n  change");
         const double took = told(what.out, "impacts, friction, holds and settings");
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-8, work, told(what.out, "work of inputs"), text);
@@ -206,8 +205,6 @@ static void test_a_charge_in_a_uniform_field(void) {
     printf("  %s\n", line);
     TEST_ASSERT_TRUE_MESSAGE(left[1] < 1e-6 && log2(left[0] / left[1]) > 3.7, line);
 }
-
-/* --- generated ----------------------------------------------------------------------------------- */
 
 /* A function of the angles a and b, and its rate by hand. */
 typedef struct gauge {

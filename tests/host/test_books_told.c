@@ -202,8 +202,7 @@ static void test_ledgers(void) {
     model_drop();
 }
 
-/* --- synthetic balances
- * ---------------------------------------------------------------------------------------------- */
+/* --- synthetic balances -------------------------------------------------------------------------- */
 
 /* Every line, for any combination of known values. */
 static void test_every_line(void) {

@@ -135,8 +135,6 @@ static void test_busy_contacts_are_told_and_cured(void) {
     TEST_ASSERT_TRUE(without <= off / 10);
 }
 
-/* --- scenes that no step helps ----------------------------------------------------------------------------- */
-
 /* A million events per step and more; the hint's change of the scene is applied. */
 static void test_where_no_step_helps_the_scene_is_changed(void) {
     dice d = dice_of("busy_scenes", 15002);
@@ -171,8 +169,6 @@ static void test_where_no_step_helps_the_scene_is_changed(void) {
     }
     model_drop();
 }
-
-/* --- hybrids ----------------------------------------------------------------------------------------------------*/
 
 /* Largest error of a coordinate relative to its motion; *busy_one: were its contacts busy? */
 static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double step_s,

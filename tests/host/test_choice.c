@@ -165,8 +165,6 @@ static void test_drawn_requests(void) {
     TEST_ASSERT_TRUE(found > 0 && found < (int)cases); /* both happen */
 }
 
-/* --- the table -----------------------------------------------------------------------------------------*/
-
 static bool is_same(const table_row *a, const table_row *b) {
     return setting_order(&a->setting) == setting_order(&b->setting) &&
            a->pace.steps == b->pace.steps && a->pace.records == b->pace.records &&
@@ -226,8 +224,6 @@ static void test_what_would_fit_does(void) {
     }
     close_request(&q);
 }
-
-/* --- settings of a scene ------------------------------------------------------------------------------ */
 
 /* The code of this setting and scene, to be freed; NULL if the scene does not take the setting. */
 static char *code_of(const request *q, const setting *s, bool *own) {
@@ -291,8 +287,6 @@ static void test_settings_of_a_scene_are_those_that_differ(void) {
         close_request(&q);
     }
 }
-
-/* --- matrices and tables on the front ------------------------------------------------------------------*/
 
 /* Does another row of the table have no more cost and no more error? */
 static bool is_beaten(const table *made, const table_row *row) {

@@ -53,7 +53,7 @@ static void test_tables_are_named_and_more_cells_cure(void) {
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
         run(text, form, IMAGE_CELLS_MOST, "30ms",
-            &what); /* another cause, and more cells do not help */
+            &what); /* another cause; more cells do not help */
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "(not tried): no --tables would tell") != NULL,
                                  what.err);
         run(text, form, cells * 128, "1ms", &what);

@@ -40,8 +40,6 @@ static const char *said(void) {
     return text;
 }
 
-/* --- lists of effects ---------------------------------------------------------------------------- */
-
 static const char *blanks_of(uint64_t *seed) {
     static const char *const some[] = {"", "", " ", "  ", "\t", " \t "};
     return some[random_bits(seed) % (sizeof some / sizeof some[0])];
@@ -103,8 +101,6 @@ static void test_lists_of_effects(void) {
         options_forget(&o);
     }
 }
-
-/* --- built-in names ------------------------------------------------------------------------------ */
 
 typedef struct found {
     int code;
@@ -196,8 +192,6 @@ static int check_both_names(const scene *s) {
 static void test_every_built_in_scene_by_both_names(void) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_both_names) > 40);
 }
-
-/* --- files --------------------------------------------------------------------------------------- */
 
 static void write_file(const char *path, const char *text) {
     FILE *out = fopen(path, "w");

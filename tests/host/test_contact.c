@@ -42,8 +42,7 @@ static void test_a_cure_is_one_of_all(void) {
     unsigned both = 0;
     unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
-        const bool damped =
-            i % 2 == 1; /* an accepted run may have a large part of a damper's loss as residual */
+        const bool damped = i % 2 == 1; /* an accepted run may miss a large part of the loss */
         const rattle r = rattle_drawn(&d, damped ? HOLD : (rattle_kind)(i / 2 % KINDS));
         const double rate_radps =
             pow(10.0, damped ? dice_between(&d, -0.1, 0.4) : dice_between(&d, -0.8, 0.1)) /

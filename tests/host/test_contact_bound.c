@@ -107,8 +107,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     take_samples(d, kind, &around);
     for (long done = 0; done < steps; done += RUN) {
         throw_start(d->instance, &around, &seed);
-        diags *beyond =
-            diags_new(); /* a state beyond a stop is put back by it, which takes energy */
+        diags *beyond = diags_new(); /* a state beyond a stop is put back, which takes energy */
         image *thrown = image_again(d->image, d->instance, beyond);
         const bool apart = start_is_possible(thrown, kind, beyond);
         diags_free(beyond);

@@ -31,8 +31,6 @@ typedef struct machine {
 
 #define G 9.81L
 
-/* --- the reference ------------------------------------------------------------------------------------- */
-
 static long double wide(double x) { return (long double)x; }
 
 /* f, f', f''. The hill of height e is a bell over a, 1 rad wide; the rod is 4 e long. */
@@ -120,8 +118,7 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
             rk4(c, span, way, next);
             way = -way;
             law(c, next[0], f);
-            if (fabsl(f[1]) >
-                1e-9L * wide(c->e)) { /* a' changes sign: whether it sticks is not tested here */
+            if (fabsl(f[1]) > 1e-9L * wide(c->e)) { /* a' changes sign: sticking is not tested */
                 return false;
             }
         }
@@ -138,8 +135,6 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
     }
     return true;
 }
-
-/* --- Whirl's ------------------------------------------------------------------------------------------------ */
 
 static const char two_holds[] = "hold b - e*cos(a) - 4*e*cos(psi) while b > -100 [m]\n"
                                 "hold e*sin(a) - 4*e*sin(psi) while b > -100 [m]\n";

@@ -12,8 +12,6 @@ void suite_contact_friction(void);
 
 static double pi(void) { return acos(-1.0); }
 
-/* --- on the incline -------------------------------------------------------------------------------------- */
-
 static void check_incline_sticks(stepping how) {
     motion m;
     motion_open(&m, "incline_sticks", how);
@@ -99,8 +97,6 @@ static void test_thrown_block_stays_where_it_stops(void) {
     check_thrown(IN_FLOAT, 4e-5);
 }
 
-/* --- on the shaken table --------------------------------------------------------------------------------- */
-
 static void check_table_sticks(stepping how) {
     motion m;
     motion_open(&m, "table_sticks", how);
@@ -182,8 +178,6 @@ static void test_net_drift(void) {
     TEST_ASSERT_TRUE(wanted < -0.2);
     motion_close(&m);
 }
-
-/* --- stick-slip on the belt ------------------------------------------------------------------------------ */
 
 /* Each sticking phase carries it along the belt between two spots; these are one period of the belt apart. From spot
  * `first` on: mean, least and largest distance, as times. */

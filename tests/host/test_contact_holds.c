@@ -385,8 +385,7 @@ static void test_a_hold_stays_at_its_own_limit(void) {
         /* in float a small square is lost in its expansion */
         const double least = strchr(edges[form], '^') != NULL ? 0.5 : 0.02;
         const double limit = exp(dice_between(&d, log(least), log(2.0)));
-        const unsigned begins =
-            dice_one_of(&d, 6); /* 0, 1, 2: at the limit, moving out, resting, moving in */
+        const unsigned begins = dice_one_of(&d, 6); /* 0, 1, 2: at the limit, out, resting, in */
         const double gap = begins < 3 ? 0.0 : exp(dice_between(&d, log(0.01), log(0.5)));
         const double force = dice_between(&d, 0.1, 5.0);
         const double across = dice_between(&d, -2.0, 2.0) * limit / (limit + gap);

@@ -19,8 +19,6 @@ void suite_contact_lang(void);
     "let gap = x - y\nlet vx = x' - y'\n" \
     "T = m*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\noutput x_mm [mm] = x\noutput angle = phi\n"
 
-/* --- values of expressions ---------------------------------------------------------------------- */
-
 /* [coordinate][primes] */
 static double state[3][2];
 
@@ -67,8 +65,6 @@ static void expect(double wanted, const expr *e) {
     TEST_ASSERT_TRUE(fabs(value(e) - wanted) <= 1e-15);
 }
 
-/* --- the statements ------------------------------------------------------------------------------ */
-
 static void test_a_stop_is_the_distance_left(void) {
     const mechanism *m = parse(BASE "stop gap >= 25 [cm] restitution e/2\n"
                                     "effect wall { stop 2*x <= 3 [m] + y restitution 0 }\n");
@@ -105,8 +101,6 @@ static void test_friction_takes_a_force_or_a_torque(void) {
     expect(0.007, turn->normal);
     TEST_ASSERT_TRUE(dim_fits(turn->normal->dim, dim_energy()));
 }
-
-/* --- conditions ---------------------------------------------------------------------------------- */
 
 typedef bool truth(double x, double y, double phi, double vx);
 
@@ -201,8 +195,6 @@ static void test_deep_parentheses_are_bounded_and_quick(void) {
     free(text);
 }
 
-/* --- crossings ----------------------------------------------------------------------------------- */
-
 static void test_a_crossing_and_what_it_sets(void) {
     const mechanism *m = parse(BASE "when x' crosses 2*y' rising { set x' = -e*x', y = x\n"
                                     "  set phi' = push/3 [N*s] }\n"
@@ -250,8 +242,6 @@ static void test_a_scene_has_crossings_of_its_own(void) {
     TEST_ASSERT_EQUAL_INT(-1, a->whens[1].effect);
     expect(-0.5, a->whens[1].value);
 }
-
-/* --- noise and words ---------------------------------------------------------------------- */
 
 static void test_noise(void) {
     const mechanism *m = parse(BASE "noise x_mm deviation 2 [mm]\n"

@@ -18,11 +18,11 @@ void suite_contact_scenes(void);
 void suite_contact_squeezed(void);
 void suite_crossings(void);
 
-/* --- flights shorter than a step -------------------------------------------------------------- */
+/* === contact moments ========================================================================== */
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
-/* --- hops shorter than a step -------------------------------------------------------------------------------- */
+/* --- flights shorter than a step --------------------------------------------------------------------------- */
 
 /* A ball, perhaps on a spring, that bounces for ever with flights of `share` of a step: every bounce is counted and its
  * energy kept. The floor is at 0: in float, a higher one leaves no digits for flights of 1e-7 m. */
@@ -212,8 +212,7 @@ static void test_an_impact_that_is_over_within_the_step(void) {
         const double u = random_between(&seed, 0.2, 1.0);
         const double e = random_between(&seed, 0.2, 0.9);
         double mass[2] = {exp(random_between(&seed, -1.0, 1.0)), 0.0};
-        mass[1] =
-            random_between(&seed, 0.05, 0.3) * e * mass[0]; /* it flies off and does not return */
+        mass[1] = random_between(&seed, 0.05, 0.3) * e * mass[0]; /* it does not return */
         chain c = {{1e300, mass[0], mass[1], 1.0}, {0.0, 0.0, -u, 1e300}, e, {0}};
         double floor_Ns;
         if (collide(&c, &floor_Ns) > 6) {

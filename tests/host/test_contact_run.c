@@ -121,8 +121,7 @@ static void test_inputs_must_be_in_range_at_the_start(void) {
     refuse(3, &(overrides){.sets = infinite, .set_count = 1},
            "error: the restitution is not a finite number (infinity)");
     TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
-    TEST_ASSERT_NOT_NULL(
-        instance_of(4, NULL)); /* it depends on the motion: known only at the impact */
+    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* depends on the motion: known at impact */
 }
 
 static void test_what_two_effects_must_not_give_together(void) {

@@ -14,8 +14,6 @@ void suite_contact_stops(void);
 
 #define G 9.81
 
-/* --- bouncing to rest --------------------------------------------------------------------------------- */
-
 /* Finds the first moment of rest, then checks a minute of rest. */
 static void check_rest(stepping how, double height_most) {
     motion m;
@@ -60,8 +58,6 @@ static void test_ball_comes_to_rest_and_stays_for_a_minute(void) {
     check_rest(IN_FLOAT, 5.3e-5);
 }
 
-/* --- no energy gained ---------------------------------------------------------------------------------- */
-
 /* Restitution 1 for a minute. Most and least energy relative to the start, after each step. */
 static void elastic(stepping how, double *most, double *least) {
     motion m;
@@ -94,8 +90,6 @@ static void test_perfect_bounces_gain_no_energy(void) {
     expect_between("float: energy gained in a minute, relative", -2.4e-4, 2.4e-4, most);
     expect_between("float: energy lost in a minute, relative", -2.4e-4, 2.4e-4, least);
 }
-
-/* --- impact located inside the step -------------------------------------------------------------------- */
 
 /* With drag c v^2 on the way up: k = sqrt(c g/m), v in units of g/k. Any state on the way up yields the impact's time:
  * (g + c v^2/m) exp(2 c z/m) is constant, and v = (g/k) tan(k (t1 - t)). */
@@ -149,8 +143,6 @@ static void test_impact_time_converges(void) {
     /* round-off is far below: the last error must be the method's */
     expect_between("impact's time off at 4 ms, s", 1e-15, 1e-9, before);
 }
-
-/* --- resting and lifting off --------------------------------------------------------------------------- */
 
 static void check_hopper_rests(stepping how) {
     motion m;
@@ -277,8 +269,6 @@ static void test_stacked_blocks_come_to_rest(void) {
     check_stack(IN_DOUBLE, 1e-16); /* the last place of 0.1 m */
     check_stack(IN_FLOAT, 8e-9);
 }
-
-/* --- more bounces than a step takes -------------------------------------------------------------------- */
 
 static void test_too_many_bounces_are_told_and_end(void) {
     motion m;

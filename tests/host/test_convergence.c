@@ -476,8 +476,7 @@ static void test_energy_does_not_leak_by_rounding(void) {
     printf(
         "  (h w)^2 times at most %.1e of the energy a step, %.1e at the root of the mean square\n",
         worst, sqrt(sum / cases));
-    TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 &&
-                     sqrt(sum / cases) < 1e-8); /* 2.7e-8 with biased stages */
+    TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 && sqrt(sum / cases) < 1e-8); /* biased: 2.7e-8 */
 }
 
 void suite_energy_kept(void) { RUN_TEST(test_energy_does_not_leak_by_rounding); }

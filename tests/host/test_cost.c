@@ -203,8 +203,6 @@ static void measured_rows_are_read(void) {
     TEST_ASSERT_FALSE(cost_measured("", m4, &c));
 }
 
-/* --- against counted steps -------------------------------------------------------------------------*/
-
 /* The text of a column of docs/figures/price.csv, which has no quotes. */
 static const char *column_of(char *const *column, char *const *heads, int count, const char *name) {
     for (int i = 0; i < count; i++) {

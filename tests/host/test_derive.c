@@ -13,8 +13,6 @@ void suite_derive(void);
 
 enum { STATES = 50 };
 
-/* --- every mechanism -----------------------------------------------------------------------------*/
-
 static const char *const lagrangian[] = {"bead_on_hoop",
                                          "bead_on_wire",
                                          "cart_pole",
@@ -181,8 +179,6 @@ static void test_power_balances_in_every_mechanism(void) {
         derived_free(&d);
     }
 }
-
-/* --- cost ----------------------------------------------------------------------------------------*/
 
 /* Two-sided: a lower cost is good, but needs a new bound and a check that nothing was lost. */
 static void expect_cost(const char *name, int at_least, int at_most, int waves) {

@@ -9,8 +9,6 @@
 
 void suite_devices(void);
 
-/* --- one particle, two sets of coordinates -------------------------------------------------------------- */
-
 static double largest_distance(const char *one, const char *other, double until_s) {
     motion a;
     motion b;
@@ -63,8 +61,6 @@ static void test_cartesian_particle_is_the_parabola(void) {
     /* RK4 integrates a parabola exactly: round-off only */
     expect_between("S4: Cartesian distance from the parabola, m", 0.0, 1e-12, worst);
 }
-
-/* --- guided weights ------------------------------------------------------------------------------------- */
 
 /* A wheel with its weights, and its known closed forms. */
 typedef struct wheel {

@@ -16,8 +16,6 @@ void suite_dissertation(void);
 #define LBF_N 4.4482216152605
 #define INCH_M 0.0254
 
-/* --- figures 19 and 20: the rotating mass on the load frame and on the carriage --------------------- */
-
 static void test_figure_19_force_on_the_load_frame(void) {
     range r[] = {{.name = "pin_force"}, {.name = "cell_force"}};
     ranges_of("carriage_fixed", IN_DOUBLE, 2.0, 1e-3, r, 2);
@@ -95,8 +93,6 @@ static void test_figure_20_from_the_energies_too(void) {
                    range_width(&by_energy[1]) / swing_m);
 }
 
-/* --- figures 32 to 34: two masses --------------------------------------------------------------------- */
-
 /* Independent: extremes of exp(St) at the full milliseconds, in inches from the equilibria. */
 static void check_swing(const char *what, range early, range late, const double wanted[4],
                         double rest_in) {
@@ -153,8 +149,6 @@ static void test_figure_33_stretches(void) {
                    early[1].least / INCH_M);
 }
 
-/* --- figures 36 to 40: epicyclic gear on a carriage --------------------------------------------------- */
-
 static void test_figures_36_to_40_epicyclic_gear(void) {
     range r[] = {{.name = "theta"},
                  {.name = "X"},
@@ -196,8 +190,6 @@ static void test_figure_37_a_swing_each_turn(void) {
     /* closed form: X = r(1 - cos theta) has its maxima at odd half turns; 14 in 89.63 rad */
     TEST_ASSERT_EQUAL_UINT(14, maxima);
 }
-
-/* --- figures 44 to 46: disc on a driven hinge --------------------------------------------------------- */
 
 static void test_figures_44_and_45_look_alike_and_are_not(void) {
     range r[] = {{.name = "theta1"}, {.name = "theta2"}, {.name = "theta3"}};

@@ -27,7 +27,6 @@ static unsigned long cases(void) {
     return asked != NULL ? strtoul(asked, NULL, 10) : 100000UL;
 }
 
-/* --- arguments ---------------------------------------------------------------------------------- */
 static double unit(void) { return (double)(scattered() >> 11) * 0x1p-53; }
 static double within(double least, double most) { return least + (most - least) * unit(); }
 static double either(double x) { return (scattered() & 1U) != 0 ? -x : x; }
@@ -46,7 +45,6 @@ static double quarter_turn(void) {
     return either(near((double)((many + 1.0L) * PI_L / 2.0L)));
 }
 
-/* --- the error, in units of the last place ------------------------------------------------------ */
 static double worst_error;
 static double worst_x;
 static double worst_y;
@@ -76,7 +74,6 @@ static void count(double error, double x, double y) {
     }
 }
 
-/* --- the functions ------------------------------------------------------------------------------ */
 typedef struct function {
     const char *name;
     double (*ours)(double);

@@ -12,8 +12,6 @@
 
 void suite_effect_work(void);
 
-/* --- energy: what the bodies have, against the work of the effect ---------------------------------------------- */
-
 #define M_KG 2.0
 #define R_M 0.3
 #define I_KGM2 (M_KG * R_M * R_M / 2.0)

@@ -112,8 +112,6 @@ static void test_quadratic_drag_decays_hyperbolically(void) {
     }
 }
 
-/* --- a particle in air --------------------------------------------------------------------------------------- */
-
 /* Falling from rest: z' = -v tanh(g t/v), with the terminal velocity v = sqrt(m g/c). */
 static void test_fall_reaches_the_terminal_velocity(void) {
     motion m;
@@ -169,8 +167,6 @@ static void test_drag_is_the_same_in_spherical_coordinates(void) {
     motion_close(&b);
 }
 
-/* --- motor line ---------------------------------------------------------------------------------------------- */
-
 /* A wheel of constant inertia J spins up as w0 (1 - exp(-t M/(J w0))) to the no-load speed. */
 static void follow_spin_up(const char *file, const char *text, double torque_Nm,
                            double inertia_kgm2, double until_s) {
@@ -197,8 +193,6 @@ static void test_motor_line_ends_at_the_no_load_speed(void) {
     follow_spin_up("cuff.whirl", "scene t { with motor_line; set e = 0, torque = 5 [N*m] }\n", 5.0,
                    0.5 * 0.0225 + 8.0 * 0.25 * 0.0225, 16.0);
 }
-
-/* --- small swings, equilibria ----------------------------------------------------------------------------------- */
 
 /* The gear hanging straight down swings with w^2 = g/(2 r): with the carriage's momentum zero its energy is 2 m r^2
  * q'^2 + m g r q^2. Swings of 1e-4 rad are slower by about q^2/16, 1e-9 of the phase. */
@@ -242,8 +236,6 @@ static void test_motor_holds_the_arms_against_gravity(void) {
         motion_close(&m);
     }
 }
-
-/* --- coupling --------------------------------------------------------------------------------------------------- */
 
 #define LB 0.45359237
 #define IN 0.0254

@@ -13,8 +13,6 @@ void suite_emit(void);
 
 enum { STATES = 10 };
 
-/* --- reading back --------------------------------------------------------------------------------*/
-
 /* The text, for its lets. */
 static const char *whole_text;
 
@@ -184,8 +182,6 @@ static void check_first_order(const char *name, derived *d) {
 }
 
 static void test_first_order_form_solves_the_equations(void) { each_mechanism(check_first_order); }
-
-/* --- how it looks --------------------------------------------------------------------------------*/
 
 static void expect_lines(const char *name, const char *const *lines) {
     derived d = derived_builtin(name);

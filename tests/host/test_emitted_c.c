@@ -10,8 +10,6 @@
 
 void suite_emitted_c(void);
 
-/* --- operations --------------------------------------------------------------------------------------------- */
-
 /* Values of a list's operations with c_read.h's made-up values; waves[] numbers the pairs. */
 static double phase_value(const op_list *t, const op *o, const double *x) {
     double phase = o->value;
@@ -196,8 +194,6 @@ static void test_operations_come_to_what_the_lists_have(void) {
     each_emitted(check_operations);
     TEST_ASSERT_TRUE(finite > 10 * undefined);
 }
-
-/* --- as a compiler reads it ---------------------------------------------------------------------------------- */
 
 static void check_whole(const image *im) {
     (void)im;

@@ -10,8 +10,6 @@
 
 void suite_emitted_heads(void);
 
-/* --- heads ----------------------------------------------------------------------------------------------------- */
-
 static const op_list *moving(const image *im) {
     return im->list[im->settings.matrix != MATRIX_NONE ? IMAGE_MATRIX : IMAGE_STEP];
 }
@@ -143,8 +141,6 @@ static void check_directives(const image *im) {
 }
 
 static void test_directives_are_those_of_the_scene(void) { each_emitted(check_directives); }
-
-/* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 static void check_starts(const image *im) {
     char words[100];

@@ -11,8 +11,6 @@
 
 void suite_emitted_scene(void);
 
-/* --- the scene's fields --------------------------------------------------------------------------------------- */
-
 /* ".NAME = VALUE," in the object that begins after word `at`. */
 static void expect_field(int at, const char *name, const char *value) {
     char words[300];

@@ -17,9 +17,9 @@ void suite_f405_clock(void);
 void suite_f405_motor(void);
 void suite_f405_parts(void);
 
-/* boards/cortexm/cortexm.h; comes with a board's data. */
+/* === f405 clock =============================================================================== */
 
-/* boards/cortexm/cortexm.h, which a board's data comes with. */
+/* boards/cortexm/cortexm.h; comes with a board's data. */
 enum { CRYSTAL, FALLBACK, GIVEN };
 void board_clock_start(void);
 extern unsigned board_clock_is;

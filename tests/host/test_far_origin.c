@@ -297,8 +297,7 @@ static void test_carts_that_stand(void) {
         if (off > 0.02) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_of_digits(&what), text);
-            run(text, is_float,
-                &what); /* and both runs differ, as far as the start's size allows */
+            run(text, is_float, &what); /* and both runs differ, within the start's size */
             TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), what.out);
             cure_digits(text, is_float, &what, every);
             run_with(text, is_float, "--compensated", every, &what);

@@ -45,8 +45,6 @@ static turns count_turns(const char *which, double step_s, double until_s) {
     return t;
 }
 
-/* --- figures 50 to 53: set A, from rest ------------------------------------------------------------------ */
-
 static void test_figure_50_five_turns_of_the_arm(void) {
     const turns t = count_turns("thomson_a", 0.125e-3, 9.5);
     TEST_ASSERT_EQUAL_UINT(5, t.count);
@@ -78,8 +76,6 @@ static void test_figures_51_to_53_ranges(void) {
     expect_between("fig 51: |X'|, m/s", 2.0, 8.6, fmax(r[2].most, -r[2].least));
     expect_between("fig 52: |theta1'|, rad/s", 5.0, 20.0, fmax(r[3].most, -r[3].least));
 }
-
-/* --- figures 54, 55 and 57: set B, disc 33 held back ------------------------------------------------------ */
 
 static void test_figure_54_shifted_not_larger(void) {
     range a[] = {{.name = "X"}};
@@ -117,8 +113,6 @@ static void test_figure_57_on_the_slider_as_a_rigid_body(void) {
     expect_between("fig 57: X to, m", 0.89, 0.9 + 1e-8, r[0].most);
     expect_between("fig 57: drift of the centre of mass, m", 0.0, 1e-8, range_drift(&r[1]));
 }
-
-/* --- figure 58: free in the plane, and the patent's pair -------------------------------------------------- */
 
 static void check_plane(const char *which, double x_cm, double y_cm) {
     motion m;

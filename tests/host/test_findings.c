@@ -38,8 +38,7 @@ static void expect_near(double wanted, double is, const char *what) {
 
 static bool maybe(void) { return dice_one_of(&die, 2) == 0; }
 
-/* --- synthetic balances
- * ------------------------------------------------------------------------------------------------ */
+/* --- synthetic balances -------------------------------------------------------------------------- */
 
 static uint64_t held; /* values at an end of their range */
 static uint64_t held_values(const void *run) {
@@ -217,8 +216,7 @@ static void test_kept_books(void) {
     derived_free(&d);
 }
 
-/* --- losses of float
- * --------------------------------------------------------------------------------------------------- */
+/* --- losses of float ----------------------------------------------------------------------------- */
 
 /* Bound of a list's powers with and without values below the least normal number. */
 static double lost_W(const image *im, const double *real, const double *input) {
@@ -807,15 +805,13 @@ static const struct {
     const char *text;
 } rows[] = {
     {FINDING_ENERGY, "double", 0.1, 10.0, 0.4335,
-     1e-3, /* N (h w)^6/72 of the energy; the largest entry is root 2 of that */
+     1e-3, /* N (h w)^6/72 of energy; largest entry: root 2 */
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.5 [s]\nuntil 40 [s] }\n"},
-    {FINDING_ACCURACY, "double", 0.1, 4.0, 2.728,
-     0.5, /* w t (h w)^4/120 is 1 % of the range at half of the time */
+    {FINDING_ACCURACY, "double", 0.1, 4.0, 2.728, 0.5, /* w t (h w)^4/120: 1 % of the range */
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.25 [s]\nuntil 100 [s] }\n"},
-    {FINDING_SINGULAR, "double", 0.15, 0.07, 0.0954,
-     1e-2, /* less than a tenth away, at the nearest step */
+    {FINDING_SINGULAR, "double", 0.15, 0.07, 0.0954, 1e-2, /* less than 0.1 away, at the nearest */
      "mechanism m\ncoordinate r [m]\ncoordinate phi [rad]\n"
      "T = 1 [kg]*(r'^2 + r^2*phi'^2)/2\n"
      "scene s { start r = 1 [m], phi = 0, r' = -4 [m/s], phi' = 4*%1$.17g [rad/s]\n"

@@ -637,8 +637,7 @@ static void test_what_numbers_lose_is_told(void) {
     TEST_ASSERT_TRUE(20 * doubted <= right && 50 * by_luck <= right);
 }
 
-/* --- standstill for lack of digits
- * --------------------------------------------------------------------------------- */
+/* --- standstill for lack of digits --------------------------------------------------------------- */
 
 /* A force from a small change of a large number: at some lengths nothing of it remains, and the mass stands still. */
 static void test_what_stands_for_want_of_digits(void) {
@@ -677,8 +676,7 @@ static void test_what_stands_for_want_of_digits(void) {
     TEST_ASSERT_TRUE(cases < 40 || stand > 0);
 }
 
-/* --- divergence under other rounding
- * --------------------------------------------------------------------------------- */
+/* --- divergence under other rounding ------------------------------------------------------------- */
 
 static void test_what_leaves_all_bounds(void) {
     dice d = dice_of("folded_numbers", 3);
@@ -698,8 +696,7 @@ static void test_what_leaves_all_bounds(void) {
     }
 }
 
-/* --- limits that decimals miss by a last digit
- * ---------------------------------------------------------------------- */
+/* --- limits that decimals miss by a last digit --------------------------------------------------- */
 
 static int status_beside(const char *contact) {
     char text[400];

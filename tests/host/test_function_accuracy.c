@@ -22,7 +22,6 @@ static unsigned long cases(void) {
     return asked != NULL ? strtoul(asked, NULL, 10) : 30000UL;
 }
 
-/* --- arguments ------------------------------------------------------------------------------------------- */
 static float unit(void) { return (float)(scattered() >> 40) * 0x1p-24f; }
 static float either(float x) { return (scattered() & 1U) != 0 ? -x : x; }
 static float between(int least, int most) {
@@ -44,7 +43,6 @@ static float quarter_turn(void) {
     return either(x);
 }
 
-/* --- the error, in units of the last place --------------------------------------------------------------- */
 static double error_of(float got, long double wanted) {
     const long double truth = fminl(fabsl(wanted), 0x1p128L); /* where infinity begins */
     const long double reached = isinf(got) ? 0x1p128L : fabsl((long double)got);

@@ -37,18 +37,12 @@ static long double of_tanh(long double x, long double y) { return tanhl(x) + 0.0
 static long double of_power(long double x, long double y) { return powl(x, 0.375L) + 0.0L * y; }
 
 static const form forms[] = {
-    {"exp(x/1 [m])", of_exp, false, 80.0},
-    {"log(x/1 [m])", of_log, true, 1e9},
-    {"tan(x/1 [m])", of_tan, false, 1e9},
-    {"asin(x/1 [m])", of_asin, false, 1.0},
-    {"acos(x/1 [m])", of_acos, false, 1.0},
-    {"atan(x/1 [m])", of_atan, false, 1e9},
-    {"sinh(x/1 [m])", of_sinh, false, 80.0},
-    {"cosh(x/1 [m])", of_cosh, false, 80.0},
-    {"tanh(x/1 [m])", of_tanh, false, 1e9},
-    {"atan2(y, x)", NULL, false, 1e9}, /* arguments exchanged */
-    {"(x/1 [m])^0.375", of_power, true, 1e9},
-    {"(x/1 [m])^(y/1 [m])", powl, true, 8.0},
+    {"exp(x/1 [m])", of_exp, false, 80.0},    {"log(x/1 [m])", of_log, true, 1e9},
+    {"tan(x/1 [m])", of_tan, false, 1e9},     {"asin(x/1 [m])", of_asin, false, 1.0},
+    {"acos(x/1 [m])", of_acos, false, 1.0},   {"atan(x/1 [m])", of_atan, false, 1e9},
+    {"sinh(x/1 [m])", of_sinh, false, 80.0},  {"cosh(x/1 [m])", of_cosh, false, 80.0},
+    {"tanh(x/1 [m])", of_tanh, false, 1e9},   {"atan2(y, x)", NULL, false, 1e9}, /* exchanged */
+    {"(x/1 [m])^0.375", of_power, true, 1e9}, {"(x/1 [m])^(y/1 [m])", powl, true, 8.0},
 };
 
 #define ONE_MORE(name) +1

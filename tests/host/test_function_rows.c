@@ -35,8 +35,6 @@ static void expect_near(int f, double wanted, double got, double allowed, double
     TEST_ASSERT_TRUE_MESSAGE(fabs(got - wanted) <= allowed, text);
 }
 
-/* --- the slopes ------------------------------------------------------------------------------------ */
-
 #define WIDTH 1e-3
 
 /* By fourth-order differences. False if the function is not smooth near the place. */
@@ -118,8 +116,6 @@ static void test_range(void) {
     }
 }
 
-/* --- the operation list ------------------------------------------------------------------------------ */
-
 /* The same bits as number_call(), except for sine and cosine, which are a phase's. */
 static void test_operations(void) {
     uint64_t seed = SEED + 1;
@@ -155,8 +151,6 @@ static void test_operations(void) {
         op_list_free(t);
     }
 }
-
-/* --- from a text --------------------------------------------------------------------------------------- */
 
 /* An energy's force at the end of the whole chain: a lost derivative shows here. */
 static void test_forces(void) {
@@ -267,8 +261,6 @@ static void test_dimensions(void) {
                                       name(f));
     }
 }
-
-/* --- places that list the functions -------------------------------------------------------------------- */
 
 static void test_names(void) {
     for (int f = 0; f < FUNCTIONS; f++) {

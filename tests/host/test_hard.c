@@ -18,7 +18,7 @@
 void suite_hard_contacts(void);
 void suite_hard_origin(void);
 
-/* --- redundant contacts ----------------------------------------------------------------------- */
+/* === hard contacts ============================================================================ */
 
 #define HARD "docs/hard/"
 
@@ -28,7 +28,7 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
                      (stepping){.kind = kind, .method = WH_RK4, .step_s = step_s});
 }
 
-/* --- contacts that repeat each other ------------------------------------------------------------------------------ */
+/* --- redundant contacts --------------------------------------------------------------------------------------- */
 
 #define P0 15.0
 #define LIFTS_N 10.0 /* half the beam's weight; both blocks' static friction */
@@ -104,8 +104,7 @@ static void test_two_blocks_break_loose_together(void) {
     check_breaking("blocks_slide", "y", 1.0 / 2.0, 8.0);
 }
 
-/* --- a pulsating load that vanishes
- * -------------------------------------------------------------------------------- */
+/* --- a pulsating load that vanishes -------------------------------------------------------------- */
 
 #define PULL_N 2.0
 #define LOAD_N 30.0
@@ -387,8 +386,7 @@ static void test_past_the_origin_by_crude_methods(void) {
     double cured_m = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const wh_method own = crude[i % 4];
-        const double d_m =
-            pow(10.0, dice_between(&d, -4.0, -2.6)); /* beyond, Nystroem 3 is accurate */
+        const double d_m = pow(10.0, dice_between(&d, -4.0, -2.6)); /* beyond: Nystroem 3 */
         char set[40];
         char about[SAID_SIZE + 100];
         said what;

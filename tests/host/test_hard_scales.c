@@ -177,8 +177,6 @@ static void test_units_do_not_matter_in_float(void) {
     TEST_ASSERT_TRUE(reached[2].none * 4 <= cases());
 }
 
-/* --- masses ---------------------------------------------------------------------------------------------------- */
-
 /* The same method and step without rotated sines, in long double from the energies in numbers; *least from
  * linkage_solve(). */
 static moved by_numbers(const linkage *of, double *least) {
@@ -234,8 +232,7 @@ static double carried(const linkage *of, const moved *wanted, double share) {
 /* Results of runs with unequal masses. The relative error of an acceleration is a unit in the last place (`last`) over
  * the remainder of the elimination. */
 typedef struct unequal {
-    double
-        worst; /* error relative to the largest value or rate, if elimination leaves a ten thousandth or more */
+    double worst; /* relative error, if elimination leaves at least a ten thousandth */
     unsigned
         beyond; /* errors above a hundred times those that a start with such relative errors carries to the end, and above a hundred of the largest */
     unsigned plain; /* of those in `worst` */

@@ -24,8 +24,6 @@ enum { FORMS = sizeof forms / sizeof forms[0], FORM_ROOT = FORMS - 2, FORM_PI };
 
 static int any(uint64_t *seed, int count) { return (int)(random_bits(seed) % (unsigned)count); }
 
-/* --- making --------------------------------------------------------------------------------------*/
-
 static wave_argument make_argument(uint64_t *seed) {
     wave_argument made = {.pieces = 1 + any(seed, WAVE_PIECES)};
     const int first = any(seed, WAVE_SYMBOLS);
@@ -130,8 +128,6 @@ wave_expr wave_expr_plain(uint64_t *seed) {
     print(&e);
     return e;
 }
-
-/* --- what it is worth ----------------------------------------------------------------------------*/
 
 typedef struct arithmetic {
     long double unit;      /* relative error of one rounding */
