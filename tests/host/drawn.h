@@ -1,5 +1,5 @@
-/* drawn.h: random mechanisms with constant mass matrix and loads, whose contacts act at one moment, as text. Their
- * solution by the contact laws is found by trying every case. */
+/* drawn.h: random mechanisms with constant mass matrix and loads, as text. All contacts act at one moment. Trying every
+ * case yields the solution by the contact laws. */
 #ifndef TESTS_DRAWN_H
 #define TESTS_DRAWN_H
 

@@ -23,7 +23,7 @@ typedef struct drawn_talk {
     uint32_t ticks[TURNS_MOST];
     wh_readings readings[TURNS_MOST];
     wh_orders orders[TURNS_MOST];
-    unsigned remembers[TURNS_MOST]; /* bytes before the orders; 99: none */
+    unsigned remembers[TURNS_MOST]; /* bytes before the orders; 99: absent */
     uint8_t remembered[TURNS_MOST][WH_REMEMBER_MAX + 8];
 } drawn_talk;
 

@@ -15,7 +15,7 @@ typedef struct rig_stage {
     double span_s; /* mean duration in a healthy run, s */
 } rig_stage;
 
-/* Notes of the firmware, told[HAL_NOTES], in the order of hal/frames/rig_frames.h. */
+/* The firmware's notes in the order of hal/frames/rig_frames.h: HAL_NOTES values. */
 #define NOTE_ONE(name, word, unit) +1
 enum { HAL_NOTES = HAL_NOTE_ROWS(NOTE_ONE) };
 #undef NOTE_ONE
@@ -34,7 +34,8 @@ double rig_nominal_rpm(void);
 /* Greatest speed before the enable is off, if the drive ignores the voltage in a run at target_rpm. */
 double rig_caught_rpm(double target_rpm);
 
-/* --- what is wished ----------------------------------------------------------------------------------------------------*/
+/* --- options
+ * ---------------------------------------------------------------------------------------------------------- */
 
 typedef struct campaign {
     const char *plant;
@@ -54,7 +55,8 @@ bool campaign_is_emulated(const campaign *c);
 /* Does it have operator dials? */
 bool campaign_has_dials(const campaign *c);
 
-/* --- what is drawn (faults_draw.c) -----------------------------------------------------------------------------------*/
+/* --- random cases (faults_draw.c)
+ * ----------------------------------------------------------------------------------- */
 
 enum { CAMPAIGN_ROWS_MAX = 64 };
 unsigned campaign_rows(void);
@@ -162,8 +164,8 @@ typedef struct judge {
     double theta;
     double force_N;
     double begun_s;
-    bool whole; /* it is complete, */
-    bool off;   /* and the motor must not drive in it */
+    bool whole; /* since its begin, */
+    bool off;   /* and the motor must not drive since */
     true_turn sum;
     double last_s;
     /* Complete turns while the motor must not drive: */
@@ -188,7 +190,7 @@ tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double 
 /* Completes the verdict after the run. */
 void judge_end(judge *j, const lockstep_report *report);
 
-/* --- what is told (faults_table.c) ---------------------------------------------------------------------------------*/
+/* --- summary (faults_table.c) ------------------------------------------------------------------------------------- */
 
 void campaign_print_command(FILE *out, const campaign *c, unsigned i);
 /* Prints the matrix and the worst runs in Markdown. Returns the exit status. */

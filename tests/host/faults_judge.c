@@ -18,7 +18,7 @@
 #define SHIFTS 3      /* turns may be earlier than the last ones by this many */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
-/* --- what there is -----------------------------------------------------------------------------------------------*/
+/* --- outputs and notes ------------------------------------------------------------------------------------------ */
 
 static bool find_outputs(judge *j, const wh_hello *hello) {
     static const char *const notes[] = {
@@ -221,7 +221,7 @@ static double off_by(const judge *j, unsigned turns) {
     return isfinite(least) ? least : 1.0; /* more turns than recorded */
 }
 
-/* --- what the controller says ----------------------------------------------------------------------------------*/
+/* --- the controller's messages -------------------------------------------------------------------------------- */
 
 static void look_for_fault(judge *j) {
     const fault_case *f = &j->plan->fault[j->plan->count - 1U];

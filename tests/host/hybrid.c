@@ -1,5 +1,5 @@
-/* hybrid.c: motion between events with the active contacts (stops at rest, sticking friction) as constraints and
- * sliding friction as a force:
+/* hybrid.c: motion between events. Active contacts (stops at rest, sticking friction) are constraints, sliding friction
+ * is a force:
  *
  * M q'' = force - sum sign limit + J^T lambda, J q'' = -J' q' for each active contact. */
 #include "hybrid.h"

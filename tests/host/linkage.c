@@ -22,7 +22,7 @@ static bool one_in(uint64_t *seed, unsigned n) { return next(seed) % n == 0; }
 
 static linkage_body body_draw(uint64_t *seed, int number) {
     linkage_body b = {.parent = number - 1};
-    if (one_in(seed, 4)) { /* a loop of springs: to another body or the ground */
+    if (one_in(seed, 4)) { /* not a chain: another body or the ground */
         b.parent = (int)(next(seed) % (uint64_t)(number + 1)) - 1;
     }
     b.slides = one_in(seed, 4);

@@ -33,7 +33,7 @@ typedef struct quad_body {
 
 typedef struct quad_arms {
     int coordinates; /* angles first */
-    int carriage;    /* coordinate of all bodies along x; -1: none */
+    int carriage;    /* coordinate of all bodies along x; -1: no carriage */
     int bodies;
     quad_body body[QUAD_BODIES];
     quad spin_kgm2[QUAD_COORDINATES]; /* spin/2 q'^2 of the kinetic energy */

@@ -8,7 +8,7 @@
 #include "host/number/functions.h"
 #include "unity.h"
 
-/* The reference's step, s: a 32nd of the run's; for short steps, at least a quarter. */
+/* The reference's step, s: a 32nd of the run's, but at least 0.1 ms and at most a quarter of the run's. */
 static double finer_s(double step_s) {
     return number_least(step_s / 4.0, number_most(step_s / 32.0, 1e-4));
 }

@@ -16,7 +16,7 @@ typedef struct rig_plant {
     double line_Nms; /* slope of the motor's torque line */
     double gravity_mps2;
     double tare_N;
-    double fed_Nm;       /* amplitude of the gravity feed-forward; 0: none */
+    double fed_Nm;       /* amplitude of the gravity feed-forward; 0: off */
     double fed_late_rad; /* lag of the feed-forward angle; the voltage is never below 0 */
     double twice_Nm;     /* a torque of twice the speed: twice_Nm cos(2 theta + twice_rad) */
     double twice_rad;
@@ -48,14 +48,14 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 typedef struct rig_noise {
     double cell_N;   /* standard deviation of each sample's force, */
     double jitter_s; /* and of each mark's time */
-    unsigned slower; /* factor on the sample period HAL_LOADCELL_PERIOD_TICKS; 0: none */
+    unsigned slower; /* factor on the sample period HAL_LOADCELL_PERIOD_TICKS; 0: one */
     /* a converter coarser than the cell's counts, with its driver. A sample is the mean of this many conversions,
      * evenly over its 2 ms, smoothed with its neighbours (hal/averaged.h). A conversion is an integer number of steps
      * of this size, with noise of this size. 0: none */
     unsigned conversions;
     double conversion_N;
     double conversion_counts;
-    /* faults of the cell, 0: none */
+    /* faults of the cell; 0: absent */
     double gain_off;  /* relative gain error */
     double hum_N;     /* amplitude of mains hum */
     double hum_Hz;    /* 0: of 60 Hz */

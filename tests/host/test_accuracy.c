@@ -330,9 +330,9 @@ void suite_accuracy(void) {
 }
 
 /* === trust drawn ============================================================================== */
-/* Time until which chaotic runs are accurate, on random mechanisms: pendulums of two and three links, on carriages and
- * springs, turning arms, planetary gears with a disc on a hinge. Masses, lengths, springs, starts, number format and
- * method vary. `make trust-check` takes thirty and prints them.
+/* Time until which chaotic runs are accurate, on random mechanisms. They are pendulums of two and three links, on
+ * carriages and springs, turning arms, and planetary gears with a disc on a hinge. Masses, lengths, springs, starts,
+ * number format and method vary. `make trust-check` takes thirty and prints them.
  *
  * The same mechanisms measure an alternative for boards: twin runs in the board's own arithmetic
  * (docs/dev/stability.md). */

@@ -1,5 +1,5 @@
-/* test_angle_parts.c: outputs and measures with fractions and multiples of turn angles (cos(th/2), sin(1.5*th),
- * tan(th/3 - 0.37*ph)), thousands of turns from zero, against libm.
+/* test_angle_parts.c: outputs and measures with fractions and multiples of turn angles against libm, thousands of turns
+ * from zero: cos(th/2), sin(1.5*th), tan(th/3 - 0.37*ph).
  *
  * WHIRL_RANDOM_OUTPUTS=N takes N random outputs instead of 2000. WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms, for
  * tests/cli/angle_parts.sh to compile. */

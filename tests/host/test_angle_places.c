@@ -146,7 +146,7 @@ static void test_outputs_leave_all_else_alone(void) {
     drop();
 }
 
-/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the outputs use. */
+/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), for any outputs. */
 static void test_recovered_angle(void) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     parse(

@@ -358,8 +358,8 @@ static void test_accelerations_fulfil_their_equations(void) {
 void suite_hinged(void) { RUN_TEST(test_accelerations_fulfil_their_equations); }
 
 /* === leans ==================================================================================== */
-/* A run's energy residual (host/check/energy_residual.h) must not depend on choices without effect on the motion: the
- * origin, and the vector potential of a magnetic field, which adds kinetic terms linear in the rates. */
+/* The energy residual (host/check/energy_residual.h) must not depend on choices without effect on the motion. These are
+ * the origin and the vector potential of a magnetic field, which adds kinetic terms linear in the rates. */
 
 typedef struct charge {
     double mass_kg;
@@ -659,7 +659,7 @@ static void test_forces_may_stand_in_effects(void) {
     printf("  with its forces in effects it is off by at most %.1e\n", worst);
 }
 
-/* --- books --------------------------------------------------------------------------------------------------- */
+/* --- energy balance ------------------------------------------------------------------------------------------ */
 
 /* The energy residual after 100 ms, and the total turnover of the balance. */
 static double left_over_linkages(const linkage *of, double step_s, double *turnover) {
@@ -725,8 +725,8 @@ void suite_linkages(void) {
 }
 
 /* === never singular =========================================================================== */
-/* A constant mass matrix has no singular position, whatever its masses and however fast the motion or damping. No
- * message on such a run may report one. */
+/* A constant mass matrix has no singular position, for any masses and any speed of the motion or damping. No message on
+ * such a run may report one. */
 
 /* Two or three bodies in a row, each counted from the ground or from the previous one. */
 static void write_bodies(dice *d, char *text, size_t size) {

@@ -1,7 +1,7 @@
-/* test_blame_lists.c: expressions that a run checks after a value is not a number: every expression that moves it, and
- * the slopes of differentiated ones that may be undefined while the expression is not. Sums, products, integer powers
- * and waves always have slopes. The expected count follows the definition: one slope per coordinate (and rate, for
- * energies and losses) that the expression depends on. */
+/* test_blame_lists.c: expressions that a run checks after a value is not a number. These are all expressions that move
+ * it, and slopes of differentiated ones that may be undefined while the expression is not. Sums, products, integer
+ * powers and waves always have slopes. By definition, an expression has one slope per coordinate that it depends on,
+ * and per rate for energies and losses. */
 #include <stdio.h>
 #include <string.h>
 
@@ -91,7 +91,7 @@ static void test_forces_have_no_slopes(void) {
 }
 
 /* Gaps and held expressions have slopes by the coordinates. A crossing's value, a hold's condition and friction's
- * expressions have none. Contacts follow the terms; a stop's restitution comes last. */
+ * expressions have no slopes. Contacts follow the terms; a stop's restitution comes last. */
 static void test_slopes_of_contacts(void) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];

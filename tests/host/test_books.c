@@ -58,9 +58,9 @@ static void test_what_contacts_took_is_told_apart(void) {
     model_drop();
 }
 
-/* The energy from a constant force, P (z - h), and the loss of an evenly damped slide do not depend on impacts of other
- * coordinates or on those in between. Each printed entry has its closed form, and with the contacts' part they sum to
- * the change. Integration between step ends only would miss part of the step with the impact. */
+/* Impacts of other coordinates, or in between, change neither the energy from a constant force, P (z - h), nor the loss
+ * of an evenly damped slide. Each printed entry has its closed form, and with the contacts' part they sum to the
+ * change. Integration between step ends only would miss part of the step with the impact. */
 static void test_entries_across_impacts_are_closed_forms(void) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -97,8 +97,8 @@ void suite_account(void) {
 
 /* === ledger turns ============================================================================= */
 /* Energy balances of energies linear in rates. A total derivative dG/dt of a function of the coordinates changes no
- * motion, but the momenta by dG/dq and every dL/dq. The balance then needs angles whose sines alone occur in the
- * equations. Closed forms and random mechanisms. */
+ * motion. It changes the momenta by dG/dq, and every dL/dq. The balance then needs the angles, while the equations need
+ * only their sines. Closed forms and random mechanisms. */
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .ledger = true};

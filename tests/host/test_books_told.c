@@ -633,8 +633,7 @@ static void test_a_hoop_whose_rate_is_changed(void) {
     }
 }
 
-/* Two springs whose rates are inputs, in one T + V: each has its entry, (k2 - k1) x^2/2. A refused step loses none of
- * it. */
+/* Two springs with input rates, in one T + V: each has its entry, (k2 - k1) x^2/2. A refused step does not lose it. */
 static void test_springs_whose_rates_are_changed(void) {
     static const char text[] =
         "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"

@@ -241,7 +241,7 @@ static char *code_of(const request *q, const setting *s, bool *own) {
     return text;
 }
 
-/* A setting is listed exactly if no earlier one makes the same code. */
+/* Of all settings that make the same code, exactly one is the scene's own. */
 static void test_settings_of_a_scene_are_those_that_differ(void) {
     for (int n = 0; n < TEXTS; n++) {
         request q;

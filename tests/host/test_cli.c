@@ -411,7 +411,7 @@ static void test_sealed_nonsense(void) {
         }
         record[length] = '\0';
         const size_t whole = sealed(record);
-        if (strcmp(record, before) != 0) { /* a line end in place of another byte */
+        if (strcmp(record, before) != 0) { /* unless a line end replaced a line end */
             refused(record, whole, "nonsense", i);
         }
     }

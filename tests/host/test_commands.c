@@ -200,7 +200,7 @@ static void write_file(const char *path, const char *text) {
     fclose(out);
 }
 
-/* With and without inodes, for every pair of names. Network file systems and WASI have none. */
+/* With and without inodes, for every pair of names. Network file systems and WASI have no inodes. */
 static void test_one_file_or_two(void) {
     char folder[] = "/tmp/whirl_files_XXXXXX";
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));

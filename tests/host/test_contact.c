@@ -291,8 +291,8 @@ static void check_walk(stepping how, double swing_bound, double speed_most) {
      * swing is of second order */
     const double free = MOMENT_KG_M / ALL_KG;
     expect_between("  swing over m r/(m + M)", 1.0 - 1e-3, 1.0 + 1e-3, (most - least) / 2.0 / free);
-    /* closed form (Den Hartog, Forced vibrations with combined Coulomb and viscous friction, 1931, without a spring):
-     * factor sqrt(1 - (pi f/2 F)^2), f the friction, F the force's amplitude */
+    /* closed form (Den Hartog, Forced vibrations with combined Coulomb and viscous friction, 1931). Without a spring
+     * the factor is sqrt(1 - (pi f/2 F)^2), f the friction, F the force's amplitude */
     const double ratio = 0.05 * ALL_KG * 9.80665 / (MOMENT_KG_M * w * w);
     const double closed = free * sqrt(1.0 - pi() * pi() * ratio * ratio / 4.0);
     expect_between("  swing over the closed form, less 1", -swing_bound, swing_bound,
@@ -409,7 +409,7 @@ static void check_magnet(const char *which, double drift_most, double gain_most,
 static void test_magnet_moves_no_centre_of_mass(void) {
     check_magnet("thomson_magnet", DRIFT_MOST, 1e-9, IN_DOUBLE);
     check_magnet("thomson_magnet_conserved", 1e-14, 1e-9, IN_DOUBLE);
-    /* 40000 sums of X rounded by 2^-24 of a metre, as a random walk: 1.2e-5 m; energy, 30 J: 2^-22 of it, and of the
+    /* 40000 sums of X rounded by 2^-24 of a metre, as a random walk: 1.2e-5 m. Energy, 30 J: 2^-22 of it, and of the
      * velocities' round-off */
     check_magnet("thomson_magnet", 5e-5, 2e-4, IN_FLOAT);
 }

@@ -1,6 +1,6 @@
-/* test_contact_centres.c: machines with dry friction on a coordinate whose rate passes zero at a dead centre: cam,
- * Scotch yoke, slider-crank, bead over a hill. Each has one degree of freedom a, with b = f(a). The reference is one
- * equation, integrated here in long double from dead centre to dead centre:
+/* test_contact_centres.c: machines with dry friction on a coordinate with a dead centre: cam, Scotch yoke,
+ * slider-crank, bead over a hill. Each has one degree of freedom a, with b = f(a). The reference is one equation,
+ * integrated here in long double from dead centre to dead centre:
  *
  * (J + m f'^2) a'' = torque - m f' f'' a'^2 - f' (m g + k (f + 2 e) + F sign(f' a'))
  *

@@ -712,8 +712,8 @@ void suite_contact_load(void) {
 }
 
 /* === contact rest ============================================================================= */
-/* Bodies that come to rest together, pressed together only by their braking: static friction keeps them at rest,
- * whatever the round-off of forces and rates. */
+/* Bodies that come to rest together, pressed together only by their braking: static friction keeps them at rest in
+ * spite of round-off in forces and rates. */
 
 /* x brakes; y pushes it through a straight or curved buffer. The push on one of them is below its static friction. With
  * `both`, y rubs, too. */

@@ -121,7 +121,7 @@ static void test_impacts_of_a_swinging_pendulum_converge(void) {
         }
         /* the project's bound; the method's order is 4, and cancelling errors look like more */
         expect_between("  least order", 3.0, 6.0, least);
-        /* RK4 with w h = 0.0044: 3 s of 1.5e-9 a radian's (w h)^4/120 would be 5e-11; a wrong impact has an error in
+        /* RK4 with w h = 0.0044: 3 s of 1.5e-9 a radian's (w h)^4/120 would be 5e-11. A wrong impact has an error in
          * the order of m/s */
         expect_between("  error at 1 ms", 1e-14, 1e-7, before);
     }

@@ -424,7 +424,7 @@ static void test_two_frictions_come_to_rest(void) {
                    9.81 * 0.5 * sin(q[0]) / 0.1);
     TEST_ASSERT_TRUE(X[0] > 0.2);
     /* the same with a quarter of the step: fourth order, 1e-8 at the places before friction of 0.05 N m and more stops
-     * them; in float, the round-off of 24 bits */
+     * them. In float, the round-off of 24 bits */
     expect_between("joint, off the quarter step's, rad", 0.0, 1e-7, fabs(q[0] - q[1]));
     expect_between("cart, off the quarter step's, m", 0.0, 1e-7, fabs(X[0] - X[1]));
     expect_between("joint in float, rad", 0.0, 2e-5, fabs(q[2] - q[1]));
@@ -455,7 +455,7 @@ static void test_escapement_reaches_its_amplitude(void) {
     /* 95 kicks: the rest of the geometric series */
     const double after = settled + (1.0 - settled) * start_left;
     expect_between("rate after a kick over the closed form", 1.0 - 1e-6, 1.0 + 1e-6, most / after);
-    /* floor(60 w/(2 pi)), and none at the start */
+    /* floor(60 w/(2 pi)), and no kick at the start */
     TEST_ASSERT_EQUAL_UINT64(95, contacts_events(&m));
     motion_close(&m);
 }

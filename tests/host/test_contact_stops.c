@@ -282,7 +282,7 @@ static void test_too_many_bounces_are_told_and_end(void) {
     }
     TEST_ASSERT_TRUE(contacts_overruns(&m) >= 1);
     motion_close(&m);
-    /* a step with room for its bounces loses none. 25 m/s over 1 mm, 25000 per second */
+    /* a step with room for its bounces takes all. 25 m/s over 1 mm, 25000 per second */
     motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
     motion_to(&m, 0.1);
     TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));

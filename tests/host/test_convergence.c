@@ -1,7 +1,7 @@
 /* test_convergence.c: measured order of convergence of every method.
  *
- * References do not come from Whirl's steps: the matrix exponential of the two masses, computed here in long double;
- * the reference states of tests/reference; closed forms and conserved quantities. */
+ * References do not come from Whirl's steps. They are the matrix exponential of the two masses, computed here in long
+ * double, the reference states of tests/reference, closed forms and conserved quantities. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -98,7 +98,7 @@ static void exponential(long double s[N][N], long double result[N][N]) {
     }
 }
 
-/* X, Y (in), X', Y' (in/s) of the absolute set at time_s, in the units of the dissertation: masses in lbf*s^2/in,
+/* X, Y (in), X', Y' (in/s) of the absolute set at time_s, in the units of the dissertation. Masses are in lbf*s^2/in,
  * springs in lbf/in, dashpots in lbf*s/in. From Newton's law, not Lagrange's. */
 static void two_masses_exact(double time_s, long double state[4]) {
     const long double m1 = 0.72L, m2 = 1.36L, K = 50.0L, A = 1.0L, B = 1.0L, L1 = 2.35L, L2 = 2.0L;
@@ -179,7 +179,7 @@ static void test_order_of_every_method_on_the_epicyclic_gear(void) {
                  4.1);
 }
 
-/* From 1 ms on: 2 ms is too coarse for the six states of this one (the order from 2 to 1 ms is 3.4), but not for its
+/* From 1 ms on. 2 ms is too coarse for the six states of this one (the order from 2 to 1 ms is 3.4), but not for its
  * invariants. */
 static void test_order_on_thomson_device(void) {
     const reference at = {"thomson_a", "5.0", 5.0};
@@ -311,7 +311,7 @@ static double oscillator_energy_J(wh_method method, double *least, double *most)
     return energy;
 }
 
-/* It is symplectic: x^2 + v^2 + h x v, or the same with -h, is constant, so the energy oscillates by the fraction h/2
+/* It is symplectic: x^2 + v^2 + h x v, or the same with -h, is constant. The energy oscillates by the fraction h/2
  * (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1). Explicit Euler's energy grows by 1 + h^2 per step.
  * The order does not distinguish the two. */
 static void test_semi_implicit_euler_keeps_the_energy_for_ever(void) {

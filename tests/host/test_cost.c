@@ -268,7 +268,7 @@ static int by_size(const void *one, const void *other) {
     return (a > b) - (a < b);
 }
 
-/* The counted rows of docs/figures/price.csv; the table of figures contains none of them. */
+/* The counted rows of docs/figures/price.csv, which are absent from the table of figures. */
 static void counted_steps_are_predicted(void) {
     static char head[2000];
     static char line[2000];

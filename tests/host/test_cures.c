@@ -1,7 +1,7 @@
-/* test_cures.c: every named cure has been tried. Nonlinear motions run with ruinously coarse steps by all methods: a
- * charge by another, a chemical bond, hardening springs, a double pendulum, a spring shaken by a heavy clock. Linear
- * theory sees another motion there. Each cure in a warning or failure is applied: then no warning remains, and the
- * energy agrees with this file's formulas. Untried cures must be named as such. */
+/* test_cures.c: every named cure has been tried. Nonlinear motions run with ruinously coarse steps by all methods. They
+ * are a charge by another, a chemical bond, hardening springs, a double pendulum, and a spring shaken by a heavy clock.
+ * Linear theory sees another motion there. Each cure in a warning or failure is applied: then no warning remains, and
+ * the energy agrees with this file's formulas. Untried cures must be named as such. */
 #include "command.h"
 
 #include <math.h>

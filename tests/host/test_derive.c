@@ -123,7 +123,7 @@ static void test_operation_lists_solve_the_equations(void) {
     printf("  largest deviation %.1e of the largest derivative\n", worst);
 }
 
-/* h = sum q' dL/dq' - L changes by the power of the inputs minus the losses: dh/dt with the accelerations of the
+/* h = sum q' dL/dq' - L changes by the power of the inputs minus the losses. dh/dt uses the accelerations of the
  * operation list, by central difference along the motion. */
 static void check_balance(const derived *d, const char *name) {
     const equations *e = d->equations;

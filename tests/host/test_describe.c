@@ -43,7 +43,7 @@ static void expect_valid(const char *text, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(valid, what);
 }
 
-/* The unit of each account's momentum; and the rows that go into each. */
+/* Quantity and unit of each account, and the rows that belong to it. */
 static void check_accounts(const char *text, const image *im) {
     char path[60];
     TEST_ASSERT_EQUAL_INT(im->ledger.accounts, json_length(text, "ledger/accounts"));
@@ -64,7 +64,7 @@ static void check_accounts(const char *text, const image *im) {
     }
 }
 
-/* Declared ranges in SI, whatever their unit and order; null for others. */
+/* Declared ranges in SI, from any unit and order; null for others. */
 static void test_ranges_are_described(void) {
     derived d = derived_scene(derived_ranged, "s");
     derived_expect(&d, derived_ranged);
@@ -256,8 +256,7 @@ static dimension dimension_of(const char *unit) {
     return read.dim;
 }
 
-/* A momentum is energy times time over its coordinate's unit, whatever that is: metres, angles, charges, square roots
- * of masses. */
+/* A momentum is energy times time over its coordinate's unit: metres, angles, charges, square roots of masses. */
 static void test_momenta_are_energy_by_time_over_their_coordinate(void) {
     static const char *const bases[DIM_BASES][5] = {{"", "*m", "/m", "*m^2", "*m^(1/2)"},
                                                     {"", "*kg", "/kg", "*kg^2", "*kg^(1/2)"},
@@ -294,8 +293,8 @@ static void test_momenta_are_energy_by_time_over_their_coordinate(void) {
 
 /* --- components ---------------------------------------------------------------------------------------*/
 
-/* angle[] and real[]: of second order the angles, the other positions, all rates; of first order all states. Each
- * integrated unknown has one place; those recovered from momenta have none. */
+/* angle[] and real[]. Of second order: the angles, the other positions, all rates. Of first order: all states. Each
+ * integrated unknown has one place; those recovered from momenta have no place. */
 static void check_components(const image *im, const char *name) {
     int seen[IMAGE_COMPONENTS_MAX][ORDERS_MAX] = {{0}};
     for (int i = 0; i < im->angles + im->reals; i++) {
@@ -389,7 +388,7 @@ static int check_targets(const derived *d, const char *name) {
     return at;
 }
 
-/* Each declared range belongs to one row with its bounds; other rows have none. */
+/* Each declared range belongs to one row with its bounds; other rows have no range. */
 static int check_ranges(const derived *d, const char *name) {
     const image *im = d->image;
     const instance *inst = d->instance;

@@ -198,7 +198,7 @@ static void test_laskowitz_shifting_moves_the_carriage_once(void) {
     motion_close(&m);
     expect_between("S11: centre of mass off its place while the ring moves, m", 0.0, 1e-12, off);
     expect_between("S11: carriage across, m", 0.0, 1e-12, across);
-    /* closed form: e^2 cos^2/s^2 has the mean 1 - sqrt(1 - e^2/R^2) over a turn, so the pull, dT/de, is 3 m w^2
+    /* closed form: e^2 cos^2/s^2 has the mean 1 - sqrt(1 - e^2/R^2) over a turn. So the pull, dT/de, is 3 m w^2
      * e/sqrt(1 - e^2/R^2); to 0.1 % */
     const double pull = 3.0 * 0.5 * w * w * e / sqrt(1.0 - e * e / 0.04);
     expect_between("S11: ring's spring / weights' pull", 0.999, 1.001, 4000.0 * (e - 0.05) / pull);

@@ -100,7 +100,7 @@ static void test_every_method_stops(void) {
         for (unsigned i = 0; i < WH_METHODS; i++) {
             motion m;
             motion_open_text(&m, blow_up, (stepping){.kind = kinds[k], .method = (wh_method)i});
-            /* Lower orders lag behind the true motion, so they fail a little later. */
+            /* Lower orders lag, so they fail a little later. */
             const uint64_t done = run_into_failure(&m, 1100);
             TEST_ASSERT_TRUE(done >= 990);
             TEST_ASSERT_TRUE(fabs(motion_value(&m, "x")) < 1e15);
@@ -405,8 +405,8 @@ static double factor(int order, double z) {
     return sum;
 }
 
-/* The finer run uses the method if its order is 4, else RK4. Its own error is subtracted from the difference if both
- * share it. */
+/* The finer run uses the method if its order is 4, else RK4. If both share the order, a factor 16/15 adds the finer
+ * run's own error. */
 static void hold_growth(dice *d, wh_method method, int order, bool events) {
     const double size = dice_between(d, 0.05, 0.3);
     const int steps = (int)(dice_between(d, 3.0, 12.0) / size);

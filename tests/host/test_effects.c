@@ -194,7 +194,7 @@ static void test_motor_line_ends_at_the_no_load_speed(void) {
                    0.5 * 0.0225 + 8.0 * 0.25 * 0.0225, 16.0);
 }
 
-/* The gear hanging straight down swings with w^2 = g/(2 r): with the carriage's momentum zero its energy is 2 m r^2
+/* The gear hanging straight down swings with w^2 = g/(2 r). With the carriage's momentum zero its energy is 2 m r^2
  * q'^2 + m g r q^2. Swings of 1e-4 rad are slower by about q^2/16, 1e-9 of the phase. */
 static void test_hanging_gear_swings(void) {
     motion m;

@@ -1,8 +1,8 @@
 /* test_far_origin.c: energy residual of runs far from the origin. Energies are expanded, so the terms of k (x - b)^2/2
- * with x near b are (b/amplitude)^2 larger than the energy; their round-off is not the step's error. Random mechanisms
- * with an origin 1 to 1e8 amplitudes away: no warning with a fine step, and no trust in a coarse one as far as
- * round-off allows a verdict. A number format with too few digits must be reported exactly when it matters, and the
- * proposed remedy is applied. */
+ * with x near b are (b/amplitude)^2 larger than the energy. Their round-off is not the step's error. The origin of
+ * random mechanisms is 1 to 1e8 amplitudes away. A fine step must cause no warning, and a coarse one must not be
+ * trusted, as far as round-off allows a verdict. A number format with too few digits must be reported exactly when it
+ * matters, and the proposed remedy is applied. */
 #include "command.h"
 
 #include <math.h>
@@ -173,8 +173,8 @@ static double far_most(far_kind kind, bool is_float) {
     return kind == SOFT ? (is_float ? 2.0 : 6.0) : kind == WAVE && is_float ? 5.0 : 8.0;
 }
 
-/* A float has thousands of round-offs of 1e-7 of the distance: little of a swing up to a thousand amplitudes, more than
- * a hundredth from a hundred thousand on. Beyond 1e7 the swing is lost. */
+/* A float has thousands of round-offs of 1e-7 of the distance. That is little of a swing up to a thousand amplitudes,
+ * and more than a hundredth from a hundred thousand on. Beyond 1e7 the swing is lost. */
 static void expect_fine(const said *what, far_kind kind, bool is_float, double tens,
                         const char *text) {
     const bool swings = kind == SPRING || kind == APART || kind == PARAMETER || kind == DAMPED;

@@ -29,8 +29,8 @@ void suite_replay(void);
 #define AMPLITUDE_N 42.0
 #define PHASE_RAD 0.3
 
-/* A rotor whose speed swings by a twentieth within a turn; it is independent of the firmware's model of second order
- * and mean. */
+/* A rotor that speeds up and slows down by a twentieth within a turn. The firmware's model has no second order and no
+ * mean; the rotor has both. */
 static const char *const text =
     "mechanism bench \"a rotor with a known force\"\n"
     "coordinate theta [rad]\ninput duty = 0\ninput enable = 0\n"
@@ -182,8 +182,8 @@ static void test_truth(void) {
     }
 }
 
-/* A result without credit is no lie: not good, without turns, or wrong by calibration only. A stated doubt is none
- * either. */
+/* A wrong result is no lie if its quality is not good, it has no turns, its stated interval covers the error, or only
+ * calibration could find it. */
 static void test_no_lies(void) {
     made_up wrong = honest;
     wrong.amplitude_N = 21.0;

@@ -46,7 +46,7 @@ static uint64_t held_values(const void *run) {
     return held;
 }
 
-/* The verdict's measure and its round-off part, which grows with the root of the steps. */
+/* The measure, its round-off allowance, which grows with the square root of the steps, and their ratio. */
 static void expect_measure(const energy_residual *made, books *b, const engine_kind *kind,
                            double entry_J, double left_J) {
     double computing_J = 0.0;
@@ -393,8 +393,8 @@ void suite_short_runs(void) {
 }
 
 /* === small told =============================================================================== */
-/* Figures in reports on small numbers: an angle whose steps are a few of its units (host/check/slow.h), and a motion of
- * a few of the least numbers. */
+/* Figures in reports on small numbers: an angle with steps of a few of its units (host/check/slow.h), and a motion of a
+ * few of the least numbers. */
 
 static void expect_figure(double wanted, double is, const char *text) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 0.06 * wanted, text);
@@ -451,7 +451,7 @@ static void test_slow_angles(void) {
     model_drop();
 }
 
-/* A body that moves by a few to some hundred of float's least numbers: round-off must be reported above a fiftieth of
+/* A body that moves by a few to some hundred of float's least numbers. Round-off must be reported above a fiftieth of
  * the way, and not below a thousandth. The same for a spring whose products of rates fall below the normal numbers. */
 static void test_small_numbers(void) {
     unsigned told = 0;
@@ -692,8 +692,8 @@ static void test_notes(void) {
     sessions_close();
 }
 
-/* A spring by Runge-Kutta 4 keeps |1 - (hw)^6/72 + (hw)^8/576| of its energy per step: nearly all of a soft one's in a
- * hundred steps, nothing of a hard one's. */
+/* A spring by Runge-Kutta 4 keeps |1 - (hw)^6/72 + (hw)^8/576| of its energy per step. A soft one keeps nearly all of
+ * it in a hundred steps, a hard one nothing. */
 static void test_not_believed(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         made_sweep m;
@@ -731,7 +731,7 @@ static void test_not_believed(void) {
 
 /* --- stopped, and lost -------------------------------------------------------------------------------------------*/
 
-/* Stopped before the first point: existing rows stay, and the message says how to resume. */
+/* Stopped before the first new point: existing rows stay, and the message says how to resume. */
 static void test_stopped(void) {
     made_sweep m;
     const char *const axes[] = {"x=1..9:9"};
@@ -749,7 +749,7 @@ static void test_stopped(void) {
         for (const char *at = strchr(s.rows, '\n'); at != NULL; at = strchr(at + 1, '\n')) {
             rows += at[1] != '\0' ? 1 : 0;
         }
-        if (rows == 9) { /* it was done first */
+        if (rows == 9) { /* it was complete already */
             TEST_ASSERT_EQUAL_INT(EXIT_DONE, s.code);
             continue;
         }

@@ -200,7 +200,7 @@ typedef struct seen {
     double off;   /* largest error relative to the coordinate's range */
 } seen;
 
-/* Whatever else is reported: two runs with the same folded numbers cannot show it. */
+/* Two runs with the same folded numbers cannot show the error. */
 static void no_trust_in(const char *text) {
     said what;
     command_say_model(command_trust, text, &what);
@@ -386,7 +386,7 @@ static void test_numbers_beside_a_rest(void) {
     }
 }
 
-/* Two stiff springs, one pulling and one pushing, that differ by 20 to 80 units in the last place: as small as
+/* Two stiff springs, one pulling and one pushing, differ by 20 to 80 units in the last place. That is as small as
  * decimals' round-off in the nearest folding, but the whole force on the mass. */
 static void test_what_is_nearly_the_same(void) {
     dice d = dice_of("folded", 4);

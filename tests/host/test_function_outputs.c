@@ -1,5 +1,5 @@
 /* test_function_outputs.c: every function and power of the language, in forces and outputs of a float run, at arguments
- * of every size: accurate to the last places, the tangent also where it is small or large.
+ * of every size. Results are accurate to the last places, the tangent also where it is small or large.
  *
  * WHIRL_FUNCTION_CASES=10000 build/tests/host function_outputs
  *

@@ -1,5 +1,5 @@
-/* test_function_rows.c: every row of host/number/function_rows.h in all its uses: slopes in numbers and symbols against
- * differences, the operation list, an energy's force, accepted dimensions, and presence in generated texts, the
+/* test_function_rows.c: every row of host/number/function_rows.h in all its uses. These are slopes in numbers and
+ * symbols (against differences), the operation list, an energy's force, accepted dimensions, generated texts, the
  * fuzzers' words and the docs. A new function is tested through its row.
  *
  * WHIRL_RANDOM_STATES=10000 build/tests/host function_rows

@@ -420,8 +420,9 @@ void suite_graph(void) {
 }
 
 /* === reader =================================================================================== */
-/* A model's expressions as nodes of a graph (host/prove/reader.h): random formulas with their long double values, and
- * numbers as enclosures; the variables of derivatives; unsupported functions, reported once, at their place. */
+/* A model's expressions as nodes of a graph (host/prove/reader.h). Random formulas have their long double values, and
+ * numbers are enclosures. Derivatives are the right variables. Unsupported functions are reported once, at their
+ * place. */
 
 enum { LETS = 24, NUMBERS = 4, TEXT_SIZE = 6000, VARIABLES = 7 };
 
@@ -749,8 +750,8 @@ void suite_reader(void) {
 
 /* === taylor =================================================================================== */
 /* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, against
- * long double series by another method (drawn_graph.h): narrow enclosures at a point, and enclosures for every start in
- * a box. */
+ * long double series by another method (drawn_graph.h). The enclosures are narrow at a point, and valid for every start
+ * in a box. */
 
 static int rate_step[DRAWN_VARIABLES]; /* the step that is a variable's rate */
 

@@ -1,5 +1,5 @@
-/* test_hard.c: hard cases with contacts, and undamped resonance (docs/hard, docs/hard_cases.md), against closed forms:
- * redundant supports and frictions that break away, friction under a vanishing load, Newton's cradle. */
+/* test_hard.c: hard cases with contacts, and undamped resonance (docs/hard, docs/hard_cases.md), against closed forms.
+ * Redundant supports and frictions that break away, friction under a vanishing load, Newton's cradle. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* test_hard_cases.c: hard cases for an integrator (docs/hard, docs/hard_cases.md), against closed forms or the same
  * energies in numbers (linkage.h). A motor too weak to pass a resonance (Sommerfeld), an almost vanishing inertia,
- * decaying hops on a moving floor, a table that falls away from a body on it, fast rotation. */
+ * decaying hops on a moving floor. A table that falls away from a body on it, fast rotation. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -83,8 +83,8 @@ static void test_a_motor_at_a_resonance(void) {
 
 /* --- almost no inertia ----------------------------------------------------------------------------------------- */
 
-/* A disc on a frictionless pivot at a pendulum's end keeps its rotation, however small its inertia is compared with the
- * pendulum's, whose coordinate is part of its angle. */
+/* A disc on a frictionless pivot at a pendulum's end keeps its rotation, although its angle includes the pendulum's
+ * coordinate. Its inertia may be tiny compared with the pendulum's. */
 static void test_a_disc_of_hardly_any_inertia(void) {
     double worst[2] = {0.0, 0.0};
     for (int k = 0; k <= 12; k += 3) {
@@ -497,7 +497,7 @@ static void test_starts_that_are_too_large(void) {
 static double unequal_off_m(double mass, const engine_kind *kind) {
     char more[200];
     motion m;
-    /* 10 rad/s, whatever the masses */
+    /* 10 rad/s for any masses */
     snprintf(more, sizeof more,
              "scene drawn {\nset m = %.17g [kg], k = %.17g [N/m]\nstart s = 0.1 [m]\n}\n", mass,
              100.0 * mass / (1.0 + mass));

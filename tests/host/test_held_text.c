@@ -1,5 +1,5 @@
-/* test_held_text.c: the text of `whirl prove` on random findings (host/prove/containment.h), read back: numbers round
- * up, but not by much; the state named at the end; rows to the last bit. */
+/* test_held_text.c: the text of `whirl prove` on random findings (host/prove/containment.h), read back. Numbers round
+ * up, but not by much; the right state is named at the end; rows are exact to the last bit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -60,7 +60,7 @@ static void test_what_acts_on_others_only_is_no_reason(void) {
 
 /* A clock drives a mass on a spring: m x'' + k x = F sin(w t) from rest. Except at resonance, x = F/(k - m w^2) (sin(w
  * t) - w/w0 sin(w0 t)), w0 = sqrt(k/m). Runge-Kutta's error with h w0 = 0.005 over 50 rad is about 50 (h w0)^4/120 =
- * 3e-10 of 0.125 m; the clock's sum of 1e4 steps has an error of 1e-12 at most. */
+ * 3e-10 of 0.125 m. The clock's sum of 1e4 steps has an error of 1e-12 at most. */
 static void expect_driven(const char *clock) {
     char text[600];
     snprintf(text, sizeof text,

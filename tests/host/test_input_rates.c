@@ -294,8 +294,8 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
              i % 2 ? " with ledger" : "", dice_between(d, -0.3, 0.3));
 }
 
-/* A refused step leaves the state as it was, and no trace: the run continues as if it had not been requested, also with
- * inputs other than the last good ones. */
+/* A refused step leaves no trace: the run continues as if it had not been requested, also with inputs other than the
+ * last good ones. */
 static void test_a_refused_step_leaves_no_trace(void) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
                                  1e30}; /* finite: may be held */

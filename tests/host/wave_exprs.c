@@ -158,7 +158,7 @@ static reckoned reckon(const wave_argument *of, const long double *state, const 
         r.size += fabsl(p->number) * (turns ? 1.0L : 3.0L);
         r.evaluated = r.evaluated || (turns && p->number != rintl(p->number));
         if (turns && in->phase_rad > 0.0L) {
-            /* an integer: 0.75 units at most, whatever its size; and the number is a double */
+            /* an integer of any size: 0.75 units at most; and the number is a double */
             r.error += in->phase_rad + 0x1p-53L * fabsl(part);
         } else {
             added += fabsl(part);
