@@ -18,6 +18,7 @@ typedef long double quad; /* no reference: QUAD_KNOWN is undefined */
 
 enum { QUAD_COORDINATES = 3, QUAD_BODIES = 3, QUAD_ARMS = 3 };
 
+/* length (cos(multiple q), sin(multiple q)) */
 typedef struct quad_arm {
     quad length_m;
     int multiple;

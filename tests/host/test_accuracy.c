@@ -40,6 +40,7 @@ static void expect_within(const char *what, double least, double most, double go
 /* --- the particle: free flight --------------------------------------------------------------------- */
 
 static void test_particle_flies_a_parabola(void) {
+    /* The start of spherical_flight in Cartesian coordinates. */
     const double r = 5.0, theta = 1.25, phi = 0.5, r_ = 8.0, theta_ = -0.75, phi_ = 0.5, g = 9.81;
     const double s = sin(theta), c = cos(theta), sp = sin(phi), cp = cos(phi);
     const double vx = r_ * s * cp + r * theta_ * c * cp - r * phi_ * s * sp;
@@ -466,7 +467,7 @@ static drawn_setting setting_of(dice *d) {
     return s;
 }
 
-/* --- twins as a board could run them -----------------------------------------------------------------*/
+/* --- twin runs for boards --------------------------------------------------------------------------- */
 
 typedef enum board_twin { TWIN_PERTURBED, TWIN_HALF, TWIN_METHOD, TWINS } board_twin;
 static const char *const twin_names[TWINS] = {"start off by one rounding", "half the step",

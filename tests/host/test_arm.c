@@ -31,10 +31,10 @@ enum { JOINTS = 6 };
 #define G 9.81
 
 typedef struct arm_arm {
-    int axis[JOINTS];      /* of its joint, in its own frame */
-    double offset[JOINTS]; /* of its joint from the previous one, along z there, m */
-    double centre[JOINTS]; /* of mass, along z, m */
-    double mass[JOINTS];
+    int axis[JOINTS];          /* of its joint, in its own frame */
+    double offset[JOINTS];     /* of its joint from the previous one, along z there, m */
+    double centre[JOINTS];     /* of mass, along z, m */
+    double mass[JOINTS];       /* kg */
     double inertia[JOINTS][3]; /* about the centre, kg m^2 */
 } arm_arm;
 
@@ -139,10 +139,10 @@ static void torques(const arm_arm *a, const state_values *s, double *torque, dou
     vector joint[JOINTS];
     vector force[JOINTS]; /* that moves link i, and its moment about the centre */
     vector moment[JOINTS];
-    vector at[JOINTS];
+    vector at[JOINTS]; /* the centre */
     vector axes[3] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
     vector w = {{0}};
-    vector turn = {{0}};
+    vector turn = {{0}}; /* angular acceleration */
     vector p = {{0}};
     vector lift = {{0, 0, G}}; /* acceleration of the joint, including gravity */
     for (int i = 0; i < JOINTS; i++) {

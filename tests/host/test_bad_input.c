@@ -357,6 +357,7 @@ static void test_a_thousand_errors_are_told_as_twenty(void) {
     free(text);
 }
 
+/* A hundred thousand names must not take quadratic time. */
 static void test_many_names_are_quick(void) {
     const int count = 100000;
     char *text = malloc((size_t)count * 40);

@@ -23,7 +23,7 @@ typedef struct line {
     double mass_kg[MOST];
     double spring_Npm[MOST]; /* between a body and the previous one; [0] to the ground */
     double start_m[MOST];
-    int order[MOST]; /* order of reference: each counts from the previous; [0] from the ground */
+    int order[MOST]; /* each counts from the previous one here; [0] from the ground */
 } line;
 
 /* The coordinates in that order, at the places x. */

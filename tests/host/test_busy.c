@@ -190,8 +190,7 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
         }
     }
     double range = 1e-300;
-    for (int i = 0; i < h->of.bodies;
-         i++) { /* relative to other coordinates, too, since one that hardly moves is no scale */
+    for (int i = 0; i < h->of.bodies; i++) { /* of all: a small range is no scale */
         range = fmax(range, high[i] - low[i]);
     }
     for (int k = 0; k < h->of.bodies; k++) {

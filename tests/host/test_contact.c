@@ -42,7 +42,7 @@ static void test_a_cure_is_one_of_all(void) {
     unsigned both = 0;
     unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
-        const bool damped = i % 2 == 1; /* an accepted run may miss a large part of the loss */
+        const bool damped = i % 2 == 1; /* agreed runs may still miss most of the loss */
         const rattle r = rattle_drawn(&d, damped ? HOLD : (rattle_kind)(i / 2 % KINDS));
         const double rate_radps =
             pow(10.0, damped ? dice_between(&d, -0.1, 0.4) : dice_between(&d, -0.8, 0.1)) /
@@ -754,7 +754,7 @@ static void test_forces_share_a_load_by_their_law_in_float(void) {
     check_forces(&engine_float, 1e-4);
 }
 
-/* --- both ------------------------------------------------------------------------------------------------------ */
+/* --- impacts and forces ---------------------------------------------------------------------------------------- */
 
 /* The same with loads that press and lift, and speeds from fast to almost zero, so that some flights are too short. */
 static bool draw_mixed(uint64_t *seed, drawn *b) {

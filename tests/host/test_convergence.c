@@ -233,7 +233,7 @@ static void test_order_of_thomson_energy(void) {
     expect_order("S8 A, T - M theta1 to 8 s", "thomson_a", WH_RK4, 1e-3, book_error, &a, 3.8, 4.2);
 }
 
-/* --- systems given outright: first order ------------------------------------------------------------ */
+/* --- explicit equations of first order -------------------------------------------------------------- */
 
 /* phi' = w sin phi, with tan(phi/2) = tan(phi0/2) exp(w t), beside an oscillator. phi is kept as a turn angle, the
  * others as reals. */

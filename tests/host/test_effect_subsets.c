@@ -186,7 +186,7 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     }
 }
 
-/* --- drawn cases -----------------------------------------------------------------------------------------*/
+/* --- random cases --------------------------------------------------------------------------------------- */
 
 /* A number of three digits. */
 static double drawn(dice *d, double low, double high, bool is_log) {

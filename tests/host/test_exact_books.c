@@ -154,7 +154,7 @@ static const free_scene FREE[] = {
 
 enum { FREE_COUNT = sizeof FREE / sizeof FREE[0] };
 
-/* --- which scenes are free of outside forces ------------------------------------------------------- */
+/* --- scenes without external forces ---------------------------------------------------------------- */
 
 static bool is_length(const symbol *s) {
     for (int i = 0; i < DIM_BASES; i++) {

@@ -95,7 +95,7 @@ static const made_up honest = {.rpm = 330.0,
                                .cause = 2,
                                .end = LOCKSTEP_DONE};
 
-/* A processor in reset starts again; true: it started and is silent so far. */
+/* A processor in reset starts again; true: it started and is has not sent anything. */
 static bool starts_again(plant *on) {
     if (on->reset.now) {
         TEST_ASSERT_TRUE(plant_advance(on, on->reset.last_ticks + on->reset.takes_ticks));

@@ -729,7 +729,7 @@ static void test_not_believed(void) {
     sessions_close();
 }
 
-/* --- stopped, and lost -------------------------------------------------------------------------------------------*/
+/* --- interrupted sweeps ----------------------------------------------------------------------------------------- */
 
 /* Stopped before the first new point: existing rows stay, and the message says how to resume. */
 static void test_stopped(void) {

@@ -484,7 +484,7 @@ static void close_text(void) {
     "mechanism m\nstate a\nstate b\n" \
     "equation a'' = 0 [1/s^2]*a\nequation b' = 0 [1/s]*b\n"
 
-/* --- drawn formulas --------------------------------------------------------------------------------------------*/
+/* --- random formulas ------------------------------------------------------------------------------------------ */
 
 /* Names of the leaves: states and their derivatives (times seconds), an input, parameters, earlier lets. */
 static const char *const leaves[] = {

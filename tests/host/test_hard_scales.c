@@ -233,8 +233,8 @@ static double carried(const linkage *of, const moved *wanted, double share) {
  * the remainder of the elimination. */
 typedef struct unequal {
     double worst; /* relative error, if elimination leaves at least a ten thousandth */
-    unsigned
-        beyond; /* errors above a hundred times those that a start with such relative errors carries to the end, and above a hundred of the largest */
+    /* Errors above those of a start with a hundred such relative errors at the end, and above a hundred of the largest. */
+    unsigned beyond;
     unsigned plain; /* of those in `worst` */
 } unequal;
 

@@ -38,7 +38,7 @@ void suite_generated_texts(void);
 
 enum { STEPS = 20 };
 
-/* --- everything that reads an image -----------------------------------------------------------------*/
+/* --- readers of an image --------------------------------------------------------------------------- */
 
 static void write_run(FILE *out, const image *im, const engine_kind *kind) {
     diags *errors = diags_new();
@@ -116,7 +116,7 @@ static char *everything(const image *im) {
     return text;
 }
 
-/* --- alone --------------------------------------------------------------------------------------------*/
+/* --- self-contained images --------------------------------------------------------------------------- */
 
 static void check_alone(derived *d, const char *what) {
     derived_expect(d, what);
@@ -164,7 +164,7 @@ static void test_a_file_of_ones_own_is_forgotten_too(void) {
     check_alone(&d, d.errors);
 }
 
-/* --- again --------------------------------------------------------------------------------------------*/
+/* --- remade images ----------------------------------------------------------------------------------- */
 
 static char *as_c(const image *im) {
     char *text = NULL;
