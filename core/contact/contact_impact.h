@@ -373,11 +373,11 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real *rate = wh_contact_rates(of, &moved);
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
-    const wh_real place = WH_EDGE_PROBE * wh_contact_extent(of, w, k, s);
+    const wh_real probe = WH_EDGE_PROBE * wh_contact_extent(of, w, k, s);
     const wh_real speed = WH_EDGE_PROBE * wh_contact_terms(of, w, k, rate);
     const wh_real square = wh_jacobian_times(of, w, k, row);
     for (unsigned i = 0; i < of->coordinates; i++) {
-        wh_contact_move(of, i, place * row[i] / square, &moved);
+        wh_contact_move(of, i, probe * row[i] / square, &moved);
         rate[i] += speed * row[i] / square;
     }
     wh_contact_point_of(of, &moved, &at);
