@@ -1,31 +1,21 @@
-/* contact.h: stops, holds, dry friction and located crossings: what happens inside a step.
+/* contact.h: stops, holds, dry friction and located crossings, with their events inside a step.
  *
- * Between events a mechanism with contacts is smooth:
+ * Between events a mechanism with contacts is smooth: M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k, with J_k = d(expression
+ * k)/dq and lambda_k the force of contact k. It is zero for an open stop and -sign(v) mu N for sliding friction. For a resting
+ * stop, a held expression or a stuck coordinate it keeps J_k q' at zero: J M^-1 J^T lambda = -(J q'' + J' q').
  *
- *     M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k,        J_k = d(expression k)/dq
+ * A step looks for events at its end. It locates the first with a bounded number of probes on cubics through the step's ends. Then
+ * it steps again to just past the event and changes the modes. An impact is an impulse through the mass matrix with Newton's
+ * restitution. The step goes on with its remaining time, for at most WH_EVENTS_MAX moments. At the last one stops rest and the step
+ * is completed. If that made a difference, the state counts an overrun. So the cost of a step is bounded, and no step is skipped.
+ * (Brogliato, Nonsmooth Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
  *
- * where lambda_k is the force of contact k: zero for a stop out of touch, -sign(v) mu N for sliding
- * friction, and otherwise the force that keeps J_k q' at zero (a resting stop, a held expression, a
- * stuck coordinate), found from J M^-1 J^T lambda = -(J q'' + J' q'). Events change which of these
- * holds. A step looks for them at its end, locates the first with a bounded number of probes on cubics
- * through the step's ends, steps again to just past it, changes the modes (an impact by an
- * impulse through the mass matrix, Newton's restitution), and goes on with what is left of the step,
- * for at most WH_EVENTS_MAX moments. At the last one stops rest, the rest of the step is done, and where that made a
- * difference the state counts an overrun: the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth
- * Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
+ * Contacts are numbered stops first, then holds, frictions and crossings, each in order of declaration. Events of one instant are
+ * resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so an impact gives it no impulse. A stop
+ * rests instead of bouncing for less than WH_REST_SHARE of a step.
  *
- * Contacts are numbered stops first, then holds, frictions and crossings, each in order of
- * declaration; what happens at one instant happens to all of a kind together (contact_resolve.h). Friction's normal
- * force is finite, so an impact gives it no impulse. A bounce whose flight would be shorter than WH_REST_SHARE of a
- * step is not made: the stop rests.
- *
- * What a scene must offer is in `wh_contact_system`; what changes while running is in `wh_contacts` (scene.h).
- * contact_work.h has what a step works on, contact_lcp.h how contacts share a load, contact_forces.h the forces and
- * impulses, contact_ledger.h what they enter into the books, contact_locate.h the search for events,
- * contact_dip.h stops that are entered and left within a step, contact_impact.h, contact_crossing.h and
- * contact_resolve.h what they change, contact_begin.h what holds when a run begins, contact_project.h where they belong, contact_rank.h whether the holds still determine the motion,
- * contact_step.h the step. Scenes without contacts include none of these files. All are C only.
- */
+ * A scene provides `wh_contact_system`. The running state is `wh_contacts` (scene.h). Each file of core/contact/ names its subject
+ * in its first line. Scenes without contacts include none of these files. All are C only. */
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
 
@@ -37,7 +27,7 @@
 #include "step.h"
 #include "step/ledger_step.h"
 
-/* 1: the scene keeps books (ledger.h). A generated scene says. */
+/* 1: the scene keeps a ledger (ledger.h). A generated scene defines it. */
 #ifndef WH_LEDGER
 #define WH_LEDGER 0
 #endif
@@ -52,9 +42,9 @@
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* Most probes to locate an event, to WH_BRACKET of the interval at worst: halving alone needs all but some
- * of them, by which WH_PROBES_SPARE is above 1. The usual event takes six to ten probes and is located as
- * finely as rounding lets it, to WH_BRACKET_FINE. */
+/* Most probes to locate an event. The located interval is at most WH_BRACKET of the searched one. Halving
+ * alone needs all probes but some, which is why WH_PROBES_SPARE is above 1. The usual event takes six to
+ * ten probes and is located to WH_BRACKET_FINE, as finely as round-off permits. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -69,31 +59,30 @@
 /* Probes for a stop that a step passes through. */
 #define WH_DIP_PROBES 6U
 
-/* What a curved hold or stop has slipped in a step is put back twice where it is more than this share of the
- * way: what once leaves is of second order in it. */
+/* A curved hold or stop that slipped by more than this share of the way is projected twice. One projection
+ * leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
-/* Looks at what a step with too many events has let pass. */
+/* Projections after a step with too many events. */
 #define WH_SQUEEZE_LOOKS 3U
 
-/* Looks at a body that stands beyond a stop when a step begins, as after a correction: a round of the step's, so no more than its
- * probes. A curved gap takes several. */
+/* Projections of a body that is beyond a stop when a step begins, as after a correction. They run within one round of the step,
+ * so there are no more than its probes. A curved gap takes several. */
 #define WH_PUSH_LOOKS 12U
 
-/* A flight shorter than this share of a step is none. */
+/* A stop rests if its next flight is shorter than this share of a step. */
 #define WH_REST_SHARE WH_R(0.125)
 
-/* What a kind of contact is. */
+/* Traits of a kind of contact. */
 enum {
     WH_FORCED = 1,     /* it has a force, and a row of the Jacobian */
-    WH_UNILATERAL = 2, /* which pushes and does not pull */
-    WH_LIMITED = 4     /* which has a limit, slides at it, and is too small to give an impulse */
+    WH_UNILATERAL = 2, /* it pushes and does not pull */
+    WH_LIMITED = 4     /* it has a limit, slides at it, and gives no impulse */
 };
 
-/* The kinds, in the order in which contacts are numbered: name, what it is. What each does at its events differs.
- * Of the core the compiler names only the switch of contact_locate.h to whoever adds one; some sixty lines of
- * contact_*.h ask whether a contact is of one kind, and take a new one for none of them: CONTRIBUTING.md says how to
- * find them. The language's row is in host/lang/kinds.h. */
+/* The kinds, in the order in which contacts are numbered: name, traits. Each has its own events. For a new kind the
+ * compiler reports only the switch of contact_locate.h. Some sixty lines of contact_*.h test for one kind, and all
+ * skip a new one: CONTRIBUTING.md says how to find them. The language's row is in host/lang/kinds.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \
@@ -111,38 +100,41 @@ typedef enum wh_contact_kind {
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
     int8_t
-        direction; /* crossing: +1 rising, -1 falling, 0 both; stop: 1 if an input moves it between steps, 2 if one
-                        * with a rate does; hold: 1 if it is straight, its J_k constant, -1 if it follows
-                        * an input with a rate; else 0 */
-    int16_t pin; /* the one coordinate that J_k has an entry for, if that is constant: its rate
-                        * is held at zero exactly; else -1 */
+        direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if one
+                    * with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
+                    * rate. Else 0. */
+    int16_t pin; /* the only coordinate of a constant J_k: its rate is exactly zero; else -1 */
     uint8_t
-        first_set; /* crossing: its assignments; hold without a pin: its place in wh_state's held[] */
+        first_set; /* crossing: its assignments; hold without a pin: its index in wh_state's held[] */
     uint8_t sets;
 } wh_contact;
 
 /* Entries per contact in what `forces` computes, before the two rows of n. */
 enum {
-    WH_LAW_FIRST, /* stop: restitution; friction: mu_static * max(N, 0); curved hold: what it holds */
+    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
     WH_LAW_BIAS,   /* J_k' q' */
     WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
 };
 
-/* Most evaluations of the accelerations in one step, each with at most one of `forces`: in each of WH_EVENTS_MAX
- * rounds a try to the step's end and one to the event (`stages` each), at the end of both up to three looks that put
- * back what slipped, one more at the step's end, the search with one more at its begin (where no force matters, those
- * at both ends and none on the way), two looks at an impact and one at a capture, three after assignments, and one more
- * than there are contacts that may give way; then the last try, three looks at what passed, what settles the modes
- * behind it, and what finds or follows them when the step begins. */
+/* Most evaluations of the accelerations in one step, each with at most one of `forces`.
+ *
+ * Each of WH_EVENTS_MAX rounds has a try to the step's end and one to the event, of `stages` each. At the end of both
+ * up to three evaluations project the slip, and one more is at the step's end. The search evaluates at its begin; if no
+ * force matters, at both ends only. An impact takes two, a capture one, assignments three. Contacts that give way take
+ * one more than their number.
+ *
+ * The last try, three projections, the settling of the modes, and following the inputs at the step's begin are added
+ * once. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Most evaluations of `signals` in one step: one with each of those above but the stages' and the search's two
- * ends, a second one where a step's end is compared with its begin and where a hold captures, two when a
- * crossing is taken, and two where such go then; and one where such stand when the step begins. */
+/* Most evaluations of `signals` in one step: one with each of the above, except for the stages and the
+ * search's two ends. One more compares a step's end with its begin, and one belongs to a capture. A crossing
+ * takes two, and two more when standing crossings leave. One more is for those that stand when the step
+ * begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 
@@ -159,15 +151,15 @@ typedef struct wh_contact_system {
     const wh_ledger_form *ledger; /* or NULL */
     uint8_t contacts;
     uint8_t forced;       /* contacts that have a force: all but crossings */
-    uint8_t kinds;        /* of those: WH_KIND_BIT() of each kind that there is */
-    uint8_t pinned;       /* of those: how many have a pin */
+    uint8_t kinds;        /* WH_KIND_BIT() of each kind with a force */
+    uint8_t pinned;       /* contacts with a pin */
     uint8_t held;         /* holds without a pin */
-    uint16_t evaluations; /* WH_CONTACT_EVALUATIONS: declared, and held to by the tests */
+    uint16_t evaluations; /* WH_CONTACT_EVALUATIONS; the tests check it */
     wh_method method;
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-    uint8_t driven; /* of those, the last: inputs with a rate (driven.h), which nothing pushes */
+    uint8_t driven; /* the last of them: inputs with a rate (driven.h), which nothing pushes */
 } wh_contact_system;
 
 #endif

@@ -1,12 +1,12 @@
-/* contact_begin.h: the contacts' modes where a run begins (see contact.h). */
+/* contact_begin.h: the contacts' modes at the start of a run. */
 #ifndef WH_CONTACT_BEGIN_H
 #define WH_CONTACT_BEGIN_H
 
 #include "contact_resolve.h"
 
-/* Of the contacts at the start of a run, as bits, nothing being hit or captured yet: stops that are touched, as near as
- * their gaps are known, and holds whose conditions are true, or at their own limit and not on the way out, if at rest (`still`); those that are not are `moving`.
- * Stops in `pushed`, as bits, are touched by construction. work->law must belong to the state. */
+/* Contacts that are active at the start of a run, as bits, before any impact or capture. These are stops that touch, within the
+ * error of their gaps, and holds with a true condition. A hold at its own limit counts if it is not on its way out. Contacts at
+ * rest are `still`, the others `moving`. Stops in `pushed`, as bits, touch by construction. work->law must belong to the state. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,
@@ -34,10 +34,9 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
     }
 }
 
-/* Modes at the start of a run and after a correction (wh_scene_set_real()). What stands beyond a stop is put back onto it.
- * What is at rest stays so if the forces keep it there, as if it had been before; then
- * what closes is hit, and what a hold's condition says is captured: *hit, as bits, with impulse[forced]. Returns how many
- * of the step's moments with events that took beyond the one that every start has. */
+/* Modes at the start of a run and after a correction (wh_scene_set_real()). A body beyond a stop is put back onto it.
+ * Contacts at rest stay so if the forces keep them there. Then closing stops are hit, and holds with a true condition
+ * capture: *hit, as bits, with impulse[forced]. Returns the moments with events beyond the one that every start has. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *s, unsigned *hit,
                                         wh_real *impulse) {
@@ -77,7 +76,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     m.events = still & wh_contact_which(of, w, WH_HOLD, false);
     wh_contact_set_modes(of, w, still & ~m.events, WH_ACTIVE);
     (void)wh_contact_resolve(of, w, &m, input, s, impulse);
-    for (unsigned k = 0; k < of->forced; k++) { /* at rest beyond it: nothing holds it there */
+    for (unsigned k = 0; k < of->forced; k++) { /* at rest beyond it without a pressing force */
         below = below || (wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE &&
                           signal[2 * k] < WH_R(0.0));
     }

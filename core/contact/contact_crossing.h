@@ -1,7 +1,7 @@
-/* contact_crossing.h: crossings: what they assign, and on which side of its zero each is then (see contact.h).
+/* contact_crossing.h: crossings: their assignments, and their sides of zero afterwards.
  *
- * A crossing's mode is the side it is on, +1 or -1. It is located with an error, so that its value is then a little off
- * zero: what turns back there, or stands, has crossed once, though that little is passed again. */
+ * A crossing's mode is its side, +1 or -1. Its location has an error, so its value is then slightly off zero. A value
+ * that turns back or stands there has crossed once, although it passes that small offset again. */
 #ifndef WH_CONTACT_CROSSING_H
 #define WH_CONTACT_CROSSING_H
 
@@ -48,10 +48,10 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->mover = k;
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
-        /* what a hold keeps from now on, too */
+        /* a hold's new value, too */
         w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
-    unsigned onto = 0; /* crossings whose values are set onto zero */
+    unsigned onto = 0; /* crossings with values that were set to zero */
     for (unsigned l = of->forced; l < of->contacts; l++) {
         const unsigned bit = after[2 * l] != before[2 * l] ? 1U << l : 0U;
         sides |= bit;
@@ -62,9 +62,9 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Crossings in work->stands are past zero by what the location left: where that is not the side that their values now go to,
- * they have turned back, and going back over zero is no other crossing. By first order, in which a fall that follows does
- * not count; by second where that leaves a value where it is; where that does, too, it stands there, and is on no side. */
+/* Crossings in work->stands are past zero by the error of their location. A value that moves back to its old side has turned
+ * back, and its return over zero is no second crossing. The direction comes from the first derivative, without any fall that
+ * follows. If that is zero, it comes from the second; if that is zero as well, the crossing stands and is on no side. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -109,7 +109,7 @@ WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *s
     }
 }
 
-/* What a stop that is put back carries off its crossing is on that side of it, and nowhere else to go. */
+/* A stop's projection may carry a value off its crossing, which changes sides without an event. */
 WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *before, const wh_real *signal) {
     unsigned sides = 0;
@@ -121,9 +121,9 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Crossings that went against their direction, or left the value they started at, are on the other
- * side without an event. One that turns back and is not yet there is on none until the next step's end; one that stands
- * where it was located, until it has moved by more than it is off zero there. */
+/* Crossings that went against their direction, or left their starting value, change sides without an event. One that
+ * turns back is on no side until the end of the next step, unless it is there already. One that stands is on no side
+ * until it has moved by more than its offset from zero. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;
@@ -139,7 +139,7 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-/* Where the crossings are that a try from `s` begins with on no side. */
+/* Values of the crossings that are on no side when a try from `s` begins. */
 WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;

@@ -1,4 +1,4 @@
-/* contact_dip.h: stops that a body enters and leaves again within one try (see contact.h). */
+/* contact_dip.h: stops that a body enters and leaves again within one try. */
 #ifndef WH_CONTACT_DIP_H
 #define WH_CONTACT_DIP_H
 
@@ -11,15 +11,16 @@ typedef struct wh_contact_attempt {
     wh_real span;       /* how long it is, s: wh_contact_attempt_dipped() */
     wh_margins margins; /* at the end */
     unsigned
-        leaving; /* free stops that open there and are nearer than the way of the try, or closed, as bits */
-    unsigned dips; /* of those, as bits: open at both ends, and perhaps closed in between */
+        leaving; /* free stops that open at the end and are closed or nearer than the way of the try, as
+                  * bits */
+    unsigned dips; /* subset, as bits: open at both ends, perhaps closed in between */
     int fault;     /* component that left all bounds */
-    bool made;     /* it was made, */
-    bool sound;    /* and its end is none out of bounds */
+    bool made;     /* the step was computed, */
+    bool sound;    /* and its end is within bounds */
 } wh_contact_attempt;
 
-/* Where the tangents at both ends of a try cross: the least that a gap can have come to in between if it bends upwards, as
- * that of a body passing a convex obstacle does. gap, rate: at both ends, `h` apart. Returns the share of the try. */
+/* Share of the try at which the tangents of its ends cross. A gap that bends upwards, as for a body that passes a convex
+ * obstacle, is lowest no lower than there. gap, rate: at both ends, `h` apart. */
 WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, wh_real h,
                                       wh_real *least) {
     const wh_real share = (gap[1] - gap[0] - rate[1] * h) / ((rate[0] - rate[1]) * h);
@@ -27,9 +28,8 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Of the stops that are closed at the end and on their way out, those that were open, or closing, at the begin were hit
- * all the same. Of those that are open at both ends, close at the begin and open at the end, the gap may have been below
- * zero in between. */
+/* Stops that are closed at the end and opening were hit if they were open or closing at the begin. A gap that is
+ * positive at both ends, and closes and then opens, may have been negative in between. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -62,10 +62,10 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
     }
 }
 
-/* The share of the try at which the first of a->dips is found closed; 1: none is. Each probe on the cubic through
- * the try's ends takes the place of the end that it is like, until the tangents cross above zero. Tangents find the lowest
- * place of a root, the rates' straight line that of a parabola, so they take turns. From a place inside one
- * more probe goes half the way back to the surface: a post's gap is a root that may be no number at its centre. */
+/* The share of the try at which the first of a->dips is found closed; 1: no dip. Each probe on the cubic through the try's
+ * ends replaces the end with the same sign, until the tangents cross above zero. Tangents find the lowest point of a root,
+ * linear rates that of a parabola, so they take turns. From a point inside, one more probe goes half the way back to the
+ * surface, because a post's gap may be undefined at its centre. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

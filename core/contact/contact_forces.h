@@ -1,13 +1,13 @@
-/* contact_forces.h: the forces and impulses of a scene's contacts (see contact.h). */
+/* contact_forces.h: the forces and impulses of a scene's contacts. */
 #ifndef WH_CONTACT_FORCES_H
 #define WH_CONTACT_FORCES_H
 
 #include "contact_lcp.h"
 
-/* Contacts that repeat what others hold, as bits of places in member[], had nothing to do. Where that leaves
- * another with more than it can take, or where they contradict the others, share the load out: work->force has
- * the shares, those that give way even so beyond their limits by what they would have to take on top. Where
- * they contradict, the accelerations change with that; where they agree, they stay the same to the bit. */
+/* Redundant contacts, as bits of indices in member[], first get no force. If that overloads another contact,
+ * or if they contradict the others, the load is shared: work->force has the shares. A contact that gives way
+ * gets its limit plus the excess. The accelerations change only after a contradiction; otherwise they stay
+ * identical to the bit. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -84,7 +84,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (pin >= 0) { /* zero, unless what is held back is no number */
+        if (pin >= 0) { /* zero, unless the force is no number */
             accel[pin] = lambda[i] - lambda[i];
         }
     }
@@ -108,9 +108,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Impulses, all at once: each contact in `set` (bits) gets the one that leaves J_k q' = target[k] (or more, a
- * stop that others push further), those that hold keep what they hold; resting stops, and those in `beside`, push but
- * do not pull. work->law must belong to this position. impulse[forced] gets theirs on top. Returns the stops that
+/* Impulses, all at once. Each contact in `set` (bits) gets the impulse that leaves J_k q' = target[k], or more for a
+ * stop that others push further. Active contacts keep their rates. Resting stops, and those in `beside`, push but do
+ * not pull. work->law must belong to this position. The impulses are added to impulse[forced]. Returns the stops that
  * would have had to pull, as bits. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,

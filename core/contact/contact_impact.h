@@ -1,16 +1,15 @@
-/* contact_impact.h: what impulses do: stops that are hit, holds that capture (see contact_resolve.h). */
+/* contact_impact.h: impulses of stops that are hit and of holds that capture (see contact_resolve.h). */
 #ifndef WH_CONTACT_IMPACT_H
 #define WH_CONTACT_IMPACT_H
 
 #include "contact_project.h"
 
-/* A rate that friction takes away in this share of the step is none: whether it sticks is for the forces to say. */
+/* A rate counts as zero if friction stops it within this share of the step. The forces then decide if it sticks. */
 #define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
 
-/* Gaps that differ by no more than this share of what they are the difference of are closed at the same moment. */
+/* Gaps close at the same moment if they differ by at most this share of their terms. */
 #define WH_CONTACT_TIE (WH_DOUBLE ? WH_R(0x1p-50) : WH_R(0x1p-21))
 
-/* A moment. */
 typedef struct wh_contact_moment {
     unsigned events; /* contacts that have one, as bits */
     unsigned falls;  /* stops that rest no longer, as bits */
@@ -20,7 +19,6 @@ typedef struct wh_contact_moment {
 
 /* --- modes --------------------------------------------------------------------------------------- */
 
-/* Give the contacts in `bits` this mode. */
 WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
                                     int8_t mode) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -28,7 +26,7 @@ WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* Crossings: on which side of zero the value of each in `bits` is; one that is zero stays where it was. */
+/* Crossings: the side of zero of each value in `bits`; a zero keeps its side. */
 WH_INLINE void wh_contact_set_sides(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
                                     const wh_real *signal) {
     WH_UNROLL
@@ -53,7 +51,7 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
 
 /* --- velocities ---------------------------------------------------------------------------------- */
 
-/* The terms of J_k x, in size: beside them it is known to rounding. */
+/* Sum of |terms| of J_k x, the scale of its round-off. */
 static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -64,8 +62,8 @@ static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_con
     return size;
 }
 
-/* How stop k is pressed, as an acceleration that would close it; what others hold in its place presses it by no more
- * than rounding, which is none. work->law and accel[] must belong to the state. */
+/* How stop k is pressed, as an acceleration that would close it. Values within the round-off of the other contacts'
+ * forces count as zero. work->law and accel[] must belong to the state. */
 static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned k, const wh_real *accel) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
@@ -88,8 +86,8 @@ static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contac
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Resting stops with restitution that nothing presses, not even by rounding: they merely touch, and what comes through
- * them is an impact of its own, in the next round (Newton's cradle). work->force must be up to date. */
+/* Resting stops with restitution and without any pressing force: they merely touch. An impulse through them is an
+ * impact of its own in the next round (Newton's cradle). work->force must be up to date. */
 static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned resting, const wh_real *accel) {
     unsigned bits = 0;
@@ -106,8 +104,8 @@ static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_co
     return bits;
 }
 
-/* Of the free stops, those that close and are touched, as near as their gaps and rates are known: they are hit in the
- * same moment, whichever of them was found first. */
+/* Free stops that close and touch, within the error of their gaps and rates. All are hit at the same moment,
+ * independent of the order of their location. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
                                        wh_real h, const wh_real *signal, wh_contact_state *s) {
     const wh_real *rate = wh_contact_rates(of, s);
@@ -123,8 +121,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Free stops, but those in `hits`, that an impulse made close while they are touched, as near as events are located:
- * they are hit in the next round. `before` and `after` are the signals beside it. */
+/* Free stops, except for `hits`, that touch within the error of location and that an impulse made close. They are
+ * hit in the next round. `before` and `after` are the signals around the impulse. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -139,9 +137,9 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Free stops without restitution that are touched and at rest while the rates change along `hits`: nothing presses
- * them, but they are in the way of what the impact moves. One after the other, two plastic impacts would go on
- * for ever; with restitution they do not, and are taken so. */
+/* Free stops without restitution that touch and are at rest while the rates change along `hits`. Nothing presses
+ * them, but they block the motion after the impact. Two plastic impacts in turn would never end; impacts with
+ * restitution do, so those are taken in turn. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -165,7 +163,7 @@ static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_c
     return bits;
 }
 
-/* The interpreter defines this to see the restitution that stop k has at an impact. In generated code nothing is left of it. */
+/* The interpreter defines this to see the restitution of stop k at an impact. In generated code it is empty. */
 #ifndef WH_RESTITUTION_SEEN
 #define WH_RESTITUTION_SEEN(of, k, given) ((void)0)
 #endif
@@ -179,9 +177,10 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Stops are hit, all at once: restitution, or rest when the flight that follows would be too short. What is to rest
- * gets one impulse: two, there and back, would let stops go that the one holds. Those that the impact let go rest on
- * where their flight would be too short: else a body in a corner would be thrown to and fro without an end. */
+/* Stops are hit, all at once: they bounce, or rest if the next flight would be too short. Stops that come to rest
+ * get a single impulse. Two of them, there and back, would release stops that the single one keeps. Stops released
+ * by the impact stay at rest if their flight would be too short. Otherwise a body in a corner would bounce for ever.
+ */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -241,7 +240,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = of->forced > 1 /* one alone is what was hit */
+    unsigned gone = of->forced > 1 /* a single contact is the one that was hit */
                         ? resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next
                         : 0U;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
@@ -260,7 +259,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* Where free stops are passed, by more than rounding if `coarse`, bodies are moved so that none is, the least that does it in
+/* Moves bodies off the free stops that they have passed (by more than round-off if `coarse`). The move is the least one in
  * the metric of the masses. Stops push and do not pull, as in an impact. Returns the stops that were passed and those that
  * pushed, as bits. signal[] and work->law then belong to the state. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
@@ -319,7 +318,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         wh_real part =
-            WH_R(1.0); /* of the way: a slope says nothing of an angle beyond half a radian */
+            WH_R(1.0); /* of the way: a slope does not hold for an angle beyond half a radian */
         for (unsigned i = 0; coarse && i < of->angles; i++) {
             const wh_real turn = WH_ABS(way[i]);
             part = turn * part > WH_R(0.5) ? WH_R(0.5) / turn : part;
@@ -333,8 +332,8 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
     return passed | *pushed;
 }
 
-/* What a step with too many events has let pass: bodies are moved off free stops that are passed, and what is touched then
- * gives nothing back. */
+/* After a step with too many events: bodies are moved off free stops that they passed, and touching stops get no
+ * restitution. */
 static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_real *input, wh_contact_state *s) {
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -343,7 +342,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* what is moved off its stop rests there no longer, and is not hit */
+        unsigned open = 0; /* a body moved off its stop rests there no longer, and is not hit */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -357,15 +356,15 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 
 /* --- conditions that a hold freezes --------------------------------------------------------------- */
 
-/* A hold whose condition names what it keeps stops that condition where it closes: at its limit. */
+/* A hold with its own expression in its condition captures at the condition's limit. */
 
-/* A share of its terms by which what a hold keeps is moved to see whether its condition follows; and beside which share of
- * that change the condition is known to rounding. */
+/* Perturbation of a hold's expression, as a share of its terms, that shows if its condition depends on it. The same share
+ * of the resulting change is the round-off of the condition. */
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
-/* By how much the condition of hold k, which is `now`, changes with what it keeps and that rate, each by WH_EDGE_PROBE of its
- * terms. work->law must belong to the state. */
+/* Change of the condition of hold k, which is `now`, with the hold's expression and its rate, each perturbed by WH_EDGE_PROBE
+ * of its terms. work->law must belong to the state. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -385,8 +384,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* So near to zero hold k's condition, `now`, is at the limit of what it keeps, as near as rounding knows it; below zero if the
- * condition falls with that; 0: it is not at that limit. */
+/* Distance from zero within which hold k's condition, `now`, is at its limit to round-off. Negative if the condition falls
+ * with the expression; 0: it is not at its limit. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -394,8 +393,8 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* Holds that have just captured, as bits, where the location ended a little short of their own limit: what they keep is moved
- * as far beyond it. signal[] must belong to the state; rates[]: signals before the capture. */
+/* Holds that have just captured, as bits, a little short of their own limit because of the location's error. Their
+ * expressions are moved as far beyond it. signal[] must belong to the state; rates[]: signals before the capture. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {

@@ -1,23 +1,26 @@
-/* contact_lcp.h: how contacts share a load, each within what it can take (see contact.h).
+/* contact_lcp.h: load sharing between contacts with limits, as a linear complementarity problem.
  *
- * A resting stop pushes and does not pull, and what sticks takes no more than its static friction. So the
- * forces of the contacts that hold something solve a linear complementarity problem with limits on both sides,
+ * A resting stop pushes and does not pull, and a sticking friction takes no more than its static limit. So the forces
+ * of the active contacts solve, with the Delassus matrix J M^-1 J^T,
  *
- *     a = J M^-1 J^T lambda - wanted,   low <= lambda <= high,
- *     a_k = 0 between the limits, a_k >= 0 at the low one (it gives way), a_k <= 0 at the high one
+ * a = J M^-1 J^T lambda - wanted, low <= lambda <= high, a_k = 0 between the limits, a_k >= 0 at the low one, a_k <= 0
+ * at the high one (it gives way).
  *
- * with the Delassus matrix J M^-1 J^T. Normal forces do not depend on lambda, so this is a convex problem: its
- * accelerations are unique. Its forces are, too, unless contacts repeat what others hold. With impulses for forces and
- * rates for accelerations it is the impact's problem (Moreau; Pfeiffer & Glocker, chapter 8).
+ * Normal forces do not depend on lambda, so the problem is convex and its accelerations are unique. The forces are
+ * unique, too, unless contacts are redundant. With impulses for forces and rates for accelerations it is the impact's
+ * problem (Moreau; Pfeiffer & Glocker, chapter 8).
  *
- * It is solved by principal pivoting, the least number first (Murty, Linear Complementarity, Linear and Nonlinear
- * Programming, chapters 2 to 4; Judice & Pires 1994 for limits on both sides), from the modes as they are: in the
- * first round all that holds goes on holding. That is proved to end where the matrix is a P-matrix, which it is if no
- * rows repeat each other. Where they do it is only semidefinite; then what would enter the basis a second time is
- * asked whether it contradicts it, and what leaves is found by a ratio test along the null direction, as in the
- * principal pivoting of Keller and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2). No proof
- * is known for both together. So the rounds are capped at 4 n + 1, and a step that meets the cap counts as an
- * overrun: none of 80,000 random problems with repeating rows does (tests/core/test_lcp.c). */
+ * The method is principal pivoting by least index (Murty, Linear Complementarity, Linear and Nonlinear Programming,
+ * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). It starts from the present modes: in the first round
+ * all active contacts stay active. It is proved to end for a P-matrix, which this is if the rows are independent. With
+ * redundant rows it is only semidefinite. Then each contact that would enter the basis a second time is tested for a
+ * contradiction. The leaving contact is found by a ratio test along the null direction, as in the pivoting of Keller
+ * and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
+ *
+ * No proof is known for both together. So the rounds are capped at 4 n + 1, and a step that meets the cap counts as an
+ * overrun.
+ *
+ * Checked by: tests/core/test_lcp.c, 80,000 random problems with redundant rows, all below the cap. */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 
@@ -26,28 +29,28 @@
 /* Beyond any force: no limit. */
 #define WH_LIMITLESS WH_R(1e30)
 
-/* Forces and accelerations below this share of what they are the difference of are none: what rests beside others
- * with nothing that presses it would be let go and hit again for ever, by rounding. */
+/* Forces and accelerations below this share of their terms count as zero. Otherwise round-off would release and
+ * hit an unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path that bends by less than this share of the accelerations there are is followed by nobody: what is left of a
- * rate that has come to zero, squared. */
+/* A path that bends by less than this share of the largest acceleration counts as straight: the squared residue of
+ * a rate that has come to zero. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* By what share of its limit a force that is beyond it by less than its rounding is put beyond it. */
+/* A force beyond its limit by less than its round-off is set beyond it by this share of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
-/* What of a sum whose terms have the sizes a, b and c may be rounding. */
+/* Round-off of a sum with terms of the sizes a, b and c. */
 WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
     return WH_CONTACT_ROUNDING * (WH_ABS(a) + WH_ABS(b) + WH_ABS(c));
 }
 
-/* Contacts that repeat what others hold may still contradict them: at a dead centre two rows are parallel,
- * but the path that the one keeps bends and that of the other does not, so that the one must let go; in an impact
- * two stops on one path may bounce differently. Which way is each of `repeats` (bits of places in member[]) to push:
- * 1, -1, or 0 where it agrees? way[] is what all forces make of the accelerations, or `impulse`, if not NULL, of the
- * rates. What bends a path, J' q', is looked at by itself too: beside the other accelerations a slow passage would drown in
- * their rounding. */
+/* A redundant contact may contradict the others. At a dead centre two rows are parallel, but only one of the paths bends,
+ * so one contact must give way. In an impact two stops on one path may bounce differently.
+ *
+ * Finds the sign of the push that each of `repeats` (bits of indices in member[]) needs: 1, -1, or 0 without contradiction.
+ * way[] is the change of the accelerations by all forces, or of the rates by `impulse`, if not NULL. The path's curvature
+ * J' q' is also tested by itself, because in a slow passage it would drown in the round-off of the accelerations. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const uint8_t *member, unsigned count, const int8_t *at,
                                           unsigned repeats, const wh_real *impulse,
@@ -75,7 +78,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
             const wh_real missing = wanted[i] - made;
             const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
             const wh_real missing_bend = bend[i] - made_bent;
-            wh_real bends_by = WH_R(0.0); /* of what sizes that is the sum */
+            wh_real bends_by = WH_R(0.0); /* sum of |terms| of the curvature */
             for (unsigned l = 0; l < count && impulse == NULL; l++) {
                 bends_by += WH_ABS(wh_delassus(of, w, member[i], member[l]) * lambda[l]);
             }
@@ -89,7 +92,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
     }
 }
 
-/* Between what and what contact k can push. */
+/* The limits of contact k's force. */
 WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned k) {
     return wh_contact_is(of, k, WH_LIMITED) ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
@@ -100,14 +103,13 @@ WH_INLINE wh_real wh_contact_low(const wh_contact_system *of, const wh_contact_w
     return wh_contact_is(of, k, WH_UNILATERAL) ? WH_R(0.0) : -wh_contact_high(of, w, k);
 }
 
-/* Is contact k's force beyond what it can take? */
 WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real lambda) {
     return lambda < wh_contact_low(of, w, k) || lambda > wh_contact_high(of, w, k);
 }
 
-/* Beside what sizes the accelerations along each member's row are rounding, into work->rough: its own terms, and what
- * the rounding of the others' forces makes of it. accel[] is what all forces together leave. */
+/* Bounds on the size of the terms of each member's acceleration, into work->rough: its own terms, plus the round-off
+ * of the other forces. accel[] is the residual of all forces together. */
 static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact_work *w,
                                          const uint8_t *member, unsigned count,
                                          const wh_real *accel) {
@@ -123,7 +125,7 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* from one to the next, through chains of bodies; no round makes more of what comes back (Cauchy, Schwarz) */
+    /* from one to the next, through chains of bodies; no round amplifies what returns (Cauchy, Schwarz) */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
@@ -140,10 +142,10 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Which contact gives way to member[i], that repeats what others hold and is to push the way `push`? Friction does
- * so itself, at its limit, and a stop that would have to pull. For a stop that must push more, or a hold, it is the
- * first of those whose work it takes over that comes to a limit of its own. Returns its place in member[] and the
- * limit, or count. */
+/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. Friction
+ * gives way itself, at its limit, and so does a stop that would have to pull. For a stop that must push more, or a
+ * hold, it is the first of the relieved contacts to reach a limit. Returns its index in member[] and the limit, or
+ * count. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -151,8 +153,7 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     int8_t fixed[WH_CONTACTS_MAX];
     wh_real less[WH_CONTACTS_MAX];
-    wh_real
-        share[WH_CONTACTS_MAX]; /* what a unit of i takes from each, without a change of motion */
+    wh_real share[WH_CONTACTS_MAX]; /* change of each force with a unit of i, at the same motion */
     wh_real soonest = WH_LIMITLESS;
     unsigned first = count;
     *limit = push;
@@ -178,9 +179,9 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     return first;
 }
 
-/* One round of the pivoting: the forces lambda[] of those within their limits, with the others at theirs, which
- * at[] says (-1: the low, 1: the high one), and `way`, what all of them make of the accelerations. Returns those
- * that repeat what others hold, as bits of places. */
+/* One round of the pivoting: the forces lambda[] of the contacts within their limits, with the others at the
+ * limit in at[] (-1: low, 1: high). `way` is the change of the accelerations by all forces. Returns the
+ * redundant contacts, as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {
@@ -207,7 +208,7 @@ static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const w
     return repeats;
 }
 
-/* What of the residual of k, which is at a limit, may be rounding. */
+/* Round-off of the residual of k, which is at a limit. */
 WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
                                                const wh_contact_work *w, unsigned k, bool forces,
                                                wh_real wanted, wh_real made, wh_real lambda) {
@@ -233,19 +234,19 @@ WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_cont
     return (low ? *left : -*left) > rounding ? 1U << k : 0U;
 }
 
-/* The pivoting's place: the contacts in the order in which they are eliminated, and what is known of each. */
+/* The pivoting's state: the contacts in the order of elimination, with their marks. */
 typedef struct wh_contact_pivot {
     uint8_t member[WH_CONTACTS_MAX];
     int8_t at[WH_CONTACTS_MAX]; /* -1, 1: at the low, at the high limit */
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
-    unsigned contradicted; /* those in `at` for what they repeat, as bits of contacts */
+    unsigned contradicted; /* those in `at` because of a contradiction, as bits of contacts */
     unsigned giving;       /* at a limit, with an acceleration off it, as bits of contacts */
 } wh_contact_pivot;
 
-/* Contact at place i goes to its limit `to`, or, with 0, from it: then it is eliminated last, so that if it repeats
- * the others, it is what is left out and asked which of them is to give way. */
+/* Contact at index i goes to its limit `to`, or, with 0, becomes free. Then it is eliminated last. So if it is
+ * redundant, it is the one that is tested for a contradiction. */
 WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
     const uint8_t k = p->member[i];
     const wh_real wanted = p->wanted[i];
@@ -264,7 +265,7 @@ WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsign
     p->wanted[i] = wanted;
 }
 
-/* The place of the contact that is on the wrong side, by the least number, and where it is to go; or count. */
+/* The index of the contact on the wrong side, by least number, and its new limit; or count. */
 static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
                                               wh_contact_pivot *p, unsigned count, bool forces,
                                               const wh_real *way, int8_t *to) {
@@ -297,8 +298,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
 }
 
 /* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count],
- * what they leave of the accelerations (or rates). `forces`: not impulses. Returns the contacts that give
- * way, as bits. */
+ * the residual accelerations (or rates). `forces`: not impulses. Returns the contacts that give way, as
+ * bits. */
 static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
                                       bool forces, wh_real *lambda, wh_real *left) {

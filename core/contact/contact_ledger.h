@@ -1,5 +1,4 @@
-/* contact_ledger.h: what contacts enter into the books (see contact.h and ledger.h). Without WH_LEDGER,
- * nothing. */
+/* contact_ledger.h: the contacts' entries in the ledger (ledger.h). Empty without WH_LEDGER. */
 #ifndef WH_CONTACT_LEDGER_H
 #define WH_CONTACT_LEDGER_H
 
@@ -7,13 +6,13 @@
 
 #if WH_LEDGER
 
-/* Does this scene keep books, and is this part of its run (and not a look at it)? */
+/* Does this scene keep a ledger, and is this a part of its run (not a probe)? */
 WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work *w) {
     return of->ledger != NULL && w->books != NULL;
 }
 
-/* Contact k's force (or impulse) `lambda`, `share` long (or 1), worked at the mean speed J_k q' = `speed`. Of that, what
- * moves an input does its share: the contact's energy is what the coordinates got. */
+/* Contact k's force (or impulse) `lambda`, over a time `share` (or 1), worked at the mean speed J_k q' = `speed`. The
+ * part that moves an input is the input's work: the contact's energy is the part that the coordinates got. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
                                   wh_real *entry) {
@@ -47,7 +46,7 @@ static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* An impulse of contact k, whose speed it changed. Its work is that of the mean speed (Kelvin). */
+/* An impulse of contact k changed its speed. The work is that of the mean speed (Kelvin). */
 WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real impulse, wh_real before, wh_real after,
                                 const wh_real *rate) {
@@ -57,7 +56,7 @@ WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* The accounts, before and after a crossing assigns: what it changes is its entry. */
+/* The accounts before and after a crossing's assignments. The difference is the crossing's entry. */
 static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,
                                    wh_real sign) {
@@ -72,8 +71,8 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
     }
 }
 
-/* The accounts, before a contact's place is put right, and after: the difference is contact k's entry. One that is
- * within the accounts' own rounding is none: in float, noise of many steps would add up to more than they move. */
+/* The accounts before and after the projection of a contact. The difference is contact k's entry. Entries within
+ * the accounts' own round-off are dropped: in float, the noise of many steps would exceed the true entries. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_state *s, const wh_real *input) {
     if (wh_books_open(of, w)) {

@@ -1,31 +1,31 @@
-/* contact_locate.h: where the first event of a try is (see contact.h). */
+/* contact_locate.h: the search for the first event of a try. */
 #ifndef WH_CONTACT_LOCATE_H
 #define WH_CONTACT_LOCATE_H
 
 #include "contact_forces.h"
 
-/* What an event search knows of each contact: above zero, its event has not happened. */
+/* The event margins of each contact: positive before its event. */
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real accel[WH_COORDS]; /* where any depends on a force: wh_contact_watched() */
-    wh_real all; /* sum of all that is looked at: no finite number if one of it is none */
+    wh_real accel[WH_COORDS]; /* if any depends on a force: wh_contact_watched() */
+    wh_real all;              /* sum of all margins: not finite if one of them is not */
 } wh_margins;
 
-/* The way from one state to another, which are `h` apart: positions by the cubic through both ends' positions and
- * rates, rates by the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first would be of an
- * order less, and magnify the positions' rounding by 1/h.) */
+/* The path between two states that are `h` apart. Positions follow the cubic through both ends' positions and rates.
+ * Rates follow the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first cubic would be
+ * one order less accurate, and magnify the positions' round-off by 1/h.) */
 typedef struct wh_contact_path {
     wh_real h;              /* s */
-    wh_contact_point begin; /* where it begins */
-    wh_real way[WH_COORDS]; /* to where it ends, rad or m */
+    wh_contact_point begin; /* at its begin */
+    wh_real way[WH_COORDS]; /* displacement to its end, rad or m */
     wh_real end_rate[WH_COORDS];
-    wh_real gain[WH_COORDS]; /* what the rates gain on it */
+    wh_real gain[WH_COORDS]; /* gain of the rates on it */
     wh_real a0[WH_COORDS];
     wh_real a1[WH_COORDS];
 } wh_contact_path;
 
-/* All of it but the accelerations. */
+/* The path without its accelerations. */
 static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_state *from,
                                       wh_contact_state *to, wh_real h, wh_contact_path *path) {
     const wh_real *v0 = wh_contact_rates(of, from);
@@ -49,7 +49,7 @@ static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_st
     }
 }
 
-/* The place at the share `s` of it. */
+/* The place at the share `s` of the path. */
 WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_path *path,
                                   wh_real s, wh_contact_point *at) {
     const wh_real rest = WH_R(1.0) - s;
@@ -69,8 +69,8 @@ WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* The margin of a force that is beyond its limit, or zero where that may be the rounding of the others' forces, as
- * far as they act along k: asked only where it is. */
+/* The margin of a force beyond its limit, or zero within the round-off of the other forces along k. Computed only
+ * for forces beyond their limit. */
 static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, wh_real margin) {
     wh_real others = WH_R(0.0);
@@ -96,7 +96,7 @@ WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* The margins at a place, and work->force with them where it matters. */
+/* The margins at a place, and work->force if they depend on it. */
 static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_margins *m) {
@@ -160,7 +160,7 @@ WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m)
     return calm;
 }
 
-/* Of margins that are not calm, the contact whose signal or limit is no finite number, into work->undefined. */
+/* The contact with the undefined signal or limit, into work->undefined, after margins that are not calm. */
 WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_margins *m) {
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -184,8 +184,8 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
-/* Holds that began at the limit of their conditions are let go of beyond their slack alone, and where nothing has let go of
- * them at the end, not at all: the cubic slips a little. `events`: those at the end. */
+/* Holds that began at the limit of their conditions are released only beyond their slack. Those that are still held at the
+ * end are not released at all, because the cubic slips a little. `events`: those at the end. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -197,16 +197,16 @@ WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Several contacts share loads, the deepest calls there are: what the search keeps is not to lie below them. */
+/* Several contacts share loads, the deepest calls there are. So the search's own storage must not lie below
+ * them on the stack. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
 #else
 #define WH_SEARCH static inline
 #endif
 
-/* Where between `from` and `to` the first of the events that have happened at `to` comes: the share of
- * h, just past it, by WH_BRACKET at most. *events are those that have happened there. at_end is what
- * wh_contact_margins() says of `to`. */
+/* Locates the first event between `from` and `to`: returns its share of h, just past it, by WH_BRACKET
+ * at most. *events are the contacts with events there. at_end are the margins of `to`. */
 WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                     wh_contact_state *from, wh_contact_state *to, wh_real h,
                                     const wh_real *input, const wh_margins *at_end,
@@ -228,7 +228,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     wh_contact_slacken(of, w, *events, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
-    unsigned loads = 0; /* whose force is looked at */
+    unsigned loads = 0; /* contacts with forces that are tested */
     for (unsigned k = 0; k < of->contacts; k++) {
         const bool load = k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
                           wh_contact_constrains(of, w, k);
@@ -241,7 +241,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
-        /* whoever is beyond a stop that was open, or closing, has hit it, also where it is on its way out again */
+        /* a body beyond a stop that was open, or closing, has hit it, even on its way out again */
         if (wh_contact_any_of(of, WH_STOP) &&
             (probe.signal[2 * k] > WH_R(0.0) || probe.signal[2 * k + 1] < WH_R(0.0))) {
             w->inside &= ~(1U << k);
@@ -265,7 +265,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
     wh_real most =
-        WH_PROBES_SPARE; /* what this probe may leave, for halving to get to WH_BRACKET with the rest */
+        WH_PROBES_SPARE; /* the largest interval after this probe from which halving still reaches
+                          * WH_BRACKET */
     for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
         const wh_real width = high - low;
         wh_real root = high;
@@ -279,8 +280,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* a little over it, towards the end that is further off, so that the interval closes from both sides;
-         * further each time that fails, and in the middle where two probes did not halve it */
+        /* slightly past it, towards the farther end, so that the interval closes from both sides; further
+         * after each failure, and the middle if two probes did not halve it */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;

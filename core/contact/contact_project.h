@@ -1,4 +1,4 @@
-/* contact_project.h: keeping resting stops and holds where they are, and their rates at zero (see contact.h). */
+/* contact_project.h: projection of resting stops and holds to their places, and of their rates to zero. */
 #ifndef WH_CONTACT_PROJECT_H
 #define WH_CONTACT_PROJECT_H
 
@@ -21,10 +21,10 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
 /* *sum + *rest += a b, without the product's rounding, which would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
-    *sum += a * b; /* what turns against each other cancels exactly */
+    *sum += a * b; /* opposite turns cancel exactly */
 }
 
-/* What a straight hold has moved by from one state to the other: J_k, which is constant, times the way; rad or m. */
+/* Displacement of a straight hold between two states: J_k, which is constant, times the way; rad or m. */
 static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_contact_state *from,
                                        const wh_contact_state *to) {
@@ -56,7 +56,7 @@ WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_wo
            w->mode[k] == WH_ACTIVE;
 }
 
-/* By how much contact k is off the place where it is to be. `from`: where a try to `s` began; NULL: no try. */
+/* The displacement of contact k from its place. `from`: the begin of a try to `s`; NULL: no try. */
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
                                    const wh_contact_state *s) {
@@ -73,7 +73,7 @@ WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
-/* What a hold that has just been captured, or set, is to keep. work->law must belong to this position. */
+/* Stores the value of a hold that has just captured or been set. work->law must belong to this position. */
 WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
@@ -81,8 +81,8 @@ WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *
     }
 }
 
-/* Stuck frictions that would have to take more than they can, as bits: they are about to slide, and hold
- * nothing still. work->force must be up to date. */
+/* Stuck frictions beyond their limit, as bits: they are about to slide and constrain nothing.
+ * work->force must be up to date. */
 WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -92,7 +92,8 @@ WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Contacts that hold their J_k q' at zero, but for those in `but`, as bits. Returns how many. */
+/* Contacts that keep their J_k q' at zero, except for those in `but`, as bits. Returns their
+ * number. */
 WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_contact_work *w,
                                       unsigned but, uint8_t *member) {
     unsigned count = 0;
@@ -104,18 +105,18 @@ WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_cont
     return count;
 }
 
-/* Where the positions of resting stops and of holds are off, and who is to answer for it in the books. */
+/* Displacements of resting stops and of holds, and the account of each in the ledger. */
 typedef struct wh_contact_place {
-    const wh_contact_state *from; /* where a try began, or NULL */
+    const wh_contact_state *from; /* begin of a try, or NULL */
     wh_real h;                    /* how long it was, s */
     unsigned but;                 /* contacts that are left out, as bits */
-    unsigned mover;               /* whose the energy is; WH_CONTACTS_MAX: the first that is off */
+    unsigned mover; /* the energy's account; WH_CONTACTS_MAX: the first with an error */
 } wh_contact_place;
 
 #define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
 
-/* Put resting stops and holds to where they are to be, while what is stuck stays. work->law and signal[] must
- * belong to this position. True: they were off so far that it must be done once more. */
+/* Projects resting stops and holds to their places, while stuck coordinates stay. work->law and signal[] must
+ * belong to this position. True: the error was so large that a second projection is needed. */
 static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_contact_place *spot, const wh_real *signal,
                                              const wh_real *input, wh_contact_state *s) {
@@ -124,7 +125,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
-    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by what is pinned */
+    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by the pinned coordinates */
     const unsigned count = wh_contact_members(of, w, spot->but, member);
     unsigned mover = spot->mover;
     bool together = false;
@@ -141,7 +142,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     if (mover == WH_CONTACTS_MAX) {
         return false;
     }
-    (void)input; /* only books look at it */
+    (void)input; /* only the ledger needs it */
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
@@ -154,7 +155,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             }
         }
     }
-    /* the others need not move for it, but what holds them to it */
+    /* the other coordinates move only if contacts tie them to it */
     for (unsigned i = 0; i < count; i++) {
         const bool pinned = wh_contact_pinned(of, member[i]);
         wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
@@ -186,8 +187,8 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     return coarse;
 }
 
-/* Take the rates along what is held away, of all contacts together but those in `but`, as bits; `booked`: as
- * impulses of theirs. work->law must belong to this position. */
+/* Projects the rates along all active contacts to zero together, except for `but`, as bits. `booked`:
+ * entered in the ledger as their impulses. work->law must belong to this position. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -264,8 +265,8 @@ static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_w
     wh_contact_project_rates(of, w, spot.but, false, wh_contact_rates(of, s));
 }
 
-/* What the integrator let slip on the way from `from`, h long, to `s`: the places of resting stops and holds,
- * then rates along what is held. A pinned coordinate cannot slip. */
+/* Removes the integrator's slip on the way from `from`, h long, to `s`: first the places of resting stops and
+ * holds, then the rates along active contacts. A pinned coordinate cannot slip. */
 WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                     const wh_real *input, const wh_contact_state *from,
                                     wh_contact_state *s) {
@@ -279,7 +280,7 @@ WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* A try from `from` to `to` is taken: what straight holds have slipped in it stays to be put back. */
+/* A try from `from` to `to` is accepted: the slip of straight holds is stored for a later projection. */
 WH_INLINE void wh_contact_keep(const wh_contact_system *of, wh_contact_work *w,
                                const wh_contact_state *from, const wh_contact_state *to) {
     if (of->held == 0) {

@@ -1,23 +1,22 @@
-/* contact_rank.h: do the holds still say what they said? (see contact.h)
+/* contact_rank.h: loss of rank of the holds.
  *
- * Holds that close a linkage lose rank where it lies flat: what kept two ways of moving apart keeps one, and
- * from there on there is more than one motion that obeys them. Whoever integrates on takes one by chance. So a
- * step that reaches such a place, or passes it, is refused. Rows are made independent of the earlier ones, in
- * the metric of M^-1 (Gram and Schmidt); the place is reached where nothing is left of one, and was passed
- * where what is left points the other way than before. Holds that repeat each other all the time are none of
- * this: they had nothing left before.
- */
+ * Holds that close a linkage lose rank in its flat position. From there more than one motion satisfies them,
+ * and an integrator picks one at random. So a step that reaches or passes such a place is refused.
+ *
+ * Each row is made orthogonal to the earlier ones in the metric of M^-1 (Gram and Schmidt). The place is
+ * reached if the remainder of a row vanishes, and was passed if the remainder has changed its direction.
+ * Permanently redundant holds do not count: their remainder was zero before. */
 #ifndef WH_CONTACT_RANK_H
 #define WH_CONTACT_RANK_H
 
 #include "contact_project.h"
 
-/* Of each hold that holds: what the earlier ones leave of its row, and M^-1 times that. */
+/* For each active hold: the remainder of its row after the earlier ones, and M^-1 times that. */
 typedef struct wh_contact_rows {
     wh_real row[WH_CONTACTS_MAX][WH_COORDS];
     wh_real way[WH_CONTACTS_MAX][WH_COORDS];
-    wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: nothing is left, or it holds nothing */
-    unsigned holds;                /* that hold */
+    wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: redundant, or inactive */
+    unsigned holds;                /* active holds */
 } wh_contact_rows;
 
 WH_INLINE wh_real wh_contact_dot(const wh_contact_system *of, const wh_real *a, const wh_real *b) {
@@ -64,7 +63,8 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The first hold that has nothing left in `after`, or points back, and did not before; or of->contacts. */
+/* The first hold with a remainder in `before` that vanishes or has turned back in `after`; or
+ * of->contacts. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     of = WH_CONTACTS_HERE(of);
@@ -81,9 +81,9 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     return of->contacts;
 }
 
-/* The hold that lost its say in a step of `span`, or of->contacts; `to` is NULL where it could not be taken.
- * Where it ends does not always tell: accelerations have no bound near such a place, and may have thrown it
- * anywhere. So where the rates alone would have led is looked at, too. */
+/* The hold that lost rank in a step of `span`, or of->contacts; `to` is NULL if the step failed. The end of
+ * the step is not enough: accelerations have no bound near such a place, and may have moved it anywhere. So
+ * the state along the rates alone is tested, too. */
 static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {

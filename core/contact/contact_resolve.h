@@ -1,33 +1,36 @@
-/* contact_resolve.h: what happens at a moment: the one place where modes change (see contact.h).
+/* contact_resolve.h: the resolution of a moment, the one place that changes modes.
  *
- * wh_contact_resolve() takes the contacts that have an event, all of them at once, so that nothing depends on the order
- * of the file (but crossings', which are assignments):
+ * wh_contact_resolve() takes all contacts with an event at once, so the order in the file does not matter (except for
+ * crossings, which are assignments):
  *
- *   1. velocities: the stops that are hit get their impulses, then the holds that capture theirs, each by one linear
- *      complementarity problem with what holds already. Friction's normal force is finite: it gives no impulse.
- *   2. crossings assign, and what that disturbs is seen to.
- *   3. accelerations: of the stops that rest and the frictions whose rate is zero, those give way that would have to
- *      pull, or take more than they can, until none has to.
- *   4. the rates along what has just come to stick, and all else that holds, are projected to zero.
+ * 1. velocities: stops that are hit get their impulses, then holds that capture, each by one linear complementarity
+ * problem with the active contacts. Friction's normal force is finite and gives no impulse.
  *
- * The law of impacts is Newton's, for all stops that are hit at the moment together: with J v the rates of their gaps,
+ * 2. crossings assign, and disturbed contacts are revised.
  *
- *     v+ = v- + M^-1 J^T Lambda,   0 <= Lambda_k,   J_k v+ >= -e_k J_k v-,   one of both with equality,
+ * 3. accelerations: resting stops that would have to pull give way, and so do frictions beyond their limit, until all
+ * are within limits.
  *
- * beside what rests or is held, which has J_k v- = 0 and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy
- * changes by 1/2 sum Lambda_k (1 - e_k) J_k v-, which is never above zero as only stops that close take part: with
- * stops of different restitutions, too. What an impact makes close, while it is touched, is hit in the next
- * round of the same moment: so an impact runs through a row of balls. */
+ * 4. the rates along contacts that just came to stick, and along all active ones, are projected to zero.
+ *
+ * The law of impacts is Newton's, for all stops that are hit together, with J v the rates of their gaps:
+ *
+ * v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-, one of both with equality.
+ *
+ * Resting and held contacts take part with J_k v- = 0 and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy
+ * changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is never positive, because only closing stops take part, even with
+ * different restitutions. A touching stop that an impact makes close is hit in the next round of the same moment. So an
+ * impact runs through a row of balls. */
 #ifndef WH_CONTACT_RESOLVE_H
 #define WH_CONTACT_RESOLVE_H
 
 #include "contact_crossing.h"
 
-/* --- what crossings disturb ---------------------------------------------------------------------- */
+/* --- disturbance by crossings -------------------------------------------------------------------- */
 
-/* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved: a
- * stop that was passed has its gap closed, and rests no longer, as one that was left; what a hold still
- * keeps is captured again. The gaps are the crossing's doing, and so is their energy. */
+/* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved. A
+ * stop that was passed gets its gap closed; like one that was left, it rests no longer. Active holds
+ * capture again. The crossing caused the change, so the energy is the crossing's entry. */
 static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -58,7 +61,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
-        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only as long as it is put back */
+        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only while it is put back */
         wh_real before[2 * WH_CONTACTS_MAX];
         wh_contact_remember(of, signal, before);
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
@@ -75,9 +78,9 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
 
 /* --- accelerations ------------------------------------------------------------------------------- */
 
-/* Of the contacts that give way, those that do so first, as bits: all stops; else, since what slides pushes
- * less than what sticks and may relieve the others, the friction whose load is most above its limit: the first
- * to reach it, if the load grew from nothing. Those that reach it together slide together. */
+/* The contacts that give way first, as bits. All stops do. Without a stop it is the friction with the load
+ * most above its limit, because sliding pushes less than sticking and may relieve the others. That one is the
+ * first to reach its limit if the load grew from zero. Those that reach it together slide together. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
@@ -97,10 +100,10 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Which way friction slides, as its rate says; where the location left it on the side that it comes from, as was
- * found there. What has just come to zero (`zeros`, as bits, unless an impact of the same moment threw it), or is left
- * there by the rounding of what others did, waits for the forces' word. `h`: the step; work->law must belong to this
- * position, but for h = 0. */
+/* The direction of sliding, from the sign of the rate, or the direction at the location if that left the rate on its
+ * old side. Rates that just came to zero wait for the forces (`zeros`, as bits, unless an impact of the same moment
+ * moved them). So do rates at the round-off of other contacts. `h`: the step; work->law must belong to this position,
+ * except for h = 0. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -130,9 +133,9 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Resting stops that bear nothing but rounding and push the way that a stop of `gone`, as bits, does: they go with it.
- * Where there are more supports than it takes, all of them lose their load at one moment; of those that stayed, the one
- * that is gone would be hit again by rounding, and let go again. */
+/* Resting stops with no more load than round-off that push in the direction of a stop in `gone`, as bits. They are
+ * released with it. Redundant supports all lose their load at one moment. If some stayed, round-off would hit and
+ * release the others again. */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -149,9 +152,9 @@ WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact
     return bits;
 }
 
-/* Which resting stops would have to pull and fly, which stuck coordinates break loose? What breaks loose pushes less
- * than before, so others may follow: each round lets at least one go. Of those in `must`, as bits, whose force was
- * found beyond its limit, one does at least, if only by rounding. */
+/* Releases resting stops that would have to pull and stuck coordinates beyond their limits. A released contact
+ * pushes less, so others may follow: each round releases at least one. At least one of `must`, as bits, is released,
+ * even by round-off only, because its force was found beyond its limit. */
 static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned must, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -193,9 +196,9 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Of what has just come to zero, what the forces keep there sticks: friction, which would take the rest of the
- * rate away in no time, does, together with all else that is held, so that two frictions do not shake each
- * other loose. What slides on does so the way it is pushed, on whichever side of zero it is. */
+/* Rates that have just come to zero stick if the forces keep them there. Friction sticks if it would remove
+ * the rest of the rate at once. It does so together with all active contacts, so that two frictions do not
+ * release each other. The others slide in the direction of the push, on either side of zero. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -215,7 +218,7 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
 
 /* --- all that happens at one moment -------------------------------------------------------------- */
 
-/* Returns what had an event, as bits; impulse[contacts]: what each got. */
+/* Returns the contacts with an event, as bits; impulse[contacts]: the impulse of each. */
 WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_contact_moment *m, const wh_real *input,
                                      wh_contact_state *now, wh_real *impulse) {
@@ -269,8 +272,8 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     return events;
 }
 
-/* A step with too many events ends, `h` long. Friction that was carried past zero ends there, as it would have before,
- * unless the forces carry it on; what sticks but was moved slides. */
+/* A step with too many events ends, `h` long. Friction that was carried past zero sticks, unless the forces carry it
+ * on. Stuck coordinates that were moved slide. */
 static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                       const wh_real *input, wh_contact_state *s) {
     wh_contact_moment end = {0, 0, h, true};
@@ -294,7 +297,7 @@ static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_wo
     (void)wh_contact_resolve(of, w, &end, input, s, impulse);
 }
 
-/* Can an input have moved what contact k keeps, since the last step? */
+/* Can an input have moved contact k since the last step? */
 WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k) {
     const wh_contact *c = &of->contact[k];
@@ -302,7 +305,6 @@ WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact
                                          : c->direction < 0 && wh_contact_slips(of, w, k);
 }
 
-/* Is there one? */
 WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
@@ -313,9 +315,9 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Of what follows inputs with a rate, now that those may have another rate than the step before ended with: which resting
- * stops fall, as bits, and in *hits which are hit. A resting stop takes on the new rate if the force that presses it does
- * so within the step. The rates of all others that hold are put right by impulses. work->law must belong to this position. */
+/* Follows inputs with a rate, after that rate changed between two steps. Returns the resting stops that open, as bits, and in
+ * *hits those that are hit. A resting stop takes on the new rate if its pressing force achieves that within the step.
+ * Impulses correct the rates of the other active contacts. work->law must belong to this position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {
@@ -344,8 +346,8 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
     return but;
 }
 
-/* Where an input has moved a resting stop since the last step: the body is put back onto it, or falls if
- * what presses it does not close the gap within the step. What a hold keeps is put back, too. The energy is the contact's. */
+/* After an input has moved a resting stop. The body is put back onto it, or falls if the pressing force does not close the
+ * gap within the step. Holds are projected, too. The energy is the contact's entry. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];

@@ -1,4 +1,4 @@
-/* contact_step.h: one step of a scene with contacts (see contact.h). */
+/* contact_step.h: one step of a scene with contacts. */
 #ifndef WH_CONTACT_STEP_H
 #define WH_CONTACT_STEP_H
 
@@ -14,7 +14,7 @@ WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *sta
     }
 }
 
-/* What a try needs of the work. */
+/* The part of the work that every try needs. */
 WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
                                      wh_contact_work *w) {
     wh_contact_modes(of, state, w);
@@ -27,7 +27,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
     for (unsigned k = 0; k < of->held; k++) {
         w->held[k] = state->held[k];
     }
-    if (of->forced > 1) { /* one contact shares nothing, and passes nothing on */
+    if (of->forced > 1) { /* a single contact shares no load */
         w->capped = false;
     }
     w->undefined = -1;
@@ -36,7 +36,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
 #endif
 }
 
-/* What events need beyond that. */
+/* The part of the work that only events need. */
 WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
     if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
@@ -90,7 +90,7 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Try `left` from `next`, a copy of `now`, which only needs to be there where holds can slip. */
+/* Tries `left` from `next`, a copy of `now`. Only holds that can slip need `now`. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -115,8 +115,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Which holds began the try nearer to the limit of their conditions than those are known, beside what they keep? They stay
- * while that is so: what is held when a condition comes to zero stays held. */
+/* Finds the holds that began the try at the limit of their conditions, to round-off. They stay active while that is so: a
+ * hold survives its condition's coming to zero. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -133,14 +133,13 @@ WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Did it end calmly, with all that was looked at a number? */
+/* Did it end without an event, with finite margins? */
 WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_contact_work *w,
                                        const wh_contact_attempt *a) {
     return wh_contact_calm(of, &a->margins) && (of->held == 0 || w->undefined < 0);
 }
 
-/* A try from `from`, h long, failed: for a friction or a hold that had no number on the way? It is looked for where
- * the rates lead. */
+/* A try from `from`, h long, failed. Looks along the rates for a friction or hold that is undefined on the way. */
 WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
@@ -151,13 +150,12 @@ WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, 
     }
 }
 
-/* Refuse the step: a contact's expression is no finite number, or component `fault` left all bounds. */
+/* Refuses the step: a contact's expression is not finite, or component `fault` left all bounds. */
 WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
     state->fault = w->undefined >= 0 ? w->undefined : fault;
     return w->undefined >= 0 ? WH_E_UNDEFINED : WH_E_DIVERGED;
 }
 
-/* What a step writes down of its events. */
 typedef struct wh_contact_log {
     wh_event event[WH_EVENT_LOG];
     unsigned count;
@@ -174,7 +172,7 @@ WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_wor
     }
 }
 
-/* What happens at one moment, which is at_s after the step's begin, is noted. */
+/* Resolves and logs one moment, at_s after the step's begin. */
 WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_moment *m, wh_real at_s, const wh_real *input,
                                  wh_contact_state *now, wh_contact_log *log) {
@@ -186,8 +184,8 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
     }
 }
 
-/* The modes that a run begins with. What is hit there, with what was settled before, is noted as of the first step.
- * Returns the moments with events that it counts as. */
+/* The modes at the start of a run. Impacts there, with those settled before, are logged in the first step. Returns
+ * the moments with events that this counts as. */
 static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *now,
                                         wh_contact_log *log) {
@@ -198,7 +196,7 @@ static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_
     return rounds;
 }
 
-/* Stops that an impact made close, and that are still open, as bits; they are then dealt with. */
+/* Stops that an impact made close and that are still open, as bits; they are then handled. */
 WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work *w) {
     unsigned bits = 0;
     if (of->forced <= 1 || w->hit_next == 0) {
@@ -211,7 +209,6 @@ WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work 
     return bits;
 }
 
-/* A step is done: into the state. */
 WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_work *w,
                                  const wh_contact_state *now, wh_state *state) {
     const unsigned reals = 2U * of->coordinates - of->angles;
@@ -231,7 +228,7 @@ WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_w
     }
 }
 
-/* And so are its modes, from contact `first` on. */
+/* Copies the modes, from contact `first` on. */
 WH_INLINE void wh_contact_commit_modes(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned first, wh_state *state) {
     WH_UNROLL
@@ -240,7 +237,6 @@ WH_INLINE void wh_contact_commit_modes(const wh_contact_system *of, const wh_con
     }
 }
 
-/* Its events are told. */
 WH_INLINE void wh_contact_commit_events(const wh_contact_log *log, bool overran,
                                         wh_contacts *memory) {
     memory->events += log->count;
@@ -251,7 +247,7 @@ WH_INLINE void wh_contact_commit_events(const wh_contact_log *log, bool overran,
     }
 }
 
-/* A try from `from` to `to`, `span` long, is taken. Returns the hold that lost its say in it, or of->contacts. */
+/* Accepts a try from `from` to `to`, `span` long. Returns the hold that lost rank in it, or of->contacts. */
 WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
                                      const wh_real *input) {
@@ -260,7 +256,7 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
-/* What of a step is not calm, from the first attempt on, which may have been made. Returns as wh_step_contact(). */
+/* A step with events, from the first try on, which may have been made. Returns as wh_step_contact(). */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
     const wh_contact_state *end = &a->now;
@@ -268,7 +264,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     wh_real left = h;
     wh_real reach = h; /* of the next try */
     unsigned round = 0;
-    unsigned flat = of->contacts; /* the hold that lost its say */
+    unsigned flat = of->contacts; /* the hold that lost rank */
     bool overran = false;
 
     log.count = 0;
@@ -296,7 +292,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
             }
             a->made = false;
             if (!a->sound) {
-                /* what diverges does so in front of such a place, not only at it */
+                /* divergence starts before such a place, not only at it */
                 flat = wh_contact_flat(of, w, WH_R(4.0) * reach, &a->now, NULL, state->input);
                 if (flat < of->contacts) {
                     break;
@@ -307,7 +303,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
             wh_contact_attempt_dipped(of, w, reach, state->input, a);
             if (a->dips != 0 && round + 2U < WH_EVENTS_MAX) {
                 const wh_real share = wh_contact_dip(of, a, state->input);
-                if (share < WH_R(1.0)) { /* the try ends there instead, and is one of the moments */
+                if (share < WH_R(1.0)) { /* the try ends there instead, as one of the moments */
                     reach *= share;
                     round++;
                     continue;
@@ -335,14 +331,14 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
                 if (round == WH_EVENTS_MAX) {
                     overran = overran || !calm;
                     wh_contact_overrun(of, w, h, state->input, &a->next);
-                    calm = false; /* what that looked at must have been a number, too */
+                    calm = false; /* the probes must have been finite, too */
                 }
                 end = &a->next;
                 break;
             }
             const wh_real span = reach * wh_contact_locate(of, w, &a->now, &a->next, reach,
                                                            state->input, &a->margins, &events);
-            w->undefined = -1; /* what lies behind the event is none of ours */
+            w->undefined = -1; /* values past the event do not count */
             if (span > WH_R(0.0)) {
                 wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
                 if (!wh_contact_try(of, w, span, state->input, &a->now, &a->fault)) {
@@ -365,7 +361,7 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
             const wh_contact_moment moment = {events, 0, h, last};
             const unsigned rested = last ? wh_contact_which(of, w, WH_STOP, true) : 0U;
             wh_contact_happen(of, w, &moment, h - left, state->input, &a->now, &log);
-            if (last) { /* what rests now might have bounced */
+            if (last) { /* a stop at rest might have bounced */
                 overran = (wh_contact_which(of, w, WH_STOP, true) & ~rested) != 0;
             }
             if (w->undefined >= 0 || w->fault >= 0) {
@@ -390,8 +386,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
 }
 
 /* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
- * state->fault. Only what the step builds on must be a number: a try that is cut short at an event may have
- * looked beyond where an expression ends. */
+ * state->fault. Only values that the step uses must be finite: a try cut short at an event may have left an
+ * expression's domain. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;

@@ -1,18 +1,18 @@
-/* contact_work.h: what a step of a scene with contacts works on (see contact.h). */
+/* contact_work.h: the working memory of a step with contacts. */
 #ifndef WH_CONTACT_WORK_H
 #define WH_CONTACT_WORK_H
 
 #include "../contact.h"
 
-/* For what is seldom called and would only be in the way. */
+/* Keeps rarely called functions out of line. */
 #if defined(__GNUC__)
 #define WH_APART static __attribute__((noinline, cold, unused))
 #else
 #define WH_APART static inline
 #endif
 
-/* What a step of a scene with contacts is made of, for a program that counts instructions between such places
- * (boards/programs/mark.h); nothing in every other. */
+/* Marks of a step's parts, for programs that count instructions between them (boards/programs/mark.h). Empty
+ * in all other programs. */
 #define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
 #define WH_MARK_SIGNALS 2 /* the signals are */
 #ifndef WH_MARK
@@ -23,61 +23,59 @@
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
-    /* J q'' + J' q' that the forces of what holds something had to make */
+    /* J q'' + J' q' that the forces of the active contacts had to cancel */
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real rough[WH_CONTACTS_MAX]; /* sizes of its terms, where contacts repeat each other */
+    wh_real rough[WH_CONTACTS_MAX]; /* bound on the size of its terms, if contacts are redundant */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-    /* stops whose gap the try begins closed, as bits: they may be on the way out */
+    /* stops with a closed gap when the try begins, as bits: they may be on the way out */
     unsigned inside;
-    unsigned
-        hit_next; /* stops that are touched and that an impact of this moment makes close, as bits */
-    unsigned
-        turned; /* frictions whose rate has just come to zero, as bits: whether they stick is open */
-    /* frictions that slide on: what the location left of the rate, rad/s or m/s; crossings whose values turn back: how far
-     * beyond zero they have not crossed; where events are looked for, holds that began the try at the limit of their
-     * conditions: how far beyond that these still count as true, else 0 */
+    unsigned hit_next; /* touching stops that an impact of this moment makes close, as bits */
+    unsigned turned;   /* frictions with a rate just come to zero, as bits: sticking is undecided */
+    /* Sliding friction: the error of the located rate, rad/s or m/s. Crossings that turn back: the distance beyond zero
+     * that counts as not crossed. In the search, holds that began at the limit of their conditions: the distance beyond it
+     * that still counts as true, else 0. */
     wh_real slack[WH_CONTACTS_MAX];
     wh_real due
-        [WH_CONTACTS_MAX]; /* of these crossings: how far they are to be on their way when the step ends */
-    /* crossings that are on no side: where the value of each was when the try began, or when it came to stand */
+        [WH_CONTACTS_MAX]; /* for these crossings: the distance to have gone when the step ends */
+    /* crossings on no side: the value when the try began, or when the crossing came to stand */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates when the present moment began */
-    wh_real held[WH_CONTACTS_MAX]; /* what holds keep, by place: see wh_contact */
+    wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by index: see wh_contact */
     unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
     unsigned mover; /* that crossing */
-    /* crossings just taken whose values are still at zero, or next to it, as bits */
+    /* crossings just taken with values at zero, or next to it, as bits */
     unsigned stands;
-    /* time has passed since something threw values across: what is past zero now is there by what the location left */
+    /* time has passed since an assignment moved values across: a value past zero now is the error of location */
     bool located;
-    bool capped;   /* a load was shared as far as the pivoting's cap lets it */
-    int fault;     /* component that was assigned what it cannot hold, or -1 */
-    int undefined; /* contact with an expression that was no finite number, or -1 */
+    bool capped;   /* the pivoting met its cap */
+    int fault;     /* component with an assignment beyond its range, or -1 */
+    int undefined; /* contact with a non-finite expression, or -1 */
 #if WH_LEDGER
     wh_ledger_work *books; /* or NULL */
     wh_real level[WH_ACCOUNTS_MAX];
 #endif
 } wh_contact_work;
 
-/* What the integrator gets as its model. */
+/* The integrator's model. */
 typedef struct wh_contact_model {
     const wh_contact_system *of;
     wh_contact_work *work;
 } wh_contact_model;
 
-/* The scene's contacts in a function that is not inlined. Code for size may be compiled with -fno-ipa-cp: no constants are
- * passed into functions then, and gcc warns of loops whose counts have no bound. For speed, gcc's own way stays. */
+/* The scene's contacts in a function that is not inlined. Code for size may be compiled with -fno-ipa-cp. Then no
+ * constants are passed into functions, and gcc warns of loops without a bound. Code for speed keeps gcc's own way. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
 #define WH_CONTACTS_HERE(of) (of)
 #endif
 
-/* Its contacts. A generated scene says which they are, so that the compiler sees through the pointer. */
+/* The scene's contacts. A generated scene defines them, so that the compiler sees through the pointer. */
 #ifndef WH_CONTACTS_OF
 #define WH_CONTACTS_OF(model) ((model)->of)
 #endif
 
-/* A state that a step tries, with room of its own. */
+/* A state that a step tries, with its own storage. */
 typedef struct wh_contact_state {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
@@ -136,7 +134,8 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* Where the rates at `s` lead in a time, and accel[coordinates], if it is not NULL; the rates are those at `s`. */
+/* State after moving along the rates of `s` for a time, and accel[coordinates], if it is not NULL; the rates stay
+ * those of `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {
@@ -157,13 +156,13 @@ WH_INLINE bool wh_contact_any_of(const wh_contact_system *of, wh_contact_kind ki
     return (of->kinds & WH_KIND_BIT(kind)) != 0;
 }
 
-/* Is contact k, which has a force, of this kind? Where all are of one, nobody need look. */
+/* Is contact k, which has a force, of this kind? Constant if all contacts are of one kind. */
 WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact_kind kind) {
     return wh_contact_any_of(of, kind) &&
            (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
 }
 
-/* Is contact k, which has a force, of a kind that is `trait` (one of them, if there are several)? */
+/* Is contact k, which has a force, of a kind with this trait (or one of several)? */
 WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
 #define WH_KIND_IS(name, is) || (((is)&trait) != 0 && wh_contact_of(of, k, name))
     return false WH_CONTACT_KINDS(WH_KIND_IS);
@@ -175,7 +174,6 @@ WH_INLINE int wh_contact_pin(const wh_contact_system *of, unsigned k) {
     return of->pinned > 0 ? of->contact[k].pin : -1;
 }
 
-/* Is there one? */
 WH_INLINE bool wh_contact_pinned(const wh_contact_system *of, unsigned k) {
     return of->pinned > 0 && (of->pinned == of->forced || of->contact[k].pin >= 0);
 }
@@ -209,13 +207,13 @@ WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* J_k M^-1 J_l^T, an entry of the Delassus matrix: what a force of l makes of the acceleration along k. */
+/* J_k M^-1 J_l^T, an entry of the Delassus matrix: the acceleration along k by a unit force of l. */
 WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               unsigned l) {
     return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
 }
 
-/* What counts as rounding beside the terms of a sum. */
+/* Round-off of a sum, as a share of its terms. */
 #define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
 
 /* Its diagonal: the factor of k's own force in its acceleration. */
@@ -224,11 +222,10 @@ WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_con
     return wh_delassus(of, w, k, k);
 }
 
-/* Solve sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination
- * without pivoting: the matrix is positive definite, but for contacts that repeat what others hold
- * already, which get nothing to do (NaN, where what they repeat is no number). Returns those, as bits of their places in
- * member[]. Those with at[]
- * other than zero get nothing, too; at may be NULL. */
+/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without
+ * pivoting. The matrix is positive definite, except for redundant contacts, which get zero (NaN if the repeated contact
+ * is not a number). Returns those, as bits of their indices in member[]. Those with nonzero at[] get zero, too; at may
+ * be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,
@@ -266,7 +263,7 @@ static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const 
     return repeats;
 }
 
-/* The same, without the machinery where nothing or one thing is held: most steps of most scenes. */
+/* The same, with short cuts for no or one active contact: most steps of most scenes. */
 WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
                                      const uint8_t *member, unsigned count, const int8_t *at,
                                      const wh_real *wanted, wh_real *lambda) {
@@ -282,7 +279,6 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
     return wh_delassus_eliminate(of, w, member, count, at, wanted, lambda);
 }
 
-/* What a step builds on must be finite numbers. */
 WH_INLINE bool wh_finite(wh_real value) { return value - value == WH_R(0.0); }
 
 /* `value` is of contact k. */
@@ -298,8 +294,8 @@ WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_conta
     return w->mode[k] == (wh_contact_is(of, k, WH_LIMITED) ? WH_STUCK : WH_ACTIVE);
 }
 
-/* The limit of each friction that sticks, the force of each that slides, what each hold holds. (What a stop gives
- * back counts at an impact only, and is none of these.) Seldom called: kept out of the way. */
+/* Checks that the limits of sticking frictions, the forces of sliding ones and the values of holds are finite. (A
+ * stop's restitution counts only at an impact and is left out.) Rarely called, so out of line. */
 WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
         const bool friction = wh_contact_of(of, k, WH_FRICTION);
