@@ -1,4 +1,3 @@
-/* aliasing.c: see aliasing.h. */
 #include "aliasing.h"
 
 #include <math.h>
@@ -11,7 +10,8 @@
 
 /* Steps of the third run in one of the run's: more than one, so that it is the more accurate, and near no simple ratio. */
 #define STEPS 1.41
-/* By so many times the most that the run and the finer one differ by, the third may be off for its steps alone. */
+/* The third run may differ by this many times the difference of the run and the finer one, because of its steps
+ * alone. */
 #define ITS_OWN 2.0
 /* SI: no column that is as near as this differs. */
 #define ALIKE 1e-9
@@ -42,7 +42,7 @@ static bool third_image(const step_doubling *t, uint64_t steps, image *im) {
     return true;
 }
 
-/* Beside contacts rates jump, and two runs do not jump together. */
+/* Rates jump at contacts, and two runs do not jump at the same time. */
 static bool is_compared(const step_doubling *t, const horizon_column *c, int k) {
     return (t->shape->image->contacts == 0 || t->shape->column[k].primes == 0) &&
            c->verdict != HORIZON_ROUNDING;
@@ -80,7 +80,7 @@ static uint64_t trusted_steps(const step_doubling *t, const horizon *h) {
     return until_s < t->end_s ? (uint64_t)(until_s / im->step_s) : im->steps;
 }
 
-/* Where all steps of this image end: row[columns]. */
+/* The state at the end of all steps of this image: row[columns]. */
 static loop_end end_of(const step_doubling *t, const image *im, const budget *of, double *row) {
     wh_status status;
     records *r = records_open(NULL, im, &engine_double);

@@ -1,5 +1,5 @@
-/* apart.c: see apart.h. Places by Newton's method with the least change (of coordinates without a start of their own, if these
- * do), rates by one such step. */
+/* apart.c: places by Newton's method with the least change, rates by one such step. Only coordinates without a start of their
+ * own change if these suffice. */
 #include "apart.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* An expression that is to be zero is off by more than APART_LEAST, and by less than this share of its terms. */
+/* The error of an expression that should be zero is above APART_LEAST, and below this share of its terms. */
 #define OFF_MOST 0.5
 /* A moment is this share of a step. */
 #define SOON 1e-6
@@ -26,10 +26,10 @@ typedef struct apart {
     double *input;
     double *law; /* [forced * (WH_LAW_ROWS + 2 n)] */
     int n;
-    int hold[HOLDS]; /* contacts that hold where the run starts */
+    int hold[HOLDS]; /* active holds at the start */
     int holds;
     bool vanishes[HOLDS]; /* near the start, and changes its sign there: a distance does not */
-    bool closes;          /* one is off zero, by less than OFF_MOST */
+    bool closes;          /* one is slightly off zero, within OFF_MOST */
     double place[N];
     double rate[N];
 } apart;
@@ -60,8 +60,8 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* By how much a curved hold is off zero, if that can be meant to be zero; else 0. Where one of several is, so are the others,
- * however far they are off: they close one linkage. */
+/* The error of a curved hold, if it is meant to be zero; else 0. If one of several is meant so, all are, with any error: they
+ * close one linkage. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -143,7 +143,7 @@ static bool move(const apart *a, const bool *may, const double *by, double *x) {
 
 static bool fit_places(apart *a, const bool *may) {
     double worst = 1.0;
-    double wanted[HOLDS]; /* zero for one that is off; the others stay */
+    double wanted[HOLDS]; /* zero for a wrong one; the others stay */
     for (int h = 0; h < a->holds; h++) {
         const double value = law_of(a, h)[WH_LAW_FIRST];
         wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;
@@ -192,7 +192,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     return false;
 }
 
-/* The energy that it takes to stop the held expressions: 1/2 w (J M^-1 J^T)^-1 w of its speeds w; NaN where they repeat each other. */
+/* The energy that stopping the holds takes: 1/2 w (J M^-1 J^T)^-1 w of their speeds w; NaN if they are redundant. */
 static double lost_J(const apart *a) {
     double matrix[HOLDS * (HOLDS + 1)];
     const int n = a->holds;
@@ -229,7 +229,7 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
     fputs("\n", out);
 }
 
-/* The rate of a held expression, if that is more than rounding; else 0. */
+/* The rate of a hold, if it exceeds round-off; else 0. */
 static double moving(const apart *a, int h) {
     const double speed = along(a, h, a->rate);
     const double least = APART_LEAST * terms(a, h, a->rate, false);
@@ -273,7 +273,7 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-/* How far it is off, or moves, by which part of its terms; 0: it fits. */
+/* Its error or rate, as a part of its terms; 0: it fits. */
 static double part_of(const apart *a, int h) {
     const double off = fabs(off_zero(a, h));
     const double speed = fabs(moving(a, h));

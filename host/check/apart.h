@@ -1,6 +1,5 @@
-/* apart.h: holds that are true where a run starts and do not fit there: an expression that is a little off zero keeps that for
- * ever, and one that moves is stopped by an impulse, which takes energy. Warned of with the number, and with values of start that
- * fit. */
+/* apart.h: holds that do not fit the start of a run. An expression that is slightly off zero stays so for ever. A moving one is
+ * stopped by an impulse, which takes energy. The warning has the number, and start values that fit. */
 #ifndef CHECK_APART_H
 #define CHECK_APART_H
 
@@ -11,8 +10,8 @@
 /* Off zero, or moving, by more than this share of its terms is more than rounding. */
 #define APART_LEAST 1e-6
 
-/* By which part of its terms a hold is off zero or moves, at most; 0: all fit. That is said on `out`, if not NULL;
- * `who`: "whirl run". */
+/* The largest error or rate of a hold, as a part of its terms; 0: all fit. Warns on `out`, if not NULL; `who`:
+ * "whirl run". */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

@@ -1,4 +1,3 @@
-/* books.c: energy and momentum beside a run. */
 #include "books.h"
 
 #include <math.h>
@@ -75,7 +74,7 @@ double books_swing_J(const books *b) {
     return most;
 }
 
-/* --- what rounding does ------------------------------------------------------------------------*/
+/* --- round-off ---------------------------------------------------------------------------------*/
 
 /* The smallest normal float; how often a step rounds each of its entries: at its stages and moments. */
 #define FLOAT_LEAST 0x1p-126
@@ -90,11 +89,11 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
     evaluator_run(b->evaluator, time_s, angle_rad, real, real + (im->coordinates - im->angles),
                   b->input, b->value);
     for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
-        b->value[i] = number_shown(b->value[i]); /* an energy of nothing has no sign */
+        b->value[i] = number_shown(b->value[i]); /* a zero energy has no sign */
     }
 }
 
-/* Of the values; of what each is off, how far that is off. */
+/* For values, and for bounds on their errors. */
 static double energy_of(const image *im, const double *value) {
     const double *entry = value + im->count;
     return im->has_integral ? entry[BOOK_MOMENTA + im->count]
@@ -105,7 +104,7 @@ static double unit_rounding(const engine_kind *kind) {
     return kind == &engine_float ? 0x1p-24 : 0x1p-53;
 }
 
-/* How a component of the state is rounded in a step, and a change of it by which the energy's slope is taken. */
+/* The rounding of a component of the state in a step, and the increment for the energy's slope. */
 typedef struct state_rounding {
     double by;
     double change;
@@ -114,7 +113,7 @@ typedef struct state_rounding {
 static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
                                             const void *run, int i, double value) {
     const bool turns = kind == &engine_float && i < im->angles;
-    if (kind->unit != NULL) { /* once itself, and what is added to it */
+    if (kind->unit != NULL) { /* its own round-off, and that of sums with it */
         const double unit = kind->unit(run, i);
         return (state_rounding){unit, number_most(SLOPE_SHARE * fabs(value), unit)};
     }
@@ -149,8 +148,8 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
     return isfinite(sum) ? sum : 0.0;
 }
 
-/* By how much a step changes the energy that its accelerations are rounded, and the work of a step that the powers
- * are: small differences of large terms, as of forces that balance, are off by parts of these. */
+/* Energy change of a step by the round-off of its accelerations, and of its work by that of the powers. Small
+ * differences of large terms, such as balanced forces, are off by parts of those terms. */
 static double step_rounding_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     const double *entry = b->value + im->count;
@@ -166,9 +165,9 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
-/* What a step's entries may lose to numbers that end: a run with contacts keeps its own books, in its own number, and
- * what falls below the smallest normal one is rounded as much as that, or is gone. All of it may go to one side. In
- * double, in which the books beside the run are, there is nothing below that anybody could mean. */
+/* Energy that a step's entries may lose to underflow. A run with contacts keeps its ledger in its own number format.
+ * Values below the smallest normal float have an error of that size, or vanish, and all errors may have one sign.
+ * Double has no such loss of any practical size. */
 static double step_lost_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     if (im->contacts == 0 || kind != &engine_float) {
@@ -213,7 +212,6 @@ static void look_at_momenta(books *b) {
     }
 }
 
-/* Look at the present state. */
 static void look_at_rounding(books *b, const engine_kind *kind, const void *run) {
     const double state_J = state_rounding_J(b, kind, run);
     look_at_momenta(b);
@@ -235,8 +233,8 @@ double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* By how much two steps' work may be off: as Simpson's rule and trapezoids differ where the powers are smooth, else by as much
- * as they change. */
+/* Error bound of the work of two steps: the difference of Simpson's and the trapezoidal rule if the powers are smooth, else
+ * their change. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
@@ -262,7 +260,7 @@ static void add_work(books *b, const double power_W[2]) {
     }
 }
 
-/* --- what is linear in the rates -----------------------------------------------------------------*/
+/* --- terms linear in the rates -------------------------------------------------------------------*/
 
 /* The kinetic energy at this place with every rate reversed; its momenta into lean[]. */
 static double reversed_J(books *b, const double *angle_rad, const double *from) {
@@ -276,14 +274,14 @@ static double reversed_J(books *b, const double *angle_rad, const double *from) 
     return b->value[im->count + BOOK_KINETIC];
 }
 
-/* Of these momenta and of those of the rates as they are, just evaluated: what the two share. */
+/* The mean of these momenta and of those at the unreversed rates, just evaluated. */
 static void take_lean(books *b) {
     for (int i = 0; i < b->image->count; i++) {
         b->lean[i] = 0.5 * (b->lean[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
     }
 }
 
-/* Asked beside the start, at places and rates that nothing singles out. A coordinate that comes from its momentum has no rate to
+/* Tests places and rates near the start without any special value. A coordinate that comes from its momentum has no rate to
  * reverse. */
 static bool find_leans(books *b) {
     const image *im = b->image;
@@ -311,11 +309,12 @@ static bool find_leans(books *b) {
     return found;
 }
 
-/* --- what every motion keeps ---------------------------------------------------------------------------*/
+/* --- momenta that every motion conserves ---------------------------------------------------------------*/
 
-/* Larger mechanisms are not asked. */
+/* Largest mechanism that is tested. */
 enum { FRAME_MOST = 24 };
-/* A place beside a state, in seconds of its motion; and less than this part of the changes of momenta is rounding. */
+/* A place near a state, in seconds of its motion. Smaller parts of the momenta's changes than FRAME_LEAST are
+ * round-off. */
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 
@@ -352,8 +351,8 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Elimination of the changes at twice as many places as there are momenta: sums of momenta that change nowhere are what is
- * left, and who is in one of them is part of a frame. */
+/* Eliminates the changes of the momenta at twice as many places as there are momenta. The remaining null vectors are
+ * conserved sums, and a momentum in one of them belongs to a frame. */
 static void find_frame(books *b) {
     const int n = b->image->count;
     const int rows = 2 * n;
@@ -377,7 +376,7 @@ static void find_frame(books *b) {
     }
     for (int c = 0; c < n && known; c++) {
         for (int r = -1; r < rank && !leads[c];
-             r++) { /* momentum c less its share of those with a pivot */
+             r++) { /* momentum c less its components along those with a pivot */
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
             b->frame[i] = b->frame[i] || share > FRAME_LEAST;

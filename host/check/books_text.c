@@ -1,4 +1,3 @@
-/* books_text.c: see books_text.h. A line for each entry, the numerical drift on a line of its own. */
 #include "books_text.h"
 
 #include <math.h>
@@ -13,18 +12,18 @@ static void account_print_level(FILE *out, const char *text, const double level[
     fprintf(out, "  %-*s %.9g -> %.9g\n", ACCOUNT_WIDTH, text, level[0], level[1]);
 }
 
-/* `more` stands behind it, or is "". */
+/* `more` follows it, or is "". */
 static void account_print_entry(FILE *out, const char *text, double given, const char *more) {
     fprintf(out, "  %-*s %+.9g%s\n", ACCOUNT_WIDTH, text, number_shown(given), more);
 }
 
-/* The last two lines: the change, and what of it is left over. */
+/* The last two lines: the change and the residual. */
 static void account_print_end(FILE *out, double change, double left) {
     account_print_entry(out, "change", change, "");
     fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "left over", left);
 }
 
-/* The two energies, and what is booked where that is not their sum. */
+/* The two energies, and the balanced energy if it differs from their sum. */
 static void print_levels(FILE *out, const books *b) {
     fprintf(out, "energy book [J]\n");
     account_print_level(out, "kinetic", b->kinetic_J);
@@ -69,7 +68,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
         account_print_end(out, b->energy_J[1] - b->energy_J[0], balance->left_J);
     } else if (!isfinite(a.left)) {
         fprintf(out, "  no balance: the energies are not finite numbers\n");
-    } else { /* the run's own books cannot be kept, and those beside it do not see the forces inside */
+    } else { /* the ledger is not available, and the balance does not see internal forces */
         account_print_entry(out, "work of inputs", b->input_J, "");
         account_print_entry(out, "losses", -b->loss_J, "");
         account_print_entry(out, contacts, a.left,
@@ -80,7 +79,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
 
 /* --- by statement ------------------------------------------------------------------------------------*/
 
-/* The entries of an account: contacts that gave nothing are not told. */
+/* The entries of an account, without contacts that gave nothing. */
 static void print_entries(FILE *out, const kept_account *kept, const char *unknown) {
     char text[ACCOUNT_WIDTH + 1];
     for (int i = 0; i < kept->entries; i++) {

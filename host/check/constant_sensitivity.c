@@ -1,4 +1,3 @@
-/* constant_sensitivity.c: see constant_sensitivity.h. */
 #include "constant_sensitivity.h"
 
 #include <math.h>
@@ -8,7 +7,8 @@
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 
-/* What each way is off, off[ways * count], of what the furthest is, each of them by itself: they have no unit in common. */
+/* Error of each way, off[ways * count], relative to the largest one. Components are scaled separately because their units
+ * differ. */
 static void add_shares(const double *off, int ways, int count, double *share) {
     for (int i = 0; i < count; i++) {
         double most = 0.0;
@@ -43,7 +43,7 @@ static void look(const image *im, image_role role, const double *x, double *shar
         }
         for (int i = 0; i < im->ways * results; i++) {
             const double now = fabs(off[i] - value[i % results]);
-            off[i] = isfinite(now) ? now : 0.0; /* a pole: told elsewhere */
+            off[i] = isfinite(now) ? now : 0.0; /* a pole: reported elsewhere */
         }
     }
     add_shares(off, im->ways, results, share);
@@ -60,7 +60,8 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* At the start, and with each component a unit further: what stands with it shows itself where others are zero. */
+/* Evaluates at the start, and with each component one unit further, because other components may be zero there and
+ * hide a factor. */
 const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;

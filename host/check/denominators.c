@@ -1,4 +1,3 @@
-/* denominators.c: see denominators.h. */
 #include "denominators.h"
 
 #include <stdlib.h>
@@ -7,19 +6,18 @@
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
 
-/* What a node is good for. */
 enum {
-    MOVES = 1U, /* depends on the state */
-    HIDDEN =
-        2U, /* and on what is none of its components: a highest derivative, what a momentum gives */
-    DIVIDES = 4U,  /* a factor of what something is divided by */
-    OF_A_TAN = 8U, /* a tangent is taken of it */
+    MOVES = 1U,    /* depends on the state */
+    HIDDEN = 2U,   /* and on values outside the state: a highest derivative, a rate recovered from a
+             * momentum */
+    DIVIDES = 4U,  /* a factor of a divisor */
+    OF_A_TAN = 8U, /* the argument of a tangent */
     NEEDED = 16U,
-    LEAPS = 32U, /* and on what an event may change at once */
+    LEAPS = 32U, /* and on values that an event may change at once */
     BENDS = 64U, /* and not in a straight line */
 };
 
-/* Places stay where they are at an event, but for those that a crossing sets. */
+/* Places are continuous at an event, unless a crossing sets them. */
 static bool leaps(const image *im, const diagnostics_node *n) {
     bool set = n->b > 0;
     for (int i = 0; i < im->set_count; i++) {
@@ -37,7 +35,7 @@ static unsigned moves_of(const image *im, const diagnostics_node *n) {
     return MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
 }
 
-/* Is it no sum of what moves, and no product of that with what stands still? */
+/* Is it nonlinear in the moving values? */
 static bool bends(const denominators *d, const diagnostics_node *n, const int *of, int count) {
     const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
     const bool second = count > 1 && (d->is[of[1]] & MOVES) != 0;
@@ -62,7 +60,7 @@ static void find_what_moves(denominators *d) {
         }
         is |= bends(d, n, of, count) ? BENDS : 0U;
         d->is[i] = (unsigned char)is;
-        d->at.value[i] = blamed_node(&d->at, n); /* of what does not move: for good */
+        d->at.value[i] = blamed_node(&d->at, n); /* constants: once and for all */
     }
 }
 
@@ -72,7 +70,7 @@ static bool is_size_or_root(const diagnostics_node *n) {
     return n->code == DIAGNOSTICS_CALL && (n->function == FN_ABS || n->function == FN_SQRT);
 }
 
-/* Divisors down to their factors: from the last node on, for operands stand before what is made of them. */
+/* Splits divisors into their factors. Starts at the last node, because operands precede their results. */
 static void find_factors(denominators *d) {
     const image *im = d->at.image;
     for (int i = im->blame.nodes - 1; i >= 0; i--) {
@@ -92,7 +90,7 @@ static void find_factors(denominators *d) {
         const bool has_factors = n->code == DIAGNOSTICS_MUL || n->code == DIAGNOSTICS_DIV ||
                                  n->code == DIAGNOSTICS_NEG || n->code == DIAGNOSTICS_SAME ||
                                  n->code == DIAGNOSTICS_POW || is_size_or_root(n);
-        if (has_factors) { /* what a divisor is divided by has been marked above */
+        if (has_factors) { /* the divisors of a divisor have been marked above */
             d->is[i] &= (unsigned char)~DIVIDES;
             mark(d, n->a, DIVIDES);
             if (n->code == DIAGNOSTICS_MUL) {
@@ -131,7 +129,7 @@ static void find_order(denominators *d) {
     }
 }
 
-/* Energies, losses, forces, equations, their slopes, and what a friction presses with. */
+/* Energies, losses, forces, equations, their slopes, and the normal forces of frictions. */
 static void find_questions(denominators *d) {
     const image *im = d->at.image;
     d->asked = alloc(im->blame.questions, sizeof *d->asked);
@@ -146,7 +144,7 @@ static void find_questions(denominators *d) {
     }
 }
 
-/* Of a system: does what moves stand before a highest derivative, so that the slope is divided by it? */
+/* Does a highest derivative of a system have a moving factor, so that the slope is divided by it? */
 static bool has_factors_that_move(const denominators *d) {
     const image *im = d->at.image;
     for (int i = 0; i < im->blame.nodes && !im->has_energies; i++) {
@@ -160,7 +158,7 @@ static bool has_factors_that_move(const denominators *d) {
     return false;
 }
 
-/* Its factors, of what is divided by in the list that solves for the slopes. */
+/* The factors of divisors in the list that solves for the slopes. */
 static void find_derived(denominators *d) {
     const op_list *t = d->at.image->list[IMAGE_BOOKS];
     bool *divides = alloc(t->count, sizeof *divides);

@@ -1,8 +1,8 @@
-/* denominators.h: what changes its sign where an expression of the file has a pole, and what may grow there.
+/* denominators.h: expressions with a sign change at a pole, and expressions that may grow there.
  *
- * Watched is what is divided by, or raised to less than nothing, down to its factors, and what a tangent is taken of. Of a
- * system whose equations have factors that move before a highest derivative, as (k + s)*s' = -v*s has, what its solution is
- * divided by. What depends on what is no component of the state, as on what a momentum gives, is not. */
+ * Watched are divisors, and bases of negative powers, down to their factors. If a system has moving factors of a highest
+ * derivative, as in (k + s)*s' = -v*s, the divisors of its solution are watched, too. Values that depend on anything
+ * outside the state, such as a rate recovered from a momentum, are not. */
 #ifndef CHECK_DENOMINATORS_H
 #define CHECK_DENOMINATORS_H
 
@@ -10,14 +10,14 @@
 #include "host/engine/vector_field.h"
 
 typedef struct divisor {
-    int node;      /* of the blame list; where `derived` an operation of the books list */
+    int node;      /* of the blame list; if `derived`, an operation of the books list */
     bool of_a_tan; /* its cosine changes its sign */
     bool derived;
     bool leaps;    /* an event may change it at once */
     bool bends;    /* it is no straight line over the state, and may touch zero */
     double before; /* the step, */
     double aside;  /* hardly on its way, */
-    double now;    /* and behind it */
+    double now;    /* and after it */
 } divisor;
 
 typedef struct denominators {
@@ -30,20 +30,21 @@ typedef struct denominators {
     bool some_bend;
     int *asked; /* [questions] those that may grow, of the image's */
     int questions;
-    vector_field *field; /* of what is derived; NULL where nothing is */
+    vector_field *field; /* of the derived divisors; NULL without any */
     double *slope;       /* [field->n] */
 } denominators;
 
 denominators denominators_open(const image *im);
 void denominators_close(denominators *d);
 
-/* At a state, angles first: what is watched; or every expression, and value[denominators_values()] of what may grow. */
+/* At a state, angles first: the watched values; or every expression, and value[denominators_values()] of those that may
+ * grow. */
 void denominators_see(denominators *d, const double *state);
 void denominators_see_all(denominators *d, const double *state, double *value);
 int denominators_values(const denominators *d);
 /* At the state that was seen last. */
 double denominators_value(const denominators *d, const divisor *of);
-/* The question of the image that one of the values stands for: of a slope, the first equation that has it. */
+/* The image's question of one of the values: for a slope, the first equation with it. */
 int denominators_question(const denominators *d, int value);
 
 #endif

@@ -1,4 +1,3 @@
-/* energy_residual.c: measuring what is left over. */
 #include "energy_residual.h"
 
 #include <math.h>
@@ -7,13 +6,13 @@
 #include "host/base/alloc.h"
 #include "slow.h"
 
-/* Roundings of a whole step that a run of one step may be off by. Of N steps it is so many times the root of N:
- * that is also N of the same sign, as a rate that grows evenly has, for runs of a thousand steps. */
+/* Round-offs of a whole step that a run of one step may be off by. N steps may be off by this times the root of
+ * N. Up to a thousand steps this also covers N errors of one sign, as of an evenly growing rate. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
 
-/* Enter what the run itself kept. */
+/* Enters the entries of the run's own ledger. */
 static void enter_kept(const image *im, const engine_kind *kind, const void *run,
                        energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
@@ -21,19 +20,19 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
         const kept_entry *e = &kept.entry[i];
         account_enter(&made->energy, e->given);
         switch (e->by) {
-        case GIVER_ENERGIES: break; /* none of the energy's */
+        case GIVER_ENERGIES: break; /* not an energy entry */
         case GIVER_FORCE:
         case GIVER_INPUT: made->inputs_J += e->given; break;
         case GIVER_DAMPER: made->losses_J += e->given; break;
         case GIVER_CONTACT: made->contacts_J += e->given; break;
-        case GIVER_STEPS: break; /* none with contacts */
+        case GIVER_STEPS: break; /* not with contacts */
         }
     }
     kept_account_free(&kept);
 }
 
-/* What steps have given back is what they had lost: it is missing as if it had not been given. Unless they gave what nothing had
- * lost, for the energy's want of digits: then it is too much. */
+/* Energy that steps gave back had been lost before, so it counts as missing. If nothing had been lost, and only the energy's
+ * round-off was corrected, it counts as excess. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
@@ -44,8 +43,8 @@ static void enter_given_back(const image *im, const engine_kind *kind, const voi
     made->energy.left = fabs(lost_J) >= fabs(made->energy.left) ? lost_J : made->energy.left;
 }
 
-/* The books beside the run see no force of a contact, and across an impact no rule of theirs holds: with contacts
- * the entries are the run's own. The levels are always those of the books, which have them in double. */
+/* The balance next to the run does not see contact forces, and its rule fails across an impact. So with contacts
+ * the entries are from the run's ledger. The levels are always those of the balance, which has them in double. */
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run) {
     energy_residual made = {.jump_s = -1.0};
     if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {
@@ -75,11 +74,11 @@ energy_residual energy_residual_of(books *b, const engine_kind *kind, const void
     made.size_J = b->size_J;
     made.computing_J = 2.0 * computing_J;
     made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + made.computing_J;
-    if (made.left_J != 0.0) { /* else there is nothing to explain */
+    if (made.left_J != 0.0) { /* otherwise there is no residual to explain */
         made.rounding_J += books_lost_J(b);
     }
     made.exact = b->image->settings.matrix == MATRIX_EXACT;
-    if (made.exact && made.left_J != 0.0) { /* the motion is right where the books are too coarse */
+    if (made.exact && made.left_J != 0.0) { /* exact motion, coarse rule */
         made.rounding_J += b->rule_J;
     }
     made.rounded = made.rounding_J / ENERGY_RESIDUAL_LIMIT > made.largest_J;
@@ -104,7 +103,7 @@ void energy_residual_print(FILE *out, const energy_residual *b) {
     }
 }
 
-/* === what the run itself kept ================================================================== */
+/* === the run's own ledger ====================================================================== */
 
 static giver giver_of(ledger_kind kind) {
     switch (kind) {

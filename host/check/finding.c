@@ -1,4 +1,3 @@
-/* finding.c: see finding.h. */
 #include "finding.h"
 
 #include "apart.h"

@@ -1,4 +1,4 @@
-/* finding.h: the findings that a run may have, their severity and their limits: the rows that all outputs are made of. */
+/* finding.h: the findings that a run may have, their severity and their limits, as rows for all outputs. */
 #ifndef CHECK_FINDING_H
 #define CHECK_FINDING_H
 
@@ -27,12 +27,12 @@ typedef enum finding_id {
  * may make a note of a warning (run_checks.c). */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
-/* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS asks the findings. A positive value is a limit of
- * the energy left over, in place of FINDING_ENERGY. */
+/* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS depends on the findings. A positive value is a
+ * limit of the energy residual, in place of FINDING_ENERGY. */
 #define STRICT_OFF (-1.0)
 #define STRICT_FINDINGS 0.0
 
-/* The one place of thresholds: a finding is told of a value beyond its limit. */
+/* The one place of thresholds: a finding is reported if its value exceeds the limit. */
 typedef struct finding_row {
     const char *word;
     finding_severity severity;
@@ -44,18 +44,18 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* What else a finding asks for, beside its row's limit. */
-/* accuracy: parts of a range. The first is told; where it grows less than GROWS times as long as the second took, and that took
- * longer than BEGIN of the run, the motion is chaotic, and no step helps. */
+/* Other thresholds of findings, besides their rows' limits. */
+/* accuracy: parts of a range. The first is reported. If it needs less than GROWS times as long as the second took, and that
+ * took longer than BEGIN of the run, the motion is chaotic, and no step helps. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* singular: part of a range by which a position is off there; as far as a run is trusted */
+/* singular: error of a position there, as a part of its range, within the trusted time */
 #define RUN_CHECKS_NEAR_TOLERANCE 1e-3
 /* energy: part of the largest entry that was missing on the way and came back; no plot shows it */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* events: the last bounces before a rest are none to tell of: parts of the largest entry, and of the steps */
+/* events: the last bounces before a rest are not reported: parts of the largest entry, and of the steps */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

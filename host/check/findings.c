@@ -1,4 +1,3 @@
-/* findings.c: see findings.h. */
 #include "findings.h"
 
 #include <inttypes.h>
@@ -22,7 +21,7 @@ enum { NAME_TEXT = 100 };
 
 #define PRIMES "''''''''''"
 
-/* --- each of them ---------------------------------------------------------------------------------------*/
+/* --- single findings ------------------------------------------------------------------------------------*/
 
 static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT]) {
     const record_column *c = &v->twins->shape->column[k];
@@ -116,7 +115,7 @@ static void say_pole(FILE *out, const run_checks *v) {
             begin_s, q->what, statement);
 }
 
-/* Did what rested on a stop slide over an edge of it? */
+/* Did a resting contact slide over an edge of its stop? */
 static bool slid_off(const run_checks *v) {
     double ignored_s;
     return pole_crossing_through(v->jumped, &ignored_s).edge;
@@ -161,7 +160,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
             plain ? "" : unit, a->at_s, a->value);
 }
 
-/* The contact with the most events in such steps, but for `besides`; -1: none had any. */
+/* The contact with the most events in such steps, except for `besides`; -1: no events. */
 static int busiest(const run_checks *v, int besides) {
     int found = -1;
     for (int k = 0; k < v->image->contacts; k++) {
@@ -245,7 +244,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
-/* So many parts of a step are tried first, by the order of the method. */
+/* The number of parts of a step to try first, from the order of the method. */
 static double first_parts(const run_checks *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
@@ -387,7 +386,7 @@ static bool starts_beyond(const image *im) {
     return found;
 }
 
-/* The first contact that pushes more than one coordinate; -1: none. */
+/* The first contact that pushes more than one coordinate; -1: there is no such contact. */
 static int pushing(const image *im) {
     const int n = im->coordinates;
     for (int k = 0; k < im->forced; k++) {
@@ -413,7 +412,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* Where a linkage lies flat, a step that misses the place knows no more of how it goes on. */
+        /* In a linkage's flat position, a step past it does not know which motion follows. */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

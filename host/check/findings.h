@@ -8,13 +8,13 @@
 #include "run_checks.h"
 
 /* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried. `fails`: the energy is an
- * error, whatever its limit. */
+ * error, whichever its limit. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
-/* A finding that is told: in words, without its name; and its subject, false if that is the whole run. */
+/* The text of a reported finding, without its name; and its subject, false if that is the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);
-/* Of a run that has ended too early, or whose energies are no numbers: an option with which it goes on, if one is found. */
+/* For a run that ended too early, or with undefined energies: an option with which it completes, if one is found. */
 void findings_say_failed(FILE *out, const run_checks *v);
 /* A step came back with `status`: the expression that was no number there, or the coordinate that left all bounds. */
 void failure_say(FILE *out, wh_status status, const run_checks *v);

@@ -1,6 +1,3 @@
-/* horizon.c: until when a run is right to a tolerance, coordinate by coordinate, as far as a run with half its step tells
- * (step_doubling.h): until the first time at which the two differ by more than the tolerance times the range that the coordinate
- * has in the whole of the finer run. What this is worth is measured in docs/dev/stability.md. */
 #include "host/check/horizon.h"
 
 #include <inttypes.h>
@@ -12,22 +9,22 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* What the bound of rounding leaves out: roundings of a step's own sums, the library's functions. */
+/* Factor for round-off outside the bound: of a step's own sums and of the library's functions. */
 #define ROUNDING_ROOM 8.0
-/* A rate that hardly varies is measured by this part of its size: of one that stays at 34.56 rad/s within 0.007 float keeps
- * no thousandth. A place is not, for its origin may be anywhere. */
+/* The least range of a rate, as a part of its size. A rate that stays at 34.56 rad/s within 0.007 has no correct thousandth
+ * in float. A place has no such floor, because its origin may be anywhere. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A place that stays where it is but for rounding moves by less than this part of its distance from the origin, or of one
- * metre or radian; or by less than that part of what others of its unit move. */
+/* A place is constant up to round-off if it moves by less than this part of its distance from the origin, or of one metre
+ * or radian. The same part applies to the motion of others of its unit. */
 #define STAYS 1e-9
-/* In float, a place that moves by less than this part of its distance stands still. */
+/* In float, a place that moves by less than this part of its distance is constant. */
 #define FLOAT_STAYS 3e-7
 #define BESIDE_OTHERS 1e-3
-/* A place whose start is computed by sums and is this part of a metre or radian, or less, is there by rounding; else by the scene. */
+/* A start that is computed by sums and is at most this part of a metre or radian is round-off. Others are the scene's. */
 #define STARTS 1e-12
-/* The bound of rounding is some twenty times what rounding does, eight times where it is alike at all states, as of a root of what
- * hardly changes. Where it does so much in the finer run, that shares it. */
+/* The bound is some twenty times the actual round-off, eight times if that is the same at all states, as for a root of a nearly
+ * constant value. If the bound is that large, the finer run has the same round-off. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -49,20 +46,20 @@ bool horizon_moves(const step_doubling *t, int k) {
     return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);
 }
 
-/* What its size is known to be at least: it stays where the scene puts it, and not by chance at one metre from nothing. */
+/* A lower bound of its size: it stays at the scene's value, and is not one metre from zero by chance. */
 static double least_size(const step_doubling_column *c) {
     const double least = c->written ? 0.0 : STARTS * c->one;
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* Do both runs share what rounding does? What stays has no range to measure that by: it may stand for want of digits where
- * rounding might move it by more than its size, or one metre or radian where it starts at none. */
+/* Does round-off affect both runs alike? A constant column has no range to compare with. It may be constant for lack of
+ * digits if round-off might move it by more than its size, or by one metre or radian if it starts at zero. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
 }
 
-/* A double has digits left for what hardly varies. */
+/* Double has enough digits for nearly constant values. */
 static double least_range(const step_doubling *t) {
     return t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
 }
@@ -76,7 +73,7 @@ static horizon_column judge(const step_doubling *t, int k, double tolerance) {
                            .off = c->off.most * t->left_out,
                            .rounding = c->rounding,
                            .until_s = passages_until_s(&c->off, level)};
-    if (t->aliased.column > 0) { /* puts off both alike, nobody knows from when on */
+    if (t->aliased.column > 0) { /* both runs are wrong, from an unknown time on */
         made.verdict = HORIZON_UNTIL;
         made.until_s = 0.0;
         return made;
@@ -135,7 +132,7 @@ void horizon_free(horizon *h) {
 
 /* === in words ================================================================================= */
 
-/* Names of columns in tables; longer ones shift what follows. */
+/* Width of column names in tables; longer ones shift the rest of the row. */
 enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
 
 static const image *image_of(const horizon *h) { return h->of->shape->image; }
@@ -194,7 +191,7 @@ static void print_column(FILE *out, const horizon *h, int k) {
     }
 }
 
-/* --- behind the horizon ------------------------------------------------------------------------------*/
+/* --- after the horizon -------------------------------------------------------------------------------*/
 
 static void print_momenta(FILE *out, const horizon *h) {
     const image *im = image_of(h);
@@ -207,7 +204,7 @@ static void print_momenta(FILE *out, const horizon *h) {
     }
 }
 
-/* What holds of a run that is not the motion any more: what its books say. */
+/* Quantities of the balance that stay correct after the run has left the motion. */
 static void print_invariants(FILE *out, const horizon *h) {
     books *b = h->of->books;
     fputs("behind its end no single value of a coordinate is to be relied on", out);
@@ -292,7 +289,6 @@ void horizon_print(FILE *out, const horizon *h) {
     print_verdict(out, h);
 }
 
-/* Why it ends where it does. */
 static void print_reason(FILE *out, const horizon *h) {
     const step_doubling *t = h->of;
     const bool cut = t->cut_s >= 0.0 && h->until_s >= t->cut_s;

@@ -1,4 +1,3 @@
-/* missed.c: see missed.h. */
 #include "missed.h"
 
 #include <float.h>
@@ -10,14 +9,14 @@
 #include "host/base/alloc.h"
 #include "taylor_bounds.h"
 
-/* Halvings of a step, and parts of it that are looked at for one contact. */
+/* Halvings of a step, and its most parts for one contact. */
 #define HALVINGS 24
 #define PARTS_MOST 400
-/* Less than this share of the gap at the ends, or of its change at its slope there, is a touch. So is less than so many times
- * the bounds' width, which is rounding. */
+/* A touch is below this share of the gap at the ends, or of its change at the slope there. It may also be below this many
+ * times the bounds' width, which is round-off. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration that both ends do not show is so many times theirs, and over a step would change the rate by this share. */
+/* A hidden acceleration is this many times those at both ends, and over a step would change the rate by this share. */
 #define HIDDEN 2.0
 #define TURNS 0.05
 /* A gap's slope that changes by this share of its size in 2^-EDGE_HALVINGS of a step has an edge there. */
@@ -27,18 +26,18 @@
 struct missed {
     const image *image;
     taylor_bounds_bounds *signals; /* or NULL */
-    taylor_bounds_bounds *accel;   /* where they are asked for, or NULL */
+    taylor_bounds_bounds *accel;   /* if there is one to test, or NULL */
     bool hills;                    /* an exponential function is in them */
     bool edges;                    /* a gap may have an edge */
-    taylor_bounds_bounds *laws;    /* of the contacts, where a friction's limits move, or NULL */
+    taylor_bounds_bounds *laws;    /* of the contacts if a friction's limits move, or NULL */
     double *from;                  /* [angles + reals] the state before the step, */
     double *to;                    /* and after it */
-    int *mode;                     /* [contacts] likewise */
+    int *mode;                     /* [contacts] the same */
     int *mode_to;
     double *most;              /* [coordinates] more is hidden from both ends */
-    const engine_piece *piece; /* the one that is looked at */
+    const engine_piece *piece; /* the present piece */
     double size;               /* the larger margin at its ends */
-    int parts;                 /* looked at, so far */
+    int parts;                 /* tested so far */
 };
 
 static bool has_exponential(const op_list *t) {
@@ -64,7 +63,7 @@ static int law_of(const image *im, int k, int row) {
     return k * (WH_LAW_ROWS + 2 * im->coordinates) + row;
 }
 
-/* A friction whose limits are no numbers. */
+/* A friction with undefined limits. */
 static bool has_moving_limits(const image *im, int k) {
     const op_list *t = im->list[IMAGE_FORCES];
     return im->contact[k].kind == WH_FRICTION &&
@@ -111,19 +110,19 @@ void missed_close(missed *m) {
 
 /* --- parts of a piece -----------------------------------------------------------------------------------*/
 
-/* Above zero: the contact stays as it is. */
+/* Positive: the contact keeps its mode. */
 static enclosure margin(const missed *m, int k, enclosure signal) {
     const bool is = m->image->contact[k].kind == WH_STOP || m->piece->mode[k] > 0;
     return is ? signal : enclosure_neg(signal);
 }
 
-/* Is what is looked at found inside on a part of the way (1), nowhere there (0), or is that open (-1)? */
+/* Is the condition met on a part of the way (1), excluded there (0), or undecided (-1)? */
 typedef int looking(missed *m, int k, double low, double high, double bar);
 
-/* The finest part: a contact as thin as that is none. */
+/* The finest part: a thinner contact does not count. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
-/* `beyond`: so far a margin may be below zero, as at an end where an event was located. */
+/* `beyond`: the largest negative margin of an end, because of the error of a located event. */
 static int look_contact(missed *m, int k, double low, double high, double beyond) {
     taylor_bounds_look(m->signals, 2 * k, low, high);
     const enclosure middle = margin(m, k, taylor_bounds_middle(m->signals, 2 * k));
@@ -178,14 +177,14 @@ static int passes(missed *m, looking *look, int k, double low, double high, doub
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
-/* What was found before, or this: the first that is sure counts. */
+/* The earlier result, or this one: the first certain one counts. */
 static missed_found or_this(missed_found found, int passed, int what) {
     return passed > 0 || (passed < 0 && found.what < 0)
                ? (missed_found){.what = what, .sure = passed > 0}
                : found;
 }
 
-/* A hold that would close has nothing to do if its expression rests all the way. */
+/* A hold that would close has no effect if its expression rests all the way. */
 static bool is_idle(missed *m, int k) {
     if (m->image->contact[k].kind != WH_HOLD || m->piece->mode[k] != WH_FREE) {
         return false;
@@ -219,8 +218,8 @@ static double middle_of(taylor_bounds_bounds *a, int result) {
     return 0.5 * e.low + 0.5 * e.high;
 }
 
-/* What friction k meets at the ends. It is the sum of its row's parts: how fast a force of 1 turns its rate, and how large
- * a force keeps it stuck, if no other contact bears on it. */
+/* The speed and load of friction k at the ends. Each is the sum of its row's parts:
+ * the acceleration of its rate by a unit force, and the force that keeps it stuck without other contacts. */
 typedef struct met {
     double turns;
     double load;
@@ -254,7 +253,8 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Has friction k, between ends at which it slides, far more to slide against, or less to keep it where it sticks? */
+/* Does friction k, which slides at both ends, have a far larger limit between, or a far smaller one that could not
+ * keep it stuck? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -292,7 +292,8 @@ static int look_edge(missed *m, int i, double low, double high, double most) {
                                                               : -1;
 }
 
-/* Does the slope of stop k's gap jump on the way? What lies on an edge all the way slides over none. */
+/* Does the slope of stop k's gap jump on the way? A contact that lies on an edge all the way slides
+ * over no edge. */
 static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {
@@ -308,8 +309,8 @@ static bool slope_jumps(missed *m, int k) {
     return some;
 }
 
-/* A stop that rests is put back onto its face at the end of each step, also where it has slid over an edge. So the way that its
- * rates at the begin lead is looked at, too. */
+/* A resting stop is put back onto its face at the end of each step, even after it slid over an edge. So the path along its
+ * rates at the begin is tested, too. */
 static missed_found edge_passed(missed *m) {
     const engine_piece *p = m->piece;
     const int n = m->image->coordinates;
@@ -345,7 +346,7 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* The coordinate whose acceleration on the way is hidden from both ends. One at rest in balance has bounds of underflow alone. */
+/* The coordinate with an acceleration on the way that neither end shows. At rest in balance the bounds are underflow alone. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
@@ -354,7 +355,7 @@ static missed_found force_passed(missed *m) {
         taylor_bounds_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {
             const enclosure value =
-                taylor_bounds_value(m->accel, i); /* an end without bounds shows nothing */
+                taylor_bounds_value(m->accel, i); /* an end without bounds proves nothing */
             const double size = enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
             m->most[i] = (end == 0 ? 0.0 : m->most[i]) + size;
         }

@@ -1,16 +1,18 @@
-/* missed.h: contacts and forces that a step passes through: a latch between two places, a crossing that is crossed back, a
- * stop, a steep hill of potential energy or a friction's narrow limit, each thinner than the way of a step. Both ends of the step are outside, so the core sees nothing of it. A step of half
- * the length sees it no better.
+/* missed.h: contacts and forces that are thinner than the way of a step. Examples are a latch between two places, a
+ * crossing that is crossed back, a stop, a steep hill of potential energy, or a friction's narrow limit. Both ends of the
+ * step are outside, so the core sees nothing of it. A step of half the length sees it no better.
  *
- * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of
- * them. Each gap and condition is bounded on it by Taylor forms (taylor_bounds.h). The way is halved until a place inside is found or
- * excluded. A contact that stays open after so many parts is reported as open. Accelerations are bounded so if an exponential
- * function is in them: far above those at both ends, and enough to turn the rate, the step has passed over a force. One that
- * stays open is reported as open. A friction's limits are bounded so if they move: it has passed over one if they are far
- * larger than at both ends where it slides, or too small to keep it where it sticks.
+ * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of them.
+ * Each gap and condition is bounded on it by Taylor forms (taylor_bounds.h). The way is halved until a place inside is found or
+ * excluded. A contact that stays undecided after the last halving is reported as undecided.
  *
- * A stop's gap with abs, max, min or sign may have edges. The core keeps what rests on one face there, and does not let it go at
- * an edge. A step in which the slope of such a gap jumps while the stop rests is reported. */
+ * Accelerations with an exponential function are bounded in the same way. A step has passed over a force if the acceleration is far
+ * above both ends and large enough to turn the rate. An undecided force is reported as undecided. Moving limits of a friction are
+ * bounded, too. A step has passed over them if a sliding friction's limits are far larger than at both ends, or a sticking
+ * friction's are too small to keep it.
+ *
+ * A stop's gap with abs, max, min or sign may have edges. The core keeps a contact on its face, and does not release it at an edge.
+ * A step is reported if the slope of such a gap jumps while the stop rests. */
 #ifndef CHECK_MISSED_H
 #define CHECK_MISSED_H
 
@@ -18,20 +20,20 @@
 
 typedef struct missed missed;
 
-/* NULL where there is neither a contact nor such a force. */
+/* NULL without any contact or exponential force. */
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
-/* `what`: the contact that a step passed through, or the number of contacts plus the coordinate whose force it passed over,
- * or -1. Not sure: it could neither be found nor excluded. */
+/* `what`: the contact that a step passed through, or the number of contacts plus the coordinate with the force, or -1. Not
+ * sure: undecided. */
 typedef struct missed_found {
     int what;
     bool sure;
-    bool edge; /* a body that rested on the stop slid over an edge of it */
+    bool edge; /* a resting body slid over an edge of its stop */
 } missed_found;
 #define MISSED_NOTHING ((missed_found){-1, false, false})
 
-/* Enter the state after each step, the start included. `eventful`: the step had events. `blind`: the state before it was not
- * entered, and nothing is looked for. */
+/* Enters the state after each step, the start included. `eventful`: the step had events. `blind`: the state before it was
+ * not entered, so it is not tested. */
 missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,
                           bool blind);
 

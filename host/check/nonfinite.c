@@ -1,4 +1,3 @@
-/* nonfinite.c: finding the expression that is no finite number. */
 #include "host/check/nonfinite.h"
 
 #include <math.h>
@@ -114,7 +113,7 @@ static void look_here(blamed *v, const nonfinite_at *at) {
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         for (int k = 0; k < u->order && k < u->starts; k++) {
-            v->state[i][k] = u->start[k]; /* of what is recovered from its momentum */
+            v->state[i][k] = u->start[k]; /* of coordinates recovered from their momenta */
         }
         v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
     }
@@ -138,7 +137,7 @@ static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bo
     return beyond && !(at->turns && turning[n->a]);
 }
 
-/* [blame.nodes]: those with an angle in them that is kept as turns; the caller frees it. */
+/* [blame.nodes]: those that depend on an angle kept as turns; the caller frees it. */
 static bool *nodes_that_turn(const image *im) {
     bool *turning = alloc(im->blame.nodes, sizeof *turning);
     for (int i = 0; i < im->blame.nodes; i++) {
@@ -202,7 +201,7 @@ static int innermost(const blamed *v, int node) {
     return part >= 0 ? part : node;
 }
 
-/* Reports `what` at `part`, where that stands in the line of the statement at `where`. */
+/* Reports `what` at `part`, the place in the line of the statement at `where`. */
 static void report(const nonfinite_at *at, place where, place part, const char *what,
                    const char *hint, diags *errors) {
     char text[STATEMENT_SIZE];
@@ -212,7 +211,7 @@ static void report(const nonfinite_at *at, place where, place part, const char *
                what, text);
 }
 
-/* Why node i, the innermost, is none. */
+/* The reason why node i, the innermost, is not finite. */
 static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     static char hint[200];
     const diagnostics_node *n = &v->image->blame.node[i];
@@ -225,7 +224,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     return sine ? hint : hint_domain;
 }
 
-/* The first question whose answer is no finite number is reported. */
+/* Reports the first question with an answer that is not finite. */
 static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
     const image_blame *b = &v->image->blame;
     for (int i = first; i < first + count; i++) {
@@ -274,7 +273,7 @@ void nonfinite_contact(const nonfinite_at *at, int k, diags *errors) {
 
 /* --- angles ------------------------------------------------------------------------------------*/
 
-/* The largest angle of which the list takes a sine, among those kept as turn angles. */
+/* The largest argument of a sine in the list, among those kept as turn angles. */
 static double largest_phase(const op_list *t, const double *angle_rad) {
     double most = 0.0;
     for (int i = 0; i < t->count; i++) {
@@ -332,7 +331,7 @@ bool nonfinite_energies(const image *im, const engine_kind *kind, const double *
 
 /* --- a step that failed ------------------------------------------------------------------------*/
 
-/* Holds that close a linkage leave it more than one motion where it lies flat (core/contact/contact_rank.h). */
+/* Holds that close a linkage permit several motions in its flat position (core/contact/contact_rank.h). */
 static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     char text[STATEMENT_SIZE];
     statement_text(where, text, sizeof text);

@@ -1,7 +1,7 @@
-/* nonfinite.h: which expression of a scene is not a finite number, for messages.
+/* nonfinite.h: locates the expression of a scene that is not a finite number, for messages.
  *
- * A step that fails keeps the last good state, so what failed lies ahead of it: the expressions are looked at
- * there and at a few places on the way that the state was about to go. */
+ * A failed step keeps the last good state, so the failure lies ahead of it. The expressions are evaluated
+ * there and at a few places along the rates. */
 #ifndef CHECK_NONFINITE_H
 #define CHECK_NONFINITE_H
 
@@ -20,38 +20,38 @@ typedef struct blamed {
 blamed blamed_open(const image *im);
 void blamed_close(blamed *b);
 
-/* The components of a state, as engine_kind.state() gives them; what is none of them stays. */
+/* Sets the components of a state, as engine_kind.state() gives them; all other values stay. */
 void blamed_place(blamed *b, const double *angle_rad, const double *real);
-/* The value of a node whose operands have theirs. */
+/* The value of a node, from the values of its operands. */
 double blamed_node(const blamed *b, const diagnostics_node *n);
 /* Its operands, and how many it has. */
 int blamed_operands(const diagnostics_node *n, int of[static 2]);
-/* [node + 1]: the nodes that this one is made of, itself among them; the caller frees it. */
+/* [node + 1]: the operands of this node, recursively, with itself; the caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
 /* Radians beyond which neither build knows the sine of a real (core/angle.h); float keeps turn angles beyond. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
-/* Where to look: of one run. The image is one that is to run: it has the expressions as they were written. */
+/* The place of a failure in one run. The image is one to run: it has the expressions as written. */
 typedef struct nonfinite_at {
     const image *image;
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
     bool turns;              /* angles are integers (float): their sine is known everywhere */
-    double ahead_steps;      /* look so far ahead: 0 for the state itself */
+    double ahead_steps;      /* distance of the evaluation: 0 for the state itself */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
-/* Each reports the first that it finds, with its place and its statement's text; false when it finds none. */
+/* Each reports the first one that it finds, with its place and its statement's text; false: not found. */
 
-/* An angle whose sine is not known. */
+/* An angle with an unknown sine. */
 bool nonfinite_angle(const nonfinite_at *at, diags *errors);
 /* A kinetic or stored energy, a loss, a force or an equation, or its slope. */
 bool nonfinite_term(const nonfinite_at *at, diags *errors);
-/* What a crossing sets. */
+/* The value that a crossing sets. */
 bool nonfinite_set(const nonfinite_at *at, diags *errors);
-/* Of contact k. Always reports: when the expression cannot be told, the contact as a whole. */
+/* Of contact k. Always reports: the contact as a whole if the expression is not found. */
 void nonfinite_contact(const nonfinite_at *at, int k, diags *errors);
 
 /* Why the energies of a run were no numbers at this time. */

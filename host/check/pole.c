@@ -1,4 +1,3 @@
-/* pole.c: see pole.h. */
 #include "pole.h"
 
 #include <math.h>
@@ -8,29 +7,29 @@
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
 
-/* A place is halved down to what a share of the way has digits for. */
+/* Halvings until a share of the way has no more digits. */
 enum { HALVINGS = 56 };
-/* Where rounding hides how a value goes on, it is asked from so much farther off. */
+/* Factor of the distance if round-off hides the growth of a value. */
 #define FARTHER 2.5
-/* A smooth expression has few zeros on its way to a pole; what rounding left has now this sign and now that, at distances
- * that are so much farther each time. */
+/* A smooth expression has few zeros on its way to a pole. Round-off alternates its sign, at distances that grow by
+ * FURTHER. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
-/* What touches nothing leaves so much less of itself there than at either end. */
+/* A value that touches zero is at most this part of both ends there. */
 #define TOUCHES 1e-3
-/* The least of what is even is found by golden sections, until no digits are left of where it is. */
+/* The least point of an even value is found by golden sections, to the last digit of its place. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
-/* Places that are none, with more parts of the way about them. */
+/* Rejected places, each with more parts of the way around it. */
 enum { PARTS_MOST = 16 };
 
-/* It is asked at so many distances, each GROWTH_CLOSER times nearer than the one before. */
+/* Number of sampled distances, each GROWTH_CLOSER times nearer than the one before. */
 enum { GROWTH_POINTS = 10 };
 #define GROWTH_CLOSER 1.7099759466766968 /* the third root of 5 */
-/* The farthest of them, of the nearest. */
+/* The farthest distance, relative to the nearest. */
 #define GROWTH_REACH 125.0
-/* What grows beyond all numbers was so large before. */
+/* A value that overflows must have been this large before. */
 #define GROWTH_BEYOND 1e60
 
 typedef enum growth {
@@ -39,10 +38,10 @@ typedef enum growth {
     GROWTH_POLE   /* evenly */
 } growth;
 
-/* Each time, at least, a pole grows 1.71 times; one over the distance to the 9/10 grows 1.62 times. No power of two: numbers with
- * the same digits are rounded alike, and what that leaves would grow as evenly. */
+/* Least growth of a pole at each distance. A pole grows by 1.71, the distance to the power -9/10 by 1.62. The ratio of distances
+ * is no power of two: numbers with the same digits have the same round-off, which would look like even growth. */
 #define GROWS 1.64
-/* What goes on evenly changes as much each time, but for this. */
+/* Growth is even if its ratios differ by less than this factor. */
 #define EVEN 1.1
 
 typedef struct part {
@@ -60,14 +59,14 @@ typedef struct looker {
     double *touch; /* [4 * signs] */
 } looker;
 
-/* How value[k * stride] goes on, at the k-th distance, the farthest first. */
+/* The growth of value[k * stride] at the k-th distance, the farthest first. */
 static growth growth_of(const double *value, int stride) {
     double least = (double)INFINITY;
     double most = 0.0;
     for (int k = 1; k < GROWTH_POINTS; k++) {
         const double before = value[(k - 1) * stride];
         const double now = value[k * stride];
-        const double by = before == now ? 1.0 : now / before; /* both may be nothing */
+        const double by = before == now ? 1.0 : now / before; /* both may be zero */
         if (isinf(now) && isfinite(before) && fabs(before) > GROWTH_BEYOND) {
             return GROWTH_POLE;
         }
@@ -83,7 +82,7 @@ static growth growth_of(const double *value, int stride) {
     return least > GROWS ? GROWTH_POLE : GROWTH_NONE;
 }
 
-/* The first that changes its sign in this part; -1: none. */
+/* The first that changes its sign in this part, or -1. */
 static int changes(const looker *l) {
     for (int i = 0; i < l->way->signs; i++) {
         if ((l->sign[i] < 0.0 && l->then[i] > 0.0) || (l->sign[i] > 0.0 && l->then[i] < 0.0)) {
@@ -101,12 +100,12 @@ bool pole_may_touch(const double value[static 4]) {
     if (!(falls > 0.0 && rises > 0.0) || value[0] * value[3] < 0.0) {
         return false;
     }
-    /* where the tangents meet */
+    /* crossing of the tangents */
     const double share = (begin - end + rises) / (falls + rises);
     return begin - falls * share <= TOUCHES * number_least(begin, end);
 }
 
-/* The first that may touch zero in this part; -1: none. */
+/* The first that may touch zero in this part, or -1. */
 static int touches(const looker *l, part p) {
     const double aside = POLE_ASIDE * (p.high - p.low);
     const double share[4] = {p.low, p.low + aside, p.high - aside, p.high};
@@ -125,13 +124,11 @@ static int touches(const looker *l, part p) {
     return -1;
 }
 
-/* How large it is there. */
 static double size_at(const looker *l, int i, double share) {
     l->way->at(l->way->of, share, l->then, l->value);
     return fabs(l->then[i]);
 }
 
-/* Where it is least. */
 static double least_of(const looker *l, int i, part p) {
     double lower = p.high - GOLDEN * (p.high - p.low);
     double upper = p.low + GOLDEN * (p.high - p.low);
@@ -155,7 +152,7 @@ static double least_of(const looker *l, int i, part p) {
     return 0.5 * (p.low + p.high);
 }
 
-/* The part that is left of it. */
+/* The part that contains it. */
 static part halve(const looker *l, int i, part p) {
     const bool rises = l->sign[i] < 0.0;
     for (int k = 0; k < HALVINGS; k++) {
@@ -170,7 +167,7 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Does value i change its sign again and again from `from` off the place to `most`? Then it is what rounding left. */
+/* Does value i change its sign again and again from `from` off the place to `most`? Then it is round-off. */
 static bool is_rounding(const looker *l, int i, double place, double from, double most) {
     double before = 0.0;
     double off = from;
@@ -184,8 +181,8 @@ static bool is_rounding(const looker *l, int i, double place, double from, doubl
     return turns >= TURNS_MOST;
 }
 
-/* Beyond all numbers from `from` off the place on: was it as large before, to the end of the way? A difference of which rounding
- * leaves nothing was not. */
+/* The value overflows at `from` off the place. Was it very large before, up to the end of the way? A difference that cancels to
+ * zero was not. */
 static bool overflows(const looker *l, int i, double place, double from) {
     const double most = from < 0.0 ? place : 1.0 - place;
     double off = from;
@@ -196,21 +193,21 @@ static bool overflows(const looker *l, int i, double place, double from) {
     return fabs(l->value[i]) > GROWTH_BEYOND;
 }
 
-/* Where values are asked for a pole. */
 typedef struct spot {
     part in;
     double place;
     double nearest; /* from so near on */
-    int of;         /* whose sign changes there, */
+    int of;         /* the value with the sign change there, */
     bool touches;   /* or only touches zero */
 } spot;
 
 /* Some nearest of the points, and one that is nine times as far off as the nearest. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
-/* Of what is left there. */
+/* Tolerance of the value at the place. */
 #define LEFT 0.05
 
-/* Does it stand off zero, as y^2 + x^2 does, what is left at the place beside a square being no rounding? */
+/* Does it stay off zero there, as y^2 + x^2 does? Yes if the value left after removing the square agrees
+ * with the one at the place. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -232,7 +229,7 @@ static bool is_there(const spot *s, const double *over) {
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
 }
 
-/* The first value with a pole at the place, seen from `far` off on this side; -1: none. */
+/* The first value with a pole at the place, seen from `far` off on this side, or -1. */
 static int grows_from(const looker *l, const spot *s, double place, double far) {
     const int values = l->way->values;
     const double extent = far < 0.0 ? place - s->in.low : s->in.high - place;
@@ -259,11 +256,11 @@ static int grows_from(const looker *l, const spot *s, double place, double far) 
     return -1;
 }
 
-/* So many times as far off as the nearest point the place is looked for. */
+/* The zero is searched at this many times the distance of the nearest point. */
 #define ASIDE 5.0
 
-/* Where it is nothing, by its sizes on both sides of about there: (a - e)^order and (a + e)^order differ by order*e/a of them. Of
- * what changes its sign like a line the place is known already. */
+/* The zero, from the sizes on both sides of the estimate: (a - e)^order and (a + e)^order differ by the part order*e/a. The place
+ * of a simple zero is known already. */
 static double centred(const looker *l, const spot *s, double aside) {
     const double before = size_at(l, s->of, s->place - aside);
     const double behind = size_at(l, s->of, s->place + aside);
@@ -281,7 +278,7 @@ static bool all_done(const looker *l) {
     return done == l->way->values;
 }
 
-/* The first value with a pole at the spot, on one side. From the nearest on: what goes on evenly there is a pole, or none. */
+/* The first value with a pole at the spot, on one side. The nearest distances with even growth decide. */
 static int pole_on_side(const looker *l, const spot *s, double side) {
     int found = -1;
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
@@ -300,8 +297,8 @@ static int pole_at(const looker *l, const spot *s) {
     return found >= 0 ? found : pole_on_side(l, s, 1.0);
 }
 
-/* The value with a pole where one changes its sign in this part, or may touch zero: *at is what is left of that place, from
- * `low` to `high`, or nothing. -1: none. */
+/* The value with a pole at a sign change in this part, or at a possible touch of zero, or -1. *at is the located interval,
+ * from `low` to `high`, or empty. */
 static int pole_in(const looker *l, part p, part *at) {
     l->way->at(l->way->of, p.low, l->sign, l->value);
     l->way->at(l->way->of, p.high, l->then, l->value);

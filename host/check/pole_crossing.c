@@ -1,4 +1,3 @@
-/* pole_crossing.c: see pole_crossing.h. */
 #include "pole_crossing.h"
 
 #include <math.h>
@@ -10,7 +9,7 @@
 #include "host/number/functions.h"
 #include "pole.h"
 
-/* Not where the way to a pole is less than this part of what moves: there nothing but rounding grows. */
+/* No test if the way to a pole is less than this part of the moving value, where only round-off grows. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {
@@ -18,7 +17,7 @@ struct pole_crossing {
     int components;
     denominators of;
     double *from; /* [components] angles, then reals: the state before the step, */
-    double *to;   /* and behind it */
+    double *to;   /* and after it */
     uint64_t events;
     bool leapt; /* in this step there were some */
     bool blind; /* the state before it is not known */
@@ -58,7 +57,7 @@ void pole_crossing_close(pole_crossing *j) {
 
 /* --- the way of a step --------------------------------------------------------------------------------*/
 
-/* Rates that an impact turns pass nothing. */
+/* Rates that jump at an impact pass through no pole. */
 static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
 
 /* How far this component goes in the step: turn angles are given within a turn. */
@@ -91,7 +90,8 @@ static double relative_way_of(const pole_crossing *j, int c) {
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
 }
 
-/* The most of those that this divisor depends on; what is derived may depend on any. */
+/* The largest relative way of the components that this divisor depends on; a derived divisor may
+ * depend on any. */
 static double relative_way(const pole_crossing *j, const divisor *d) {
     double most = 0.0;
     for (int c = 0; c < j->components && d->derived; c++) {
@@ -112,7 +112,7 @@ static double relative_way(const pole_crossing *j, const divisor *d) {
     return most;
 }
 
-/* The first question with a pole on the way; -1: none. */
+/* The first question with a pole on the way, or -1. */
 static int pole_between(pole_crossing *j) {
     double *nearest = alloc(j->of.count, sizeof *nearest);
     for (int i = 0; i < j->of.count; i++) {
@@ -141,7 +141,7 @@ static bool changes_sign(const divisor *d) {
     return (d->before < 0.0 && d->now > 0.0) || (d->before > 0.0 && d->now < 0.0);
 }
 
-/* May one of those that are no straight lines have come to nothing, and kept its sign? */
+/* May a nonlinear one have touched zero without a change of sign? */
 static bool may_touch(pole_crossing *j) {
     double state[3 * IMAGE_COMPONENTS_MAX];
     if (!j->of.some_bend) {

@@ -1,4 +1,3 @@
-/* remedy.c: see remedy.h. */
 #include "remedy.h"
 
 #include <stdio.h>
@@ -11,7 +10,7 @@
 #define LEAVES 0.3
 /* No more parts of a step are tried. */
 #define PARTS_MOST 20000.0
-/* A float's sums are compensated where they are made of so many more steps. */
+/* A float's sums are compensated if they have this many times more steps. */
 #define COMPENSATED_FROM 10.0
 
 typedef struct search {
@@ -32,7 +31,7 @@ typedef struct wish {
     bool in_double;
 } wish;
 
-/* The same scene with it; false where no whole number of steps counts that, or it would be the same run. */
+/* The same scene with it; false if the number of steps is not whole, or if it would be the same run. */
 static bool image_with(const image *im, const wish *w, image *made) {
     *made = *im;
     made->settings.method = w->method;
@@ -77,7 +76,7 @@ static bool see(void *of, uint64_t step) {
     return !pole_crossing_some(v->jumped);
 }
 
-/* What steps with contacts take depends on their events: that is not foreseen. */
+/* Steps with contacts cost more with events, which are not predicted. */
 static double operations(const search *s, const image *with) {
     return with->contacts > 0 ? 0.0
                               : (double)with->steps * s->a_step *
@@ -99,7 +98,7 @@ static bool try(search *s, const wish *w) {
     v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
-    wh_status status = WH_OK; /* without a finer run nothing is known of it */
+    wh_status status = WH_OK; /* without a finer run its error is unknown */
     const loop_end end = v->twins != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     run_checks_end(v, status);
     const bool good = end == LOOP_DONE && does(v);
@@ -109,7 +108,7 @@ static bool try(search *s, const wish *w) {
     return good;
 }
 
-/* In the run's number; of a float's, in double where that does not do. */
+/* In the run's number; after a failure in float also in double. */
 static bool try_either(search *s, wish *w) {
     if (try(s, w)) {
         return true;

@@ -1,4 +1,3 @@
-/* run_checks.c: see run_checks.h. */
 #include "run_checks.h"
 
 #include <math.h>
@@ -43,7 +42,7 @@ void run_checks_close(run_checks *v) {
     }
 }
 
-/* Steps with more events than they take, and whose events these were. */
+/* Counts steps with too many events, and the contacts of these events. */
 static void watch_events(run_checks *v) {
     uint64_t overruns;
     const double energy_J = v->books != NULL ? v->books->energy_J[1] : 0.0;
@@ -62,15 +61,15 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The part of the budget that is left beyond what the steps to come may take. Below 0, what is less important than the finer run is
- * not looked at: so it is now and then in all of the run, and not at its begin alone. */
+/* The part of the budget beyond the needs of the remaining steps. Below 0, checks less important than the finer run are skipped. So
+ * they are spread over all of the run, not done at its begin alone. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
     return budget_left(v->budget) / BUDGET_LEAST - share;
 }
 
-/* Further below than this the finer run alone takes too much, and would not come to its end. */
+/* Below this the finer run alone costs too much, and would not finish. */
 #define BEHIND (-1.0 / 16.0)
 
 void run_checks_enter(run_checks *v) {
@@ -113,7 +112,7 @@ static double end_s(const run_checks *v) {
     return ratio_times(v->kind->steps(v->run), v->image->step);
 }
 
-/* Is it right to the end, as far as the finer run tells? */
+/* Is it accurate to the end, according to the finer run? */
 static bool is_right(const run_checks *v) {
     if (v->twins == NULL) {
         return false;
@@ -124,7 +123,7 @@ static bool is_right(const run_checks *v) {
     return right;
 }
 
-/* Where the rule that integrates powers may be off by as much as is left over, the finer run decides. */
+/* If the error of the integration rule may be as large as the residual, the finer run decides. */
 static void judge_energy(run_checks *v) {
     const energy_residual *b = &v->balance;
     if (!b->known || b->exact) {
@@ -157,7 +156,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     const double own = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
-    double fastest = own; /* of the finer run as well: float's may stand still */
+    double fastest = own; /* of the finer run as well: float's may be zero */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         if (c->unknown == unknown && c->primes == 1) {
@@ -168,7 +167,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* An angle of a float run goes by units, and is off by two of them at any time. */
+/* An angle of a float run moves by units, and is always uncertain by two of them. */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->twins->column[k];
     const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
@@ -176,7 +175,7 @@ static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
            own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
 }
 
-/* Beside contacts rates jump, and are off for the steps in which two runs do not jump together. */
+/* Rates jump at contacts, and differ for the steps in which two runs do not jump together. */
 static bool is_asked(const run_checks *v, int k) {
     const record_column *c = &v->twins->shape->column[k];
     return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->twins, k) &&
@@ -188,8 +187,8 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* The column that is right to a hundredth for the shortest time, where its error has grown as a power of the time at most: -1: none.
- * What a chaotic motion makes of it grows faster, and no step helps; the line of trust tells that. */
+/* The column that is accurate to a hundredth for the shortest time and has an error that grew as a power of time at most, or -1. In
+ * a chaotic motion errors grow faster, and no step helps; the accuracy line reports that. */
 static int first_off(const run_checks *v, const horizon *h) {
     const step_doubling *t = v->twins;
     int found = -1;
@@ -220,7 +219,7 @@ static void judge_accuracy(run_checks *v) {
     horizon_free(&h);
 }
 
-/* Where a position goes off, or did before, singular coordinates are the likely reason. */
+/* If a position is or was wrong, singular coordinates are the likely reason. */
 static void judge_singular(run_checks *v) {
     const run_monitor_singular *s = &v->watch->singular;
     if (s->inertia > finding_rows[FINDING_SINGULAR].limit) {

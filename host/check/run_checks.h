@@ -1,9 +1,9 @@
-/* run_checks.h: can a run be relied on? Findings against a run, made while it goes on and at its end.
+/* run_checks.h: findings against a run, made while it goes on and at its end.
  *
- * Two looks judge every run: a finer run beside it, in double (step_doubling.h), and what its energy books leave over (energy_residual.h). The others
- * see faults that both may share: a matrix or a coordinate that is singular, a pole or a contact that a step jumped over, forcing
- * that aliases with the step, steps with more events than they take, too few digits. `whirl run` and `whirl sweep` ask here, so that
- * they tell the same of the same point. Nothing of it touches the run. docs/warnings.md has the cures. */
+ * Two checks judge every run: a finer run in double (step_doubling.h), and the energy residual (energy_residual.h). The others find
+ * faults that both may miss. These are a singular matrix or coordinate, a pole or a contact that a step jumped over, forcing that
+ * aliases with the step, steps with too many events, and too few digits. `whirl run` and `whirl sweep` share these checks, so that
+ * both report the same for the same point. The checks never change the run. docs/warnings.md has the cures. */
 #ifndef CHECK_RUN_CHECKS_H
 #define CHECK_RUN_CHECKS_H
 
@@ -12,12 +12,12 @@
 #include "host/check/horizon.h"
 #include "run_monitor.h"
 
-/* Of a run: finding `id` is told, */
+/* Of a run: finding `id` is reported, */
 typedef struct finding {
     bool told;
     double value;  /* by this value, in the row's unit, */
     double at_s;   /* at or from this time on; below 0: all the time */
-    int component; /* and of this component or contact; -1: none */
+    int component; /* and of this component or contact, or -1 */
 } finding;
 
 typedef struct run_checks {
@@ -26,15 +26,15 @@ typedef struct run_checks {
     void *run;
     const image *plain; /* of the finer run */
     budget own;
-    budget *budget; /* pays for all looks: its own, or another's */
+    budget *budget; /* shared by all checks: its own, or another's */
     double part;    /* of the limits of energy and accuracy: 1; a remedy is judged by less */
     books *books;   /* NULL of a system given by its equations */
     run_monitor *watch;
-    pole_crossing *jumped; /* NULL: over nothing */
+    pole_crossing *jumped; /* NULL: no pole */
     step_doubling *twins;  /* NULL: it would take too long */
     bool unaliased;        /* the budget was too small for the third run */
     uint64_t overruns;
-    double overran_s;                        /* the first of them began there */
+    double overran_s;                        /* begin of the first such step */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in them */
     double taken_J;                          /* by how much the energy changed in them */
     double energy_J;                         /* after the last step */
@@ -43,8 +43,8 @@ typedef struct run_checks {
     unsigned against; /* the warnings of the run among them, as bits */
 } run_checks;
 
-/* `plain`: the finer run's image (step_doubling_plain()); NULL: the image itself. `of` pays for all of it; NULL: the verdict has a
- * budget of its own, which the loop of the run fills. All must outlive the verdict. */
+/* `plain`: the finer run's image (step_doubling_plain()); NULL: the image itself. `of`: the budget; NULL: the verdict has its own,
+ * which the loop of the run fills. All must outlive the verdict. */
 run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
                             budget *of);
 void run_checks_close(run_checks *v); /* NULL is fine */

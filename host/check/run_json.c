@@ -1,4 +1,3 @@
-/* run_json.c: see run_json.h. */
 #include "run_json.h"
 
 #include <stdlib.h>

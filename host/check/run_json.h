@@ -12,10 +12,10 @@ typedef struct run_json_wish {
     const struct run_checks *verdict;
     const records *records; /* with the last state */
     const char *said;       /* the findings, or why the run failed, with hints; or NULL */
-    double until_s;         /* trusted; below 0: unknown */
+    double until_s;         /* accurate until then; below 0: unknown */
     bool failed;
     int status;                       /* exit status */
-    const char *file[RUN_JSON_FILES]; /* that were asked for; or NULL */
+    const char *file[RUN_JSON_FILES]; /* the requested files; or NULL */
 } run_json_wish;
 
 void run_json(FILE *out, const run_json_wish *w);

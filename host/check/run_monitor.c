@@ -1,4 +1,3 @@
-/* run_monitor.c: see run_monitor.h. */
 #include "run_monitor.h"
 
 #include <math.h>
@@ -9,8 +8,8 @@
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
-/* The mass matrix is asked for when the accelerations change so in a step that a rate changes by this part of its range less or more
- * than they said, and by so much more than at any time before. */
+/* The mass matrix is tested after a step in which a rate changed by this part of its range less or more than its acceleration
+ * predicted. That difference must exceed all earlier ones by the same part. */
 #define LOOK_AT 0.02
 #define LOOK_LARGER 1.1
 
@@ -75,7 +74,7 @@ static double least_pivot(run_monitor *w, const double *x, int *row) {
     return least;
 }
 
-/* The position that changes the diagonal entry of this row most, of those moved by a thousandth of their range. */
+/* The position with the largest influence on the diagonal entry of this row, by a thousandth of its range. */
 static int position_near(run_monitor *w, const double *x, int row) {
     const int n = w->field->n;
     const int rows = w->field->rows;
@@ -113,8 +112,8 @@ static void look(run_monitor *w, const double *x) {
     }
 }
 
-/* Did a rate change in the last step less or more than the acceleration at its begin says, by a part of its range, and by more than
- * ever before? */
+/* Did a rate change in the last step less or more than the acceleration at its begin predicts, by a part of its range, and by more
+ * than ever before? */
 static bool bends_most(run_monitor *w) {
     bool bends = false;
     for (int i = 0; i < w->field->n; i++) {
@@ -128,7 +127,7 @@ static bool bends_most(run_monitor *w) {
     return bends;
 }
 
-/* The books have the highest derivatives already. */
+/* The balance has the highest derivatives already. */
 static void read_slopes(run_monitor *w, const books *b, const double *x) {
     const int n = w->field->n;
     memcpy(w->slope + n, w->slope, (size_t)n * sizeof *w->slope);

@@ -1,17 +1,17 @@
-/* run_monitor.h: the range of each component of a run, and the place at which its coordinates came closest to a singular one.
+/* run_monitor.h: the range of each component of a run, and the place where its coordinates came closest to a singularity.
  *
- * A singular place has a mass matrix with a pivot of nearly nothing. The matrix is eliminated after steps in which the accelerations
- * changed most so far, so that a run asks for it as often as the logarithm of that change. Scenes with contacts are not asked: their
- * accelerations jump. Nothing of it touches the run. */
+ * At a singular place a pivot of the mass matrix is nearly zero. The matrix is eliminated only after steps with the largest change
+ * of the accelerations so far. So the number of eliminations grows as the logarithm of that change. Scenes with contacts are not
+ * tested: their accelerations jump. The monitor never changes the run. */
 #ifndef CHECK_RUN_MONITOR_H
 #define CHECK_RUN_MONITOR_H
 
 #include "books.h"
 #include "host/engine/vector_field.h"
 
-/* Where a pivot of the mass matrix was least, of the largest that its diagonal entry had. */
+/* The least pivot of the mass matrix, relative to the largest value of its diagonal entry. */
 typedef struct run_monitor_singular {
-    double inertia; /* 1 where it was not asked for */
+    double inertia; /* 1 without a test */
     int component;  /* the rate that it is of, */
     double at_s;
     int near;       /* the position that makes it singular, or -1, */
@@ -27,14 +27,14 @@ typedef struct run_monitor {
     double *slope;  /* [2 * n] now, before */
     double *mass;   /* [rows * rows] */
     double *most;   /* [rows] largest diagonal entries seen */
-    double *change; /* [n] the largest change of its slope in a step, looked at */
+    double *change; /* [n] the largest change of its slope in a tested step */
     bool looks;     /* for singular places */
     run_monitor_singular singular;
 } run_monitor;
 
 run_monitor *run_monitor_open(const image *im, const engine_kind *kind);
 void run_monitor_close(run_monitor *w); /* NULL is fine */
-/* Enter the state after each step, the start included, after the books; `b` may be NULL. */
+/* Enters the state after each step, the start included, after the balance; `b` may be NULL. */
 void run_monitor_enter(run_monitor *w, const engine_kind *kind, const books *b, const void *run);
 
 #endif

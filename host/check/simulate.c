@@ -1,4 +1,4 @@
-/* simulate.c: the loop of a run and what surrounds it. */
+/* simulate.c: the loop of a run, with its records, plots and messages. */
 #include "simulate.h"
 
 #include <inttypes.h>
@@ -44,11 +44,11 @@ typedef struct simulation {
     bool write_failed;
     double shown_s;   /* when progress was, of the clock */
     char *said;       /* the findings */
-    diags *undefined; /* what was not a finite number beside the motion */
+    diags *undefined; /* values beside the motion that were not finite */
     bool energies_told;
     int output;           /* the first output that was not a finite number, or -1, */
     double output_s;      /* when, */
-    double trusted_s;     /* behind it the plot is shaded; not above 0: nowhere */
+    double trusted_s;     /* the plot is shaded after it; not above 0: nowhere */
     uint64_t output_rows; /* in how many of the records and points */
 } simulation;
 
@@ -58,7 +58,7 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* True when the file is open or there is none to open. */
+/* True if the file is open or there is no file to open. */
 static bool open_records(const char *name, FILE **file) {
     if (name != NULL) {
         *file = atomic_file_open(name);
@@ -93,7 +93,7 @@ static bool open_files(simulation *sim) {
     return true;
 }
 
-/* Energies that are no numbers end as a failed run: the motion goes on, and so do its records. */
+/* Undefined energies make a run fail at its end: the motion goes on, and so do its records. */
 static void tell_energies(simulation *sim) {
     const books *b = sim->verdict->books;
     if (b == NULL || !b->undefined || sim->energies_told) {
@@ -108,7 +108,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* The same of the outputs, where they are recorded or drawn, and at the end. */
+/* The same for outputs that are recorded or drawn, and for all at the end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -146,8 +146,8 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
-/* An event of the step that was done, unless the last one is as near that no picture shows both. Lifting off a stop is
- * none. */
+/* Marks an event of the completed step, unless the last mark is too near for a picture to show both. Lifting off a
+ * stop is not marked. */
 static void mark_events(simulation *sim, uint64_t step) {
     engine_event list[WH_EVENT_LOG];
     plot_run *to = &sim->course;
@@ -163,7 +163,6 @@ static void mark_events(simulation *sim, uint64_t step) {
     }
 }
 
-/* Enter the present state wherever it belongs. */
 static void enter(simulation *sim, uint64_t step) {
     const bool record =
         has_records(sim) && (step % sim->settings->every == 0 || step == sim->steps);
@@ -225,7 +224,7 @@ static wh_status go(simulation *sim, bool *ended) {
     return status;
 }
 
-/* Said with --quiet, too: what was asked for is not what there is. */
+/* Printed with --quiet, too, because the result is incomplete. */
 static void say_interrupted(const simulation *sim) {
     const uint64_t done = sim->settings->kind->steps(sim->run);
     const double step_s = sim->image->step_s;
@@ -233,7 +232,7 @@ static void say_interrupted(const simulation *sim) {
             (double)sim->steps * step_s, has_records(sim) ? "; the records so far are kept" : "");
 }
 
-/* Held at an end of their ranges, which is no error of the run's but hardly what was meant. */
+/* Values that were clamped to their ranges: not an error of the run, but hardly intended. */
 static void say_saturated(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const uint64_t held = kind->saturated != NULL ? kind->saturated(sim->run) : 0;
@@ -275,11 +274,10 @@ static void say_failure(simulation *sim, wh_status status) {
     fputs(sim->said, stderr);
 }
 
-/* What the run came to, and the words for it. */
 static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
-    if (status != WH_OK) { /* which says why the energies are no numbers either */
+    if (status != WH_OK) { /* this also explains undefined energies */
         say_failure(sim, status);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
@@ -295,7 +293,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     }
     const books *b = sim->verdict->books;
     if (status == WH_OK && b != NULL && b->undefined &&
-        sim->output < 0) { /* of outputs a cure knows nothing */
+        sim->output < 0) { /* cures do not apply to outputs */
         findings_say_failed(stderr, sim->verdict);
     }
     if (status != WH_OK || undefined) {
@@ -334,7 +332,7 @@ static void name_course(simulation *sim) {
     free(label);
 }
 
-/* Beside a CSV file of its own name: what it was run from. */
+/* Writes the settings next to a CSV file of the same name. */
 static bool write_about(const simulation *sim) {
     char *facts = about_facts(sim->image, sim->settings->kind, sim->run);
     char *tables = about_tables(sim->image);
@@ -344,12 +342,12 @@ static bool write_about(const simulation *sim) {
     return written;
 }
 
-/* Whether all of it is on its way. Standard output is checked at the program's end. */
+/* Has all of it been written? Standard output is checked at the program's end. */
 static bool is_taken(FILE *file) {
     return file == NULL || file == stdout || (fflush(file) == 0 && ferror(file) == 0);
 }
 
-/* All of the records and the file about them, or none, replace the old ones. */
+/* All of the records and the file about them replace the old ones, or all old ones stay. */
 static bool close_records(simulation *sim, bool keep) {
     const simulation_settings *s = sim->settings;
     struct stat there;
@@ -362,7 +360,7 @@ static bool close_records(simulation *sim, bool keep) {
     return atomic_file_close(sim->vcd, s->vcd, keep) && good;
 }
 
-/* The picture, or what it is made of for the caller. */
+/* The picture, or its data for the caller. */
 static bool finish_course(simulation *sim) {
     if (sim->plot != NULL) {
         sim->course.data = decimation_rows(sim->plot, &sim->course.rows);

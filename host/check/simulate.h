@@ -1,4 +1,4 @@
-/* simulate.h: one run from start to end, with records, books, progress and summary. */
+/* simulate.h: one run from start to end, with records, balance, progress and summary. */
 #ifndef CHECK_SIMULATE_H
 #define CHECK_SIMULATE_H
 
@@ -14,37 +14,35 @@ typedef struct simulation_settings {
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
     const char *vcd;     /* file of a value change dump, "-" for standard output, or NULL */
     const char *plot;    /* a picture (host/io/gnuplot.h), or NULL */
-    plot_choice choice;  /* of what it shows */
-    plot_run *taken;     /* takes what a picture is made of in place of a picture; or NULL */
+    plot_choice choice;  /* of its contents */
+    plot_run *taken;     /* takes the data of a picture instead of drawing one; or NULL */
     const char *chosen;  /* why this step, in words, or NULL */
     const char *changes; /* of the scene, in words, or NULL */
-    bool no_scene;       /* a mechanism as it is */
+    bool no_scene;       /* a bare mechanism */
     bool quiet;
     bool json;     /* one object on standard output in place of the summary (run_json.h) */
     double strict; /* run_checks_fails() */
     bool progress;
-    const image
-        *plain; /* of the finer run beside it (step_doubling_plain()); NULL: the image itself */
+    const image *plain; /* of the finer run (step_doubling_plain()); NULL: the image itself */
 } simulation_settings;
 
 typedef enum simulation_result {
     SIMULATION_DONE,
-    SIMULATION_FAILED, /* diverged, or not a number somewhere; said on standard error, the records so
-                             * far are kept */
+    SIMULATION_FAILED,      /* diverged, or NaN; reported on standard error, records are kept */
     SIMULATION_INTERRUPTED, /* host/base/interrupts.h */
-    SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; said */
+    SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; reported */
 } simulation_result;
 
-/* Standard output, or standard error where records go to standard output. */
+/* Standard output, or standard error if records go to standard output. */
 FILE *simulation_summary(const simulation_settings *s);
 
-/* A run at its end: the findings that fail it, as bits (run_checks_fails()), and until when it is trusted, s; below 0: that
- * is not told. */
+/* A run at its end: the findings that fail it, as bits (run_checks_fails()), and the time until which it is accurate, s;
+ * below 0: unknown. */
 typedef struct simulation_trust {
     unsigned fails;
     bool dear; /* the finer run takes too long */
     double
-        left; /* of the operations of all looks: the rows of a summary take half of them at most */
+        left; /* remaining operations of all checks: the rows of a summary take half of them at most */
     bool still; /* no coordinate moves */
     double until_s;
 } simulation_trust;

@@ -1,10 +1,9 @@
-/* slow.h: what moves too slowly for the units of its steps: to be told, with the way out.
+/* slow.h: detects components that move too slowly for the units of their numbers.
  *
- * A float turn angle moves by whole units, 2^32 a turn, 1.5e-9 rad. Below half of one a step it stands still, and
- * near that its rate is off. In fixed point so do all components, by units of their ranges. It is told of one when
- * what rounding took from its steps, summed since the start, was at some time more than SLOW_SHARE of the span that
- * they asked for, and more than a few units. So one that swings or turns and is slow only now and then is not: what
- * its slow steps lose is little beside its span. */
+ * A float turn angle moves by whole units, 2^32 a turn, 1.5e-9 rad. Below half a unit a step it stands still, and
+ * slightly above its rate is wrong. In fixed point all components move by units of their ranges. A component is
+ * reported if the round-off of its steps, summed since the start, ever exceeded SLOW_SHARE of its span and a few
+ * units. A component that is slow only now and then is not reported, because it loses little of its span. */
 #ifndef CHECK_SLOW_H
 #define CHECK_SLOW_H
 
@@ -13,16 +12,16 @@
 #include "host/engine/engine.h"
 
 #define SLOW_SHARE 1e-3
-#define SLOW_LEAST_RAD 3e-9  /* two units: what an angle that hardly moves may show of rounding */
-#define SLOW_LEAST_UNITS 4.0 /* in fixed point, where the accelerations are of whole units, too */
+#define SLOW_LEAST_RAD 3e-9  /* two units: the round-off of an angle that hardly moves */
+#define SLOW_LEAST_UNITS 4.0 /* in fixed point, with accelerations in whole units, too */
 
-/* Is component i, angles first, one of those? */
+/* Is component i, angles first, too slow? */
 bool slow_component(const engine_kind *kind, const void *run, int i);
 
 /* How many are. */
 int slow_count(const engine_kind *kind, const image *im, const void *run);
 
-/* The largest part of its span that one of them is put off by; 0: there is none. */
+/* The largest round-off of a component, as a part of its span; 0: no component is slow. */
 double slow_share(const engine_kind *kind, const image *im, const void *run);
 
 /* A note for each, and how to cure them. */

@@ -1,4 +1,3 @@
-/* step_doubling.c: see step_doubling.h. */
 #include "step_doubling.h"
 
 #include <math.h>
@@ -10,7 +9,7 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* What looking for events takes of evaluations, beside a step's own. */
+/* Evaluations for the search for events, per step. */
 #define EVALUATIONS_OF_EVENTS 8.0
 
 /* --- the finer run's image ---------------------------------------------------------------------------*/
@@ -25,8 +24,8 @@ static whole_ratio half_of(whole_ratio step) {
     return ratio_of(0.5 * ratio_times(1, step));
 }
 
-/* Do its slopes have kinks, or edges? A step across one is off by where in the step it is, and so is a finer one: no order is left
- * but the first. */
+/* Do its slopes have kinks or edges? The error of a step across one depends on its place in the step, also in the finer run. So
+ * the order is only one. */
 static bool has_kinks(const image *im) {
     const op_list *step = im->list[IMAGE_STEP];
     bool found = false;
@@ -37,7 +36,7 @@ static bool has_kinks(const image *im) {
     return found;
 }
 
-/* The order by which the finer run's error falls, where it shares the run's method; 0 where it does not. */
+/* The order of the finer run's error, if it shares the run's method; else 0. */
 static int shared_order(const image *im) {
     const wh_method_row *row = &wh_methods[im->settings.method];
     return im->settings.matrix == MATRIX_NONE && row->order >= wh_methods[WH_METHOD_DEFAULT].order
@@ -61,7 +60,7 @@ bool step_doubling_plain(const image_settings *of, image_settings *plain) {
     return plain->tables != of->tables || plain->compensated != of->compensated;
 }
 
-/* What was lost in folding, both would have lost. */
+/* Otherwise both runs would have the same round-off of folding. */
 static void fold_the_other_way(image *im) {
     const image *other = constant_sensitivity_furthest(im);
     for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
@@ -82,7 +81,7 @@ static void make_finer(step_doubling *t, const step_doubling_wish *w) {
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
-    t->finer.settings.stabilized = false; /* what is given to the wrong motion would be in both */
+    t->finer.settings.stabilized = false; /* else both follow one wrong motion */
     t->each = 1;
     t->left_out = 1.0;
     if (im->settings.matrix == MATRIX_EXACT) {
@@ -147,7 +146,7 @@ double passages_until_s(const passages *p, double level) {
     return (double)INFINITY;
 }
 
-/* --- what rounding alone can move --------------------------------------------------------------------*/
+/* --- round-off alone ---------------------------------------------------------------------------------*/
 
 typedef struct rounded {
     const image *image;
@@ -155,12 +154,12 @@ typedef struct rounded {
     double *input;
     double *result;
     double *off;
-    double *most;   /* [results]: of the looks at which there is a bound, */
-    uint64_t *lost; /* [results]: and at so many there was none, */
+    double *most;   /* [results]: of the looks with a bound, */
+    uint64_t *lost; /* [results]: looks without a bound, */
     uint64_t looks; /* of all */
 } rounded;
 
-/* What double is rounded by. */
+/* Unit round-off of double. */
 #define UNIT 0x1p-53
 
 /* Is result i of a step's list the highest derivative of an unknown, for which equations are solved? */
@@ -233,7 +232,7 @@ static void take_rounding(step_doubling *t, const rounded *r) {
         }
         const int result = result_of(r->image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* a place without a bound is a pole, or a root of next to nothing; most places are none */
+            /* a place without a bound is a pole, or a root of nearly zero; most places have one */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
@@ -279,11 +278,11 @@ typedef struct pair {
     double look_s;   /* the last look, */
     double before_s; /* and the one before it */
     uint64_t looks;
-    bool owns; /* the run, and what watches it */
+    bool owns; /* the run, and its monitors */
 } pair;
 
-/* Where there are contacts, what differs at one look alone does not count: one of the two has had an event already that
- * the other has within the step. Of a run of one step it is all there is. */
+/* With contacts, a difference at a single look does not count: one run may have had an event that the other has within
+ * the step. A run of one step has only that look. */
 static void look(pair *p, double time_s) {
     step_doubling *t = p->to;
     const bool events = p->wish.image->contacts > 0 && p->wish.image->steps > 1U;
@@ -328,7 +327,7 @@ static bool step_finer(pair *p) {
     return good;
 }
 
-/* Has an angle gone so far that double knows no sine of it? A float's turns on. */
+/* Is an angle beyond the range of double's sine? A float's wraps around. */
 static bool is_unwrapped(const pair *p) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -340,7 +339,7 @@ static bool is_unwrapped(const pair *p) {
     return found;
 }
 
-/* Behind this time nothing is known. */
+/* Nothing is known after this time. */
 static void end_passages(step_doubling *t, double time_s) {
     for (int k = 1; k < t->columns; k++) {
         passages_enter(&t->column[k].off, time_s, (double)INFINITY);

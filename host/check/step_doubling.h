@@ -1,9 +1,9 @@
-/* step_doubling.h: a run beside a finer one of the same scene, and by how much the two differ, when.
+/* step_doubling.h: the difference between a run and a finer run of the same scene, over time.
  *
- * The finer run takes half the step, in double with compensated sums, computes what the run looks up in tables, and
- * takes the run's method where that is of order 4 or more, else RK4. So it differs from the run in all that puts the run
- * off: rounding, the step, tables, formats. Its own error is a part of that. Of a step that is the motion itself
- * (--matrix exact) it takes the same, and tells what rounding does. */
+ * The finer run takes half the step, in double with compensated sums, and computes functions that the run looks up in
+ * tables. It takes the run's method if that is of order 4 or more, else RK4. So the difference contains all errors of
+ * the run: round-off, step, tables, formats. The finer run's own error is a part of it. If a step is the motion itself
+ * (--matrix exact), the finer run takes the same step, and the difference is round-off. */
 #ifndef TRUST_TWINS_H
 #define TRUST_TWINS_H
 
@@ -12,21 +12,21 @@
 #include "host/io/records.h"
 #include "pole_crossing.h"
 
-/* The two are compared at so many evenly spaced ends of steps, at most. */
+/* Most evenly spaced step ends at which the two are compared. */
 enum { STEP_DOUBLING_LOOKS = 20000 };
 
 typedef struct step_doubling_wish {
     const image *image;
     const engine_kind *kind;
-    const image *plain; /* as step_doubling_plain() says: the image itself where it says nothing */
-    bool books;         /* keep the run's books, and tell what they leave over */
-    bool watched;       /* the caller owns the run, and what it jumped over: */
-    pole_crossing *jumped;                      /* NULL: over nothing */
+    const image *plain;    /* from step_doubling_plain(); the image itself if that returns false */
+    bool books;            /* keep the run's balance, and report its residual */
+    bool watched;          /* the caller owns the run, and its pole search: */
+    pole_crossing *jumped; /* NULL: no pole */
     void (*progress)(double share, void *told); /* now and then; or NULL */
     void *told;
 } step_doubling_wish;
 
-/* Behind `time_s` it was for the first time as large as `size`. */
+/* After `time_s` it was `size` or more for the first time. */
 typedef struct passage {
     double time_s;
     double size;
@@ -39,34 +39,33 @@ typedef struct passages {
     double most;
 } passages;
 
-/* Levels are told apart to this part of themselves. */
+/* Resolution of levels, as a part of themselves. */
 #define PASSAGE_GRAIN 1e-3
 
-/* The difference is `size` at one look, the look before that was at before_s. What is no number passes every level. */
+/* The difference is `size` at one look; the look before was at before_s. A NaN passes every level. */
 void passages_enter(passages *p, double before_s, double size);
 void passages_free(passages *p);
 
-/* The last look before it was more than `level`; infinite where it never was. */
+/* The last look before it exceeded `level`; infinite if it never did. */
 double passages_until_s(const passages *p, double level);
 
-/* A coordinate or rate. */
 typedef struct step_doubling_column {
     double start; /* in the finer run, in the column's unit, as are: */
     double low;
     double high;
-    double rounding; /* what may move of it by rounding alone, in the finer run */
+    double rounding; /* bound of its round-off in the finer run */
     double last;     /* difference at the last look */
     bool has_rate;   /* in the state: its origin may be anywhere */
-    bool written;    /* it starts where the scene has written, and not where sums have rounded */
-    int place;       /* the column that it is a rate of; itself where it is none */
+    bool written;    /* its start is the scene's value, without the round-off of sums */
+    int place;       /* the column that it is a rate of; itself if it is no rate */
     double one;      /* of SI's unit, in the column's */
-    double alike;    /* the largest range of what is no rate and has its unit */
+    double alike;    /* the largest range of places with its unit */
     passages off;
 } step_doubling_column;
 
-/* More goes on within a step than its stages see (aliasing.h). */
+/* Forcing that aliases with the step (aliasing.h). */
 typedef struct step_doubling_aliased {
-    int column;    /* that is furthest off; 0: none is */
+    int column;    /* with the largest difference; 0: no aliasing */
     double at_s;   /* then */
     double part;   /* of its range, by which it is */
     double value;  /* in the column's unit, and */
@@ -78,44 +77,43 @@ typedef struct step_doubling {
     image finer;         /* the other's image; shares its lists */
     uint64_t each;       /* its steps in one of the run's */
     uint64_t operations; /* that all of its steps took */
-    double
-        left_out; /* of the run's error, as a part of what the two differ by: the finer one's own */
-    records *shape; /* names and units of the columns: 0 is the time, outputs come last */
+    double left_out;     /* factor for the finer run's own error, as a part of the difference */
+    records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
     bool
         otherwise; /* the finer one's constants are folded in another way: it knows no better, and ranges are the scene's own */
     int columns;   /* the time and those that follow: coordinates and rates, no outputs */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* of the run: its last step that was done */
     wh_status status;             /* the run's: its last step */
-    void *run;                    /* where it ended */
-    bool unwrapped;        /* the other failed for an angle beyond those whose sine double knows */
-    double finer_failed_s; /* the other left all bounds behind this time; below 0: it did not */
+    void *run;                    /* the final state */
+    bool unwrapped;        /* the finer run failed at an angle beyond the range of double's sine */
+    double finer_failed_s; /* the finer run left all bounds after this time; below 0: it did not */
     double
-        overrun_s; /* behind this time one of them had more events in a step than it takes; below 0: neither */
+        overrun_s; /* after this time one of them had too many events in a step; below 0: neither */
     double
-        jumped_s; /* in a step behind this time one of them jumped over a pole (host/check/pole_crossing.h); below 0: neither */
+        jumped_s; /* in a step after this time one of them jumped over a pole (host/check/pole_crossing.h); below 0: neither */
     bool missed;  /* or passed through something (host/check/missed.h) */
     double
-        cut_s; /* the last look before the first of these three: nothing is known behind it; below 0: they are none */
+        cut_s; /* the last look before the first of these three: nothing is known after it; below 0: not cut */
     const double *finer_end;       /* [columns] the finer run's, at the last look */
     step_doubling_aliased aliased; /* after aliasing_find() */
     bool stopped;
-    books *books; /* NULL: none */
-    bool jumps;   /* is the finer run asked for poles and missed contacts now? */
+    books *books; /* NULL: no balance */
+    bool jumps;   /* does the finer run search for poles and missed contacts now? */
     struct pair *pair;
 } step_doubling;
 
-/* The settings of the image that the finer run goes by, where the run's own will not do: without tables, and a matrix that
- * is written for compensated sums. False: it does. */
+/* The settings of the finer run's image if the run's own do not fit: without tables, and with a matrix for compensated
+ * sums. False: they fit. */
 bool step_doubling_plain(const image_settings *of, image_settings *plain);
 
 /* The method of the finer run, and the order by which its error falls as the step gets shorter. */
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* The two, from the start to the end of the run, or to where one of them fails. The images must outlive them. */
+/* Both, from the start to the end of the run, or to the failure of one. The images must outlive them. */
 step_doubling *step_doubling_run(const step_doubling_wish *w);
-/* The same beside a run that the caller steps: enter it at its start and after each step. `w` is copied. */
+/* The same for a run that the caller steps: enter it at its start and after each step. `w` is copied. */
 step_doubling *step_doubling_open(const step_doubling_wish *w, void *run);
 void step_doubling_enter(step_doubling *t);
 /* The run has ended; `status`: its last step's. */

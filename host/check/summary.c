@@ -1,4 +1,3 @@
-/* summary.c: what a run came to, in words. */
 #include "host/check/summary.h"
 
 #include <inttypes.h>
@@ -87,8 +86,8 @@ char *about_tables(const image *im) {
 
 /* === the opening sentence ===================================================================== */
 
-/* Rows that are looked at, of a long run; an output stays where it moves by this part of the furthest coordinate of its
- * unit; coordinates that are named. */
+/* Sampled rows of a long run, and the most coordinates that are named. An output is constant if it moves by less than
+ * STAYS of the furthest coordinate of its unit. */
 enum { ROWS = 100000, NAMED = 3 };
 #define STAYS 1e-6
 
@@ -124,12 +123,11 @@ static double furthest(const opening *o, const records *r, const char *si) {
     return most;
 }
 
-/* How far column `i` got from its start. */
 static double strayed(const opening *o, int i) {
     return number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
 }
 
-/* A length among the outputs that stays while another length moves. No more is known of it, whatever its name. */
+/* A length among the outputs that stays while another length moves. The test does not depend on its name. */
 static bool stays(const opening *o, const records *r, int i, double most) {
     const record_column *c = &r->column[i];
     return c->unknown < 0 && strcmp(c->unit->si, "m") == 0 &&
@@ -143,7 +141,7 @@ static bool moves(const opening *o, const records *r, int i, bool is_output) {
            (is_output ? c->unknown < 0 && strcmp(c->unit->si, "m") == 0 : c->unknown >= 0);
 }
 
-/* The next column by name among those that are marked, so that the order of the file does not matter. -1: none. */
+/* The next marked column in order of names, or -1. So the order of the file does not matter. */
 static int next_by_name(const records *r, const bool *marked) {
     int next = -1;
     for (int i = 1; i < r->columns; i++) {
@@ -214,8 +212,8 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
 
-/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", of the first length whose momentum is
- * conserved. That of an angle, such as a clock's, says nothing of where the device goes. */
+/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", for the first length with a conserved
+ * momentum. That of an angle, such as a clock's, does not show where the device goes. */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {
@@ -268,7 +266,7 @@ static void print_state(FILE *out, const image *im, const engine_kind *kind, voi
     records_close(r);
 }
 
-/* Stops that stayed open and holds that never held, of a run without events: such a run shows nothing of them. */
+/* Stops that stayed open and inactive holds, of a run without events, because they had no effect. */
 static void print_idle(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     int mode[WH_CONTACTS_LIMIT];
     kind->modes(run, mode);

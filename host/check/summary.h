@@ -1,4 +1,4 @@
-/* summary.h: what a run came to, in words. */
+/* summary.h: the result of a run in words. */
 #ifndef CHECK_SUMMARY_H
 #define CHECK_SUMMARY_H
 
@@ -13,13 +13,15 @@
 
 enum { STEP_WORD = 40 };
 
-/* The largest of 1, 2 and 5 times powers of ten, s, from 1000 s down, that is not beyond it; 0: none. */
+/* The largest of 1, 2 and 5 times powers of ten, s, from 1000 s down, that is not beyond it; 0: there is
+ * no such number. */
 double step_nice_s(double most_s);
-/* "200us", in as many digits as it takes to be read back as it is; returns `text`. */
+/* "200us", with enough digits to be read back exactly; returns `text`. */
 const char *step_text(double step_s, char text[STEP_WORD]);
 
 /* === about ==================================================================================== */
-/* What a run was, as lines of TOML for the file beside its records (host/io/plot_run.h). */
+/* The settings of a run, as lines of TOML for the file next to its records (host/io/plot_run.h).
+ * Version, scene, step, method, state hash. Free it. */
 
 /* Version, scene, step, method, state hash. Free it. */
 char *about_facts(const image *im, const engine_kind *kind, const void *run);
@@ -27,11 +29,11 @@ char *about_facts(const image *im, const engine_kind *kind, const void *run);
 char *about_tables(const image *im);
 
 /* === the opening sentence ===================================================================== */
-/* The sentence that a run's summary opens with: the outputs that stay, or a momentum that stays and from where
- * to where outputs and coordinates move. */
+/* The first sentence of a run's summary. It names the constant outputs, or a conserved momentum, and the
+ * ranges of moving outputs and coordinates. */
 
 typedef struct opening {
-    uint64_t each; /* steps between rows that are looked at */
+    uint64_t each; /* steps between sampled rows */
     double *first; /* [columns] of the records: at the start, */
     double *low;   /* the least and the most of the rows */
     double *high;
@@ -49,7 +51,7 @@ void opening_print(FILE *out, const opening *o, const records *r, const books *b
 /* The scene, its effects, how it was integrated. */
 void summary_head(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
-/* The numbers. `books` may be NULL; `balance` is theirs. The same run has the same summary: nothing in it is timed. */
+/* The numbers. `books` may be NULL; `balance` is theirs. The same run has the same summary: it has no timings. */
 void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
                    const energy_residual *balance);
 

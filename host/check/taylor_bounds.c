@@ -1,4 +1,4 @@
-/* taylor_bounds.c: see taylor_bounds.h. Slopes are by the share of the way. */
+/* taylor_bounds.c: Taylor forms, with slopes by the share of the way. */
 #include "taylor_bounds.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 /* A value on a part of the way. NaN: not known. */
 typedef struct form {
     enclosure middle;       /* at the middle of the part */
-    enclosure middle_slope; /* likewise */
+    enclosure middle_slope; /* its slope */
     enclosure value;        /* on the part, */
     enclosure slope;
     enclosure curve;
@@ -84,7 +84,7 @@ void taylor_bounds_close(taylor_bounds_bounds *a) {
 
 /* --- forms ----------------------------------------------------------------------------------------------*/
 
-/* What both hold; the one that is known. Rounding of the way may leave nothing: then the first. */
+/* The intersection, or the known one. Round-off may make it empty: then the first. */
 static enclosure both(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? a : b;
@@ -196,7 +196,7 @@ static form sign_of(const form *a) {
 
 static enclosure inverse(enclosure a) { return enclosure_div(enclosure_of(1.0), a); }
 
-/* u^e, of u > 0 where e is no whole number. */
+/* u^e, for u > 0 if e is not a whole number. */
 static enclosure power(enclosure u, double e) {
     const bool whole = number_nearest(e) == e;
     return enclosure_power(whole || !(u.low < 0.0) ? u : (enclosure){0.0, u.high}, enclosure_of(e));
@@ -255,7 +255,7 @@ static form call(function_id function, const form *u) {
     return chain(u, slopes_of(function, u->middle), slopes_of(function, u->value));
 }
 
-/* With n = x y' - y x' and q = x^2 + y^2 the slope is n / q. Where the value jumps from -pi to pi it has none. */
+/* With n = x y' - y x' and q = x^2 + y^2 the slope is n / q. At the jump from -pi to pi it has no slope. */
 static form angle_of(const form *y, const form *x) {
     const form n = {
         enclosure_sub(enclosure_mul(x->middle, y->middle_slope),
@@ -445,7 +445,7 @@ static void go(taylor_bounds_bounds *a, double low, double high) {
     }
 }
 
-/* Bounds of an operation, of a coordinate's way, of a form, and of one of a function take so many operations. */
+/* Costs in operations: of an operation's bounds, a coordinate's way, a form, and a function's form. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 enclosure taylor_bounds_glance(taylor_bounds_bounds *a, int result) {

@@ -18,7 +18,7 @@ void taylor_bounds_close(taylor_bounds_bounds *a); /* NULL is fine */
 /* The way: the cubic through places and rates at its ends, `span_s` apart; from, to: [angles + reals], angles in radians. */
 void taylor_bounds_way(taylor_bounds_bounds *a, const double *from, const double *to,
                        double span_s);
-/* Natural bounds of one result on the whole way: a quick look. */
+/* Natural bounds of one result on the whole way: a quick test. */
 enclosure taylor_bounds_glance(taylor_bounds_bounds *a, int result);
 /* Bound one result, or all (-1), on the part from `low` to `high`, shares of the way. */
 void taylor_bounds_look(taylor_bounds_bounds *a, int result, double low, double high);
