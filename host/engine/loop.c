@@ -1,4 +1,3 @@
-/* loop.c: see loop.h. */
 #include "loop.h"
 
 #include <stddef.h>

@@ -1,43 +1,42 @@
-/* loop.h: the one loop that steps a run, and what looks at a run may spend. Only host/pil/plant.c steps by itself: firmware
- * paces it. tests/house.sh refuses other loops. */
+/* loop.h: the one loop that steps a run, and the budget of its checks. Only host/pil/plant.c steps by itself, because
+ * firmware paces it. tests/house.sh refuses other loops. */
 #ifndef ENGINE_LOOP_H
 #define ENGINE_LOOP_H
 
 #include "engine.h"
 
-/* All looks at a run draw on one budget, counted in operations (engine_operations): together as many as its own steps
- * take, or a fixed number, which takes about a second, whichever is more. A look that finds it empty ends. The looks in order
- * of importance: books, and what is watched beside them, at each step; the finer run; poles and missed contacts; the third
- * run of aliasing; remedies; the rows of accuracy and cost. */
+/* All checks of a run draw on one budget, counted in operations (engine_operations). It is the larger of the run's own
+ * operations and a fixed number, which takes about a second. A check ends when the budget is empty. Order of importance: the
+ * balance and the monitors, at each step; the finer run; poles and missed contacts; the third run of aliasing; remedies; the
+ * rows of accuracy and cost. */
 typedef struct budget {
     uint64_t own;   /* operations of the run's steps so far */
-    uint64_t spent; /* by looks that have ended */
+    uint64_t spent; /* by completed checks */
     uint64_t since; /* engine_operations when the present one began */
-    int depth;      /* looks that are open: one may take another */
+    int depth;      /* open checks: they may nest */
 } budget;
 
 #define BUDGET_LEAST 2.4e8 /* about a second's */
 
-/* A look begins, and ends. */
 void budget_begin(budget *b);
 void budget_end(budget *b);
-/* Operations that are left. Below 0: none. */
+/* Remaining operations; below 0: exhausted. */
 double budget_left(const budget *b);
 
 typedef struct loop {
     const engine_kind *kind;
     void *run; /* started, and stopped, by the caller */
     uint64_t steps;
-    budget *own;        /* takes what the steps are; NULL: nobody asks */
-    const budget *pays; /* for them; NULL: nobody does */
-    /* At the start and after each step; false: enough. NULL: nobody sees. */
+    budget *own;        /* gets the operations of the steps; NULL: unused */
+    const budget *pays; /* budget for them; NULL: unlimited */
+    /* Called at the start and after each step; false: stop. NULL: no call. */
     bool (*see)(void *of, uint64_t step);
     void *of;
 } loop;
 
 typedef enum loop_end {
     LOOP_DONE,
-    LOOP_FAILED, /* the step's status says why */
+    LOOP_FAILED, /* the step's status has the reason */
     LOOP_ENOUGH, /* for an observer */
     LOOP_INTERRUPTED,
     LOOP_SPENT /* the budget is empty */
@@ -46,7 +45,7 @@ typedef enum loop_end {
 /* From the present step to the last, or to an interrupt (host/base/interrupts.h). */
 loop_end loop_run(const loop *l, wh_status *status);
 
-/* So many steps on, unseen, as far as they are good. */
+/* This many steps, without callbacks, up to the first failure. */
 wh_status loop_steps(const engine_kind *kind, void *run, uint64_t count);
 
 #endif

@@ -1,4 +1,3 @@
-/* rounding.c: see rounding.h. */
 #include "rounding.h"
 
 #include <math.h>
@@ -6,7 +5,8 @@
 
 #include "host/base/alloc.h"
 
-/* What is beyond it is infinite in float; what is divided by that is lost, all of it, in units of float's rounding. */
+/* Larger values are infinite in float. A quotient by such a value has lost all of its digits, in units of float's
+ * round-off. */
 #define FLOAT_MOST 0x1.fffffep127
 #define ALL_LOST 0x1p24
 
@@ -19,7 +19,7 @@ static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
 }
 
-/* The sizes of what is added up, each of which is rounded. */
+/* Sum of |terms|, each of which is rounded. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {
@@ -33,14 +33,14 @@ static double of_phase(const op_list *t, const op *o, const rounding_values *at,
     return size + (o->b >= 0 ? fabs(at->value[o->b]) + more : 0.0);
 }
 
-/* By the function's slopes at (x, y), which are off by `a` and `b`. */
+/* By the function's slopes at (x, y), with errors `a` and `b`. */
 static double of_call(function_id function, double x, double y, double a, double b) {
     const double by_x = fabs(number_slope(function, 0, x, y)) * a;
     return function_arguments(function) == 1 ? by_x
                                              : by_x + fabs(number_slope(function, 1, x, y)) * b;
 }
 
-/* What the operands' errors a and b become; *rounds: is the result rounded, too? */
+/* The error that the operands' errors a and b cause; *rounds: is the result rounded, too? */
 static double carried(const op_list *t, const op *o, const rounding_values *at, const double *error,
                       double v, bool *rounds) {
     const int values = op_rows[o->code].values;
@@ -60,13 +60,13 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
     case OP_CELL: return 0.0;
-    case OP_LINE: /* as of a sine: for what is looked up, not for what is lost between entries */
+    case OP_LINE: /* as for a sine: covers the argument, not the interpolation error */
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);
     case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
     case OP_NEG:
     case OP_ABS: return a;
-    case OP_SIGN: return 0.0; /* but for where it jumps */
+    case OP_SIGN: return 0.0; /* except at its jump */
     case OP_MIN:
     case OP_MAX: return v == x ? a : b;
     case OP_ADD:

@@ -12,14 +12,17 @@ typedef struct rounding_values {
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
     double
-        least; /* results below this size are rounded as one of it: float's smallest normal one, and beyond its largest infinite; 0: none are */
+        least; /* smaller results have its absolute error: float's smallest normal number; beyond float's largest number infinite;
+                * 0: no underflow */
 } rounding_values;
 
-/* error[t->results], in units of the numbers' rounding (2^-53 in double, 2^-24 in float): what all roundings can
- * come to, if they are so small that their products do not count. A running error analysis (Higham, Accuracy and
- * Stability of Numerical Algorithms, 2nd ed., section 3.3): each operation's result is rounded once, what
- * its operands are off goes on into it by its slopes, and so a small difference of large terms is known to
- * be off by parts of these. The state itself counts as exact. Infinite or NaN where an operation has no slope. */
+/* Bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,
+ * 2^-24 in float). Products of errors are neglected.
+ *
+ * A running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3). Each
+ * operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference
+ * of large terms gets an error in proportion to the terms. The state itself counts as exact. The bound is
+ * infinite or NaN if an operation has no slope. */
 void rounding_of(const op_list *t, const rounding_values *at, double *error);
 
 #endif

@@ -1,4 +1,3 @@
-/* start.c: whether a run can start where its scene says, and by the method that is asked for. */
 #include "host/engine/start.h"
 
 #include <math.h>
@@ -11,7 +10,6 @@
 #include "host/number/phase.h"
 
 /* === methods in words ========================================================================= */
-/* The rows of core/method.h as words for users. */
 
 static void put(char text[METHODS_TEXT_SIZE], const char *before, const char *word) {
     const size_t length = strlen(text);
@@ -19,7 +17,7 @@ static void put(char text[METHODS_TEXT_SIZE], const char *before, const char *wo
 }
 
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
-    const char *waiting = NULL; /* "or" stands before the last one */
+    const char *waiting = NULL; /* "or" precedes the last one */
     text[0] = '\0';
     for (int i = 0; i < WH_METHODS; i++) {
         if (wh_method_takes((wh_method)i, form) && wh_methods[i].takes != WH_NO_RATES) {
@@ -60,7 +58,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 
 /* === can it start? ============================================================================ */
 
-/* m or rad: what the conversion of a start's units may leave. */
+/* m or rad: round-off of the conversion of a start's units. */
 #define ROUNDING 1e-9
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {
@@ -114,7 +112,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
     return good;
 }
 
-/* Unknown whose rate the accelerations take, or -1. */
+/* The unknown with a rate that the accelerations use, or -1. */
 static int rate_taken(const image *im) {
     const op_list *t = im->list[IMAGE_STEP];
     for (int k = 0; k < t->count; k++) {
@@ -127,7 +125,8 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* The stages of a composition know no rates: neither may accelerations, contacts and books. */
+/* The stages of a composition have no rates, so accelerations, contacts and the balance may not use
+ * any. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

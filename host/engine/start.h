@@ -1,4 +1,4 @@
-/* start.h: whether a run can start where its scene says, and by the method that is asked for. */
+/* start.h: checks that a run can start at its scene's state and by the requested method. */
 #ifndef ENGINE_START_H
 #define ENGINE_START_H
 
@@ -16,15 +16,15 @@ enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS };
 /* The methods that take every system of this form: "euler, heun or rk4". Returns `text`. */
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
 
-/* All of them, the one that stands for itself first and marked, those that do not take systems of first order, or no
- * rates, behind semicolons. Returns `text`. */
+/* All methods, with the default first and marked. Those without first-order systems, or without rates, follow after
+ * semicolons. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
-/* False, reported at each stop that the run would start beyond, by more than rounding, or where
- * it has no value, and at each angle that a run of this kind cannot hold. */
+/* False, with a report for each stop that the run would start beyond, by more than round-off, or
+ * with an undefined gap. Also for each angle outside the range of a run of this kind. */
 bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
-/* The angles' part of it: false, reported, where float, as in generated C, cannot hold one. */
+/* The angles' part of it: false, reported, if float, as in generated C, cannot represent one. */
 bool start_angles_are_held(const image *im, diags *errors);
 
 /* False, reported, when the method's row (core/method.h) does not take systems of the form that the image runs in, or not

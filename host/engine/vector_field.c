@@ -1,4 +1,3 @@
-/* vector_field.c: see vector_field.h. */
 #include "vector_field.h"
 
 #include <math.h>

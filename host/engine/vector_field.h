@@ -1,9 +1,9 @@
-/* vector_field.h: a scene's right-hand side in double, whatever its run computes in: slopes, energy and mass matrix at any state,
- * and the way from one state on. Of what goes on between contacts: their forces are not in it.
+/* vector_field.h: a scene's right-hand side in double, independent of the run's numbers: slopes, energy and mass matrix at any
+ * state, and the path from a state. Contact forces are not included.
  *
- * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep the values that they start
- * with, as in the books. No slope and no energy knows the time: what follows from it, a place that conserve recovers, none of
- * them may name (host/derive/conserve.c). */
+ * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in the
+ * balance. Slopes and energies do not depend on time, because they may not name anything that does (a place that conserve
+ * recovers, host/derive/conserve.c). */
 #ifndef ENGINE_VECTOR_FIELD_H
 #define ENGINE_VECTOR_FIELD_H
 
@@ -14,7 +14,7 @@ typedef struct vector_field {
     int n;    /* components of the state */
     int rows; /* of the mass matrix: coordinates with a rate */
     evaluator *evaluator;
-    double *value; /* results of the image's books list at the state looked at last */
+    double *value; /* results of the image's books list at the last state */
     double *input;
     double *base; /* [unknowns] momenta */
     int *next;    /* [n] the component that is the slope of this one; else -1 - its unknown */
@@ -26,10 +26,9 @@ void vector_field_close(vector_field *f);
 
 /* slope[n] at the state x[n]. */
 void vector_field_slope(vector_field *f, const double *x, double *slope);
-/* Of the state x[n] whose slope was asked for last: how far off rounding in double may put each highest one, at most; off[n], of the
- * others 0. */
+/* Bounds on the double round-off of the highest derivatives in the last slope, at the same state x[n]: off[n]; 0 for all others. */
 void vector_field_rounding(vector_field *f, const double *x, double *off);
-/* matrix[rows * rows]; `size[n]` is the size of a component where it counts. The scene must have energies. */
+/* matrix[rows * rows]; `size[n]` is the scale of a component. The scene must have energies. */
 void vector_field_mass(vector_field *f, const double *x, const double *size, double *matrix);
 
 #endif

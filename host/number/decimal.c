@@ -1,6 +1,6 @@
-/* decimal.c: The number is a fraction of two whole numbers of any size; its first 63 bits come from a long
- * division, and whether anything is left over decides the rounding where these do not. Nothing here is
- * floating-point arithmetic, so nothing of it depends on the host's. */
+/* decimal.c: correctly rounded decimal input without floating-point arithmetic, so independent of the
+ * host's. The number is a fraction of two whole numbers of any size. Its first 63 bits come from a long
+ * division. If these do not decide the rounding, the remainder does. */
 #include "host/number/decimal.h"
 
 #include <stdbool.h>
@@ -20,7 +20,7 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
         snprintf(text, HEX_SIZE, "%s%s", fraction != 0 ? "" : sign, fraction != 0 ? "nan" : "inf");
         return text;
     }
-    char digits[FRACTION / 4 + 2] = "."; /* the point and what is behind it */
+    char digits[FRACTION / 4 + 2] = "."; /* the point and the digits after it */
     int count = 1;
     for (; fraction != 0; count++) {
         digits[count] = "0123456789abcdef"[fraction >> (FRACTION - 4)];
@@ -38,8 +38,8 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
 /* === decimal notation ========================================================================= */
 
 enum {
-    /* What lies halfway between two doubles has at most 768 significant digits (next to 2^-1074 and 2^-1022): a number of
-     * more is on the same side of it as its first DIGITS_MAX and, unless the rest are zeros, a digit behind. */
+    /* A midpoint of two doubles has at most 768 significant digits (next to 2^-1074 and 2^-1022). So a longer number is
+     * on the same side of it as its first DIGITS_MAX, plus one more digit unless the rest are zeros. */
     DIGITS_MAX = 780,
     /* The place of the first digit: 10^-324 and above is not below half of 2^-1074, 10^309 is infinity. */
     PLACE_LEAST = -324,
@@ -127,7 +127,7 @@ static void take_away(big *a, const big *b) {
 typedef struct digits {
     big whole; /* count 0: zero */
     int held;  /* significant digits taken */
-    bool more; /* behind them comes something other than zeros */
+    bool more; /* a digit other than zero follows them */
     int64_t exponent;
 } digits;
 
@@ -144,7 +144,7 @@ static void take_digit(digits *d, int digit, bool behind_point) {
     d->exponent -= behind_point ? 1 : 0;
 }
 
-/* The exponent behind an e at `text`, with no bound but that of what is sensible; NULL when there is none. */
+/* The exponent after an e at `text`, clamped only at a sensible bound; NULL without an exponent. */
 static const char *read_exponent(const char *text, int64_t *exponent) {
     const bool negative = text[1] == '-';
     const char *at = text + (negative || text[1] == '+' ? 2 : 1);
@@ -159,7 +159,7 @@ static const char *read_exponent(const char *text, int64_t *exponent) {
     return at;
 }
 
-/* floor(n / m * 2^63) with n / m between 1/2 and 2; is anything left over? Both are used up. */
+/* floor(n / m * 2^63) with n / m between 1/2 and 2; *rest: is there a remainder? Overwrites both. */
 static uint64_t divide(big *n, const big *m, bool *rest) {
     uint64_t quotient = 0;
     for (int i = 0; i < QUOTIENT_BITS; i++) {
@@ -174,8 +174,8 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
     return quotient;
 }
 
-/* The bits of the double nearest to quotient * 2^exponent and, if `rest`, a little more. The quotient's highest bit
- * is 62 or 63. *side: where that number lies of the double. */
+/* The bits of the double nearest to quotient * 2^exponent, plus a little more if `rest`. The quotient's highest bit
+ * is 62 or 63. *side: the side of the double on which that number lies. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* of the highest bit */

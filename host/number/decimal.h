@@ -12,13 +12,13 @@ enum { HEX_SIZE = 32 };
 char *hex_write(double value, char text[static HEX_SIZE]);
 
 /* The number at the start of `text`, [+-] digits [. digits] [e [+-] digits] with a digit before the e, as the nearest
- * double: of two that are as near the even one, infinity from halfway beyond the largest, subnormal numbers and
- * zeros with their sign below. Of any length, whatever the locale and the rounding of the host's own strtod().
- * *end (may be NULL) is where it ends: `text`, and the value 0, where there is none. No white space, no hexadecimal
- * numbers, no "inf", no "nan". */
+ * double. Ties round to even. The result is infinite from halfway beyond the largest double. Subnormal numbers and
+ * signed zeros are supported. The number may be of any length. Locale and rounding mode of the host do not matter.
+ * *end (may be NULL) is the end of the number; without a number it is `text`, and the value is 0. White space,
+ * hexadecimal numbers, "inf" and "nan" are not numbers. */
 double decimal_read(const char *text, const char **end);
 
-/* The same; *side is where the number lies of the double: -1 below it, 0 on it, 1 above it. */
+/* The same; *side: the number is below the double (-1), equal (0) or above (1). */
 double decimal_read_side(const char *text, const char **end, int *side);
 
 #endif

@@ -1,6 +1,6 @@
 /* double_double.h: numbers of some 106 bits: the unevaluated sum of two doubles (Dekker; Muller et al., Handbook of
- * Floating-Point Arithmetic, chapter 14). For constants that are to be right to the last bit of a double though many
- * operations lead to them. Nothing but IEEE additions, products and divisions: the same bits on every host. */
+ * Floating-Point Arithmetic, chapter 14). Constants are correct to the last bit of a double after many operations.
+ * It uses only IEEE additions, products and divisions, so all hosts have the same bits. */
 #ifndef NUMBER_DOUBLE_DOUBLE_H
 #define NUMBER_DOUBLE_DOUBLE_H
 
@@ -9,14 +9,14 @@
 
 #include "core/function_double.h"
 
-/* high is the double nearest to the whole, low what is left of it. */
+/* high is the double nearest to the sum, low the remainder. */
 typedef wh_pair twofold;
 
 twofold double_double_of(double value);
 twofold double_double_ratio(uint64_t numerator, uint64_t denominator);
 
-/* Relative error a few times 2^-104; no subnormals, no infinities, sizes below 2^990 or so: else the result is not
- * finite or has a double's digits. */
+/* Relative error a few times 2^-104, for normal numbers below about 2^990. Otherwise the result is not finite or
+ * has a double's digits. */
 twofold double_double_add(twofold a, twofold b);
 twofold double_double_sub(twofold a, twofold b);
 twofold double_double_mul(twofold a, twofold b);
@@ -28,12 +28,11 @@ twofold double_double_scale(twofold a, double power_of_two);
 bool double_double_is_zero(twofold a);
 bool double_double_is_finite(twofold a);
 
-/* The double that a scene's constants are made of: the nearest one to `a`. Only where that stands in the middle between
- * two floats, and `a` does not, it is the next double on the side of `a`: then (float) of it is the float nearest to `a`,
- * as if `a` had been rounded once. */
+/* The double of a scene's constant: the nearest one to `a`. If that is the midpoint of two floats, and `a` is not, it is
+ * the next double on the side of `a`. Then (float) of it is the float nearest to `a`, as after a single rounding. */
 double double_double_constant(twofold a);
 
-/* What is left of `a` when the float nearest to it has been taken away, as a double. */
+/* `a` less the float nearest to it, as a double. */
 double double_double_beyond_float(twofold a);
 
 #endif

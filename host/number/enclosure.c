@@ -1,5 +1,5 @@
-/* enclosure.c: see enclosure.h. Series are cut where their terms fall, with signs that alternate or by a geometric series:
- * what is left out is added as an interval. */
+/* enclosure.c: interval functions by series. The series alternate with falling terms, or have a geometric bound; the
+ * truncation error is added as an interval. */
 #include "enclosure.h"
 
 #include <math.h>
@@ -72,8 +72,8 @@ enclosure enclosure_pi(void) { return (enclosure){0x1.921fb54442d18p+1, 0x1.921f
 /* Terms of the series, for arguments within 1. */
 enum { TERMS = 13 };
 
-/* sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)), t = x^2 from 0 to 1: the terms fall and alternate, so what
- * is left out is within the first one that is. */
+/* sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)), t = x^2 from 0 to 1. The terms fall and alternate, so the
+ * truncation error is within the first omitted term. */
 static enclosure waves(enclosure t, int from) {
     enclosure sum = {0.0, 1.0};
     for (int i = TERMS; i > 0; i--) {
@@ -84,8 +84,8 @@ static enclosure waves(enclosure t, int from) {
     return sum;
 }
 
-/* x less the nearest whole number of quarter turns, of which *quarters is the number within a turn; false: too
- * far, or so wide that little would be told. */
+/* x less the nearest whole number of quarter turns; *quarters is that number within a turn. False: x is too
+ * far, or too wide to be useful. */
 static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
     if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {
@@ -100,7 +100,8 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
            enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
-/* The sine of `rest` and so many quarter turns: from the middle's, whose slope is at most 1 in size. */
+/* The sine of `rest` plus this many quarter turns: from the middle's sine, with a slope of at most 1 in
+ * size. */
 static enclosure wave(enclosure rest, int quarters) {
     const double middle = enclosure_middle(rest);
     const double radius = enclosure_radius(rest);
@@ -193,7 +194,8 @@ enclosure enclosure_exp(enclosure a) {
                                                                  : none();
 }
 
-/* log x = y + log(1 + z), z = x e^-y - 1, with y nearly log x, whoever found it; z / (1 + z) <= log(1 + z) <= z. */
+/* log x = y + log(1 + z), z = x e^-y - 1, with y an approximation of log x from any source; z / (1 + z) <= log(1 +
+ * z) <= z. */
 static enclosure logarithm(double x) {
     const double y = number_call(FN_LOG, x, 0.0);
     const enclosure z = enclosure_sub(

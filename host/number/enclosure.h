@@ -1,12 +1,12 @@
-/* enclosure.h: interval arithmetic with outward rounding: two doubles between which a real number lies for certain,
- * whatever rounding did on the way (Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2009).
+/* enclosure.h: interval arithmetic with outward rounding: two doubles that enclose a real number for certain (Moore,
+ * Kearfott, Cloud, Introduction to Interval Analysis, 2009).
  *
- * The rounding mode is the usual one, to nearest: behind each operation the ends are moved outwards by one or two
- * units of the last place, by an addition and a product that need no bits of the number (Rump, Zimmermann, Boldo,
- * Melquiond, Computing predecessor and successor in rounding to nearest, BIT 49, 2009). What is exactly zero stays so.
+ * The rounding mode is the usual one, to nearest. After each operation the ends are moved outwards by one or two units of
+ * the last place. That takes an addition and a product, without access to the number's bits (Rump, Zimmermann, Boldo,
+ * Melquiond, Computing predecessor and successor in rounding to nearest, BIT 49, 2009). An exact zero stays exact.
  *
- * An enclosure that could not be found (division by what may be zero, a root of what may be negative, overflow) is
- * NaN at both ends, and so is all that follows from it: who asks enclosure_is_finite() of the last result knows of all. */
+ * A failed enclosure (division by an interval with zero, a root of a possibly negative one, overflow) is NaN at both ends.
+ * So are all results that depend on it: enclosure_is_finite() of the last result covers all. */
 #ifndef NUMBER_ENCLOSURE_H
 #define NUMBER_ENCLOSURE_H
 
@@ -25,7 +25,7 @@ typedef struct enclosure {
     double high;
 } enclosure;
 
-/* Below the double in front of x, or that, and above the one behind it. */
+/* At most the next lower double, and at least the next higher one. */
 static inline double enclosure_below(double x) {
     return x - (0x1.0000000000001p-53 * (x < 0.0 ? -x : x) + 0x1p-1074);
 }
@@ -103,9 +103,9 @@ static inline enclosure enclosure_hull(enclosure a, enclosure b) {
 
 enclosure enclosure_div(enclosure a, enclosure b);
 enclosure enclosure_square(enclosure a);
-/* From the double to that below and above it, and `more` further on each side: what lies about there. */
+/* From the next lower to the next higher double, widened by `more` on each side. */
 enclosure enclosure_about(double value, int more);
-/* A double somewhere in the middle, and what is not less than the distance to either end. */
+/* A double near the middle, and an upper bound on its distance to either end. */
 double enclosure_middle(enclosure a);
 double enclosure_radius(enclosure a);
 /* Not less than the size of any number in it. */
@@ -122,9 +122,9 @@ enclosure enclosure_exp(enclosure a);
 enclosure enclosure_log(enclosure a);
 /* a^n. */
 enclosure enclosure_whole_power(enclosure a, int n);
-/* a^exponent of a > 0; also of other a where the exponent is a whole number. */
+/* a^exponent for a > 0; for all a if the exponent is a whole number. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* The language's function of what of a, and of (a, b), it is defined for. Beyond 700 exponentials count as e^700. */
+/* The language's function over the part of a, and of (a, b), in its domain. Exponentials beyond 700 count as e^700. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

@@ -1,4 +1,3 @@
-/* folding.c: see folding.h. */
 #include "folding.h"
 
 #include <math.h>
@@ -9,15 +8,15 @@
 #include "enclosure.h"
 #include "functions.h"
 
-/* What double is rounded by. */
+/* Unit round-off of double. */
 #define UNIT 0x1p-53
-/* What a few roundings leave: 0.1 + 0.2 - 0.3. */
+/* Round-off of a few operations: 0.1 + 0.2 - 0.3. */
 #define GHOST (16.0 * UNIT)
 
-/* What is but rounding, and more than this in SI units, may be all of a spring. */
+/* A residue larger than this in SI units may be a whole spring. */
 #define REST_COUNTS 1e-12
 
-static folding plain; /* where nobody asks */
+static folding plain; /* the default */
 static folding *now = &plain;
 
 folding *folding_use(folding *f) {
@@ -34,16 +33,16 @@ static uint64_t digits_of(double x) {
     return bits & ((UINT64_C(1) << 52) - 1);
 }
 
-/* Each bit of what comes out depends on all of what goes in (Steele, Lea, Flood, Fast splittable pseudorandom number
- * generators, 2014). */
+/* Each output bit depends on all input bits (Steele, Lea, Flood, Fast splittable pseudorandom number generators,
+ * 2014). */
 static uint64_t mixed(uint64_t z) {
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
     return z ^ (z >> 31);
 }
 
-/* By how many doubles what is made of these is moved, up or down. In some ways it is the same in all that is folded of these
- * digits, whatever their signs and powers of two, and in whatever order. */
+/* Number of doubles by which a result of these operands is moved, up or down. Some ways derive it from the digits alone,
+ * independent of signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -64,8 +63,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Moved to the other side of what is `exact`, where it goes by that: one double beyond its neighbour, for several roundings may
- * have put a number as far off. Itself where it is a double. */
+/* Moved to the other side of the `exact` value, one double beyond its neighbour, because several round-offs may have put a
+ * number as far off. Unchanged if it is exact. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -75,13 +74,13 @@ static double other_neighbour(twofold exact, double x, double y) {
 
 static bool is_short(double x) { return (digits_of(x) & ((UINT64_C(1) << 26) - 1)) == 0; }
 
-/* The same of what is known to no more digits than it has. */
+/* The same for a value that is known to its own digits only. */
 static double other_value(double value, double x) {
     return isfinite(value) ? moved(value, moved_by(value, x, (digits_of(value) >> 26 & 1U) != 0))
                            : value;
 }
 
-/* --- what is noted, of what is rounded to nearest ----------------------------------------------------*/
+/* --- loss of digits, in rounding to nearest ----------------------------------------------------------*/
 
 static void note_lost(double part) { now->lost = number_most(now->lost, part); }
 
@@ -103,7 +102,7 @@ static void note_rest(double x) {
     }
 }
 
-/* A rest that vanishes beside a number is no loss; what does not, or has the number vanish, has no digit right. */
+/* A residue that vanishes next to a number is no loss. Otherwise the sum has no correct digit. */
 static void note_sum(double x, double y, double sum) {
     if (x == 0.0 || y == 0.0) {
         return;
@@ -122,7 +121,7 @@ static void note_sum(double x, double y, double sum) {
     note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
 }
 
-/* What is divided by a rest has no digit right. */
+/* A quotient by a residue has no correct digit. */
 static void note_power(double base, double exponent, double power) {
     if (is_rest(base)) {
         if (exponent < 0.0) {
@@ -133,7 +132,7 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* A function of a rest, and what it has at zero. */
+/* A function of a residue, compared with its value at zero. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -142,15 +141,15 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* Of x there is as much lost in a function's value as that hardly depends on it: 1e-9 rad in its cosine. But not where the
- * slope is no more than rounding x to quarters of a turn has made it. */
+/* A function's value loses as much of x as it is insensitive to it: 1e-9 rad in its cosine. Not if the slope is only the
+ * round-off of x modulo quarter turns. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
     }
 }
 
-/* --- what is folded ----------------------------------------------------------------------------------*/
+/* --- folding -----------------------------------------------------------------------------------------*/
 
 double folding_sum(double x, double y) {
     if (now->way != FOLDING_NEAREST) {
@@ -160,7 +159,7 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* Moved the other way all of them, products and quotients would take back what the sums in them were moved by: (K + k)/K - 1. */
+/* Moving all results the other way would let products and quotients undo the move of the sums in them: (K + k)/K - 1. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }
@@ -197,7 +196,7 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Is that the function's value, to the last digit? Of few digits are roots of squares; and others where their rows begin. */
+/* Is the function's value exact? Roots of squares have few digits, and other functions at the begin of their series. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

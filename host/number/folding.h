@@ -1,18 +1,18 @@
-/* folding.h: sums, products and functions of constants, as derivations fold them, and how many digits they lose.
+/* folding.h: constant folding in derivations, with a record of the digits that it loses.
  *
- * k1 + k2 is one double: of the smaller addend it keeps what is above the last digit of the larger. Mostly nobody asks for
- * more. Where equations are eliminated, or run-time sums cancel, so that k1 alone is left, everything that goes by the folded
- * numbers has lost the same digits, and no comparison of two runs shows it. So
+ * k1 + k2 is one double: the smaller addend loses its digits below the last digit of the larger. Usually that does not matter. But
+ * elimination, or sums at run time, may cancel k2 and leave k1 alone. Then all users of the folded numbers have lost the same
+ * digits, and no comparison of two runs shows it. Two checks address this:
+ *   - Each sum records its round-off, relative to its smallest addend and to its result. A residue, such as cos(90 deg) or 0.1 +
+ *     0.2 - 0.3, is round-off only and loses nothing, and neither do products with it. It counts if it is a large part of a sum, or
+ *     a divisor.
+ *   - A derivation can be repeated in another *way*: inexact results move by a double or two, to the other side of the exact value,
+ *     or to either side. Exact results stay, and nearly equal numbers are not merged. One way may yield the same numbers by chance
+ *     if several round-offs add up, so there are several (Vignes, A stochastic arithmetic for reliable scientific computation,
+ *     1993, at run time).
  *
- *   - it is noted what part of its smallest addend, or of what is left of it, rounding a sum may have made. What is but the
- *     rounding of other numbers, as cos(90 deg) or 0.1 + 0.2 - 0.3, loses nothing, and neither do products with it, unless
- *     it is no small part of what it is added to, or divides;
- *   - a derivation can be made again in another *way*: what is not exact is moved by a double or two, to the other side of
- *     what is exact, or to either. What is exact stays, and nothing is put onto what is nearly the same. Where several roundings add up, one way may come to the same numbers by chance; hence more
- *     than one (Vignes, A stochastic arithmetic for reliable scientific computation, 1993, has his at run time).
- *
- * Whoever derives has a `folding` of its own: the way, and what was noted. folding_use() puts it in place, as a rounding mode is
- * put in a processor, and whoever folds below takes that. */
+ * Each derivation has its own `folding`: the way, and the record. folding_use() sets the current one, like a processor's rounding
+ * mode. */
 #ifndef NUMBER_FOLDING_H
 #define NUMBER_FOLDING_H
 
@@ -20,34 +20,34 @@
 
 #include "functions.h"
 
-/* To nearest, as everything that runs on a board; sums and functions to the other side; to nearest, but nothing put onto what
- * is nearly the same; and then all, products and quotients too, up or down by their digits. */
+/* To nearest, as on a board; sums and functions to the other side; to nearest, without merging nearly equal numbers; and then
+ * all, products and quotients too, up or down by their digits. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
-/* Of more rests than there is room for, none is known to be rounding alone. */
+/* Room for residues; further ones are not recognized. */
 enum { FOLDING_RESTS = 256 };
 typedef struct folding {
     int way;
     double lost;                /* the largest part of an addend, or of a sum that cancels */
-    int rests;                  /* so many numbers are but the rounding of others */
+    int rests;                  /* number of residues */
     double rest[FOLDING_RESTS]; /* without their signs */
 } folding;
 
-/* Returns what was in place, to be put back before `f` ends. */
+/* Returns the previous one, which must be restored before `f` ends. */
 folding *folding_use(folding *f);
-/* Of what is in place. */
+/* The way of the current one. */
 int folding_way(void);
 
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
-/* number_power() and number_call(): sines and cosines that are no more than what rounding their angle made are rests. */
+/* number_power() and number_call(): sines and cosines no larger than the round-off of their angle are residues. */
 double folding_power(double base, double exponent);
 double folding_call(function_id function, double x, double y);
-/* Is `left`, which two numbers of this size leave of each other, nothing? Up to `part` of them it is: a last digit or two are
- * of the decimals that they came from, what is more is noted. In another way nothing but zero is. */
+/* Is `left`, the difference of two numbers of this size, zero? It is up to `part` of them, because their decimals leave a
+ * last digit or two; larger differences are recorded. In other ways only an exact zero is. */
 bool folding_cancels(double left, double size, double part);
-/* Are two numbers one, but for such a part? */
+/* Are two numbers equal, up to such a part? */
 bool folding_same(double x, double y, double part);
 
 #endif

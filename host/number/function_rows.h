@@ -1,21 +1,19 @@
-/* function_rows.h: the language's functions, a row each. All that lists functions is made of these rows, or
- * switches over function_id with -Wswitch-enum: a new function is a new row, at the end, and where something
- * of it is missing, nothing compiles or links.
+/* function_rows.h: the language's functions, a row each. All lists of functions are made of these rows, or
+ * switch over function_id with -Wswitch-enum. A new function is a new row, at the end. If a part of it is
+ * missing, the build fails.
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
  *
- *   id           FN_id of functions.h. The order is part of how models are hashed and expressions ordered.
- *   word         its name in the language and in text, in Octave, and behind wh_ in C
+ *   id           FN_id of functions.h. The order enters the hashes of models and the order of expressions.
+ *   word         its name in the language and in text, in Octave, and after wh_ in C
  *   arguments    1: x, 2: x and y, in the order in which they are written
- *   dimensions   TAKES_... of functions.h: what it may be given, and what comes out
- *   range        EVERYWHERE a real number, of whatever real numbers, or SOMEWHERE: NaN elsewhere, where Octave
- *                goes on with a complex one
- *   latex        what stands before the parenthesis
- *   value        FUNCTION_CORE(...): a function of core/function.h, in both numbers, on every board;
- *                FUNCTION_OWN(operation, ...): an operation of its own in the operation list, and its value in
- *                double. Who takes this column says what the two make of it.
- *   slopes       in double. In symbols: host/algebra/calculus.c, which has a function for each row
- */
+ *   dimensions   TAKES_... of functions.h: dimensions of the arguments and the result
+ *   range        EVERYWHERE: real for all real numbers. SOMEWHERE: NaN elsewhere, where Octave's result is complex.
+ *   latex        the text before the parenthesis
+ *   value        FUNCTION_CORE(...): a function of core/function.h, in both numbers, on every board.
+ *                FUNCTION_OWN(operation, ...): its own operation in the operation list, and its value in double.
+ *                The users of this column define the two macros.
+ *   slopes       in double. In symbols: host/algebra/calculus.c, which has a function for each row */
 #ifndef NUMBER_FUNCTION_ROWS_H
 #define NUMBER_FUNCTION_ROWS_H
 

@@ -1,4 +1,5 @@
-/* functions.c: see functions.h. The core's double build computes what is rounded. */
+/* functions.c: the language's functions in double. The core's double build computes the rounded
+ * ones. */
 #define WH_DOUBLE 1
 #include "functions.h"
 
@@ -57,9 +58,9 @@ _Static_assert(1 FUNCTION_ROWS(OF_CORE) == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
 #undef FUNCTION_OWN
 #undef FUNCTION_CORE
 
-/* What is no number stays none. */
+/* NaN stays NaN. */
 static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
-/* The share of one that leads by so much in what min() or max() takes. */
+/* The slope of min() or max() by an argument that leads by this much. */
 static double share_of(double lead) { return 0.5 + 0.5 * sign_of(lead); }
 
 #define FUNCTION_CORE(value) value
@@ -95,7 +96,7 @@ double number_slope(function_id function, int which, double x, double y) {
 /* The whole part of a size below ALL_WHOLE. */
 static double whole_part(double size) { return (double)(int64_t)size; }
 
-/* With the sign of x, zeros too. NaN and infinities come out as they are. */
+/* With the sign of x, zeros too. NaN and infinities stay unchanged. */
 static double like(double size, double x) { return wh_signed(size, wh_bits(x) >> 63 != 0); }
 
 double number_floor(double x) {
@@ -196,7 +197,7 @@ double number_centred(double x, double y) {
     if (!(WH_ABS(x) < WH_INFINITY) || !(by > 0.0)) {
         return WH_NAN;
     }
-    /* less than twice y is left of it, so the quotient is even so far: a half of y stays, unless once y is off */
+    /* the rest is below twice y, so the quotient is even so far: a half of y stays, unless y is subtracted once */
     double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
     const bool twice = by < 0x1p-1021; /* a half of y may be no number */
     if (twice ? rest + rest > by : rest > 0.5 * by) {

@@ -1,11 +1,9 @@
-/* functions.h: what the program computes numbers with: the language's functions (function_rows.h) and the few
- * others that it needs, by itself. Below everything else of the host; above it only the core.
+/* functions.h: the program's own numerics: the language's functions (function_rows.h) and a few others. It
+ * depends only on the core, and all of the host may use it.
  *
- * No library of the machine takes part, so that what is folded, judged or written comes out in the same bits
- * on every host. Sine and cosine, tangent, logarithm and so on err by less than 0.6 units of the last place
- * over the whole range (core/function.h); the root is correctly rounded; all others here are exact. Special
- * cases as in C's Annex F.
- */
+ * The machine's library is not used, so results have the same bits on every host. Sine, cosine, tangent,
+ * logarithm and the like err by less than 0.6 units of the last place over the whole range (core/function.h).
+ * The root is correctly rounded; all others here are exact. Special cases are as in C's Annex F. */
 #ifndef NUMBER_FUNCTIONS_H
 #define NUMBER_FUNCTIONS_H
 
@@ -23,9 +21,8 @@ typedef enum function_id { FUNCTION_ROWS(FUNCTION_ID) } function_id;
 enum { FUNCTIONS = 0 FUNCTION_ROWS(FUNCTION_ONE) }; /* how many there are, from FN_SIN on */
 #undef FUNCTION_ONE
 
-#define FUNCTION_NONE ((function_id)FUNCTIONS) /* where none is called */
+#define FUNCTION_NONE ((function_id)FUNCTIONS) /* no function */
 
-/* What arguments may be, and what comes out. */
 typedef enum function_dimensions {
     TAKES_ANGLE,  /* a number that is an angle in radians: a number */
     TAKES_NUMBER, /* a number: a number */
@@ -41,8 +38,8 @@ function_name(function_id function); /* in the language, in text, in Octave; wh_
 const char *function_latex(function_id function); /* "\\sin" */
 int function_arguments(function_id function);     /* 1 or 2 */
 function_dimensions function_takes(function_id function);
-bool function_is_real(function_id function); /* of whatever real arguments */
-/* The function of that name, in *function; false: there is none. */
+bool function_is_real(function_id function); /* real for all real arguments */
+/* The function with that name, in *function; false: unknown. */
 bool function_find(const char *text, size_t length, function_id *function);
 
 /* The function at x, or at (x, y). NaN goes through, by min() and max(), too. */
@@ -61,15 +58,15 @@ double number_ceiling(double x);
 double number_nearest(double x);
 double number_even(double x);
 
-/* What is left of x after whole multiples of y: with the sign of x, and within y/2. */
+/* The remainder of x after whole multiples of y: with the sign of x, and within y/2. */
 double number_remainder(double x, double y);
 double number_centred(double x, double y);
 
-/* x 2^exponent; and x as a number of 0.5 to below 1 times 2^*exponent, zeros, infinities and NaN as they are. */
+/* x 2^exponent; and x as a number of 0.5 to below 1 times 2^*exponent, with zeros, infinities and NaN unchanged. */
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
 
-/* The lesser and the larger of two; the other one where one is no number. Of two zeros, a. */
+/* The lesser and the larger of two; the other one if one is NaN. Of two zeros, a. */
 double number_least(double a, double b);
 double number_most(double a, double b);
 

@@ -1,4 +1,3 @@
-/* gauss.c: see gauss.h. */
 #include "gauss.h"
 
 #include <math.h>

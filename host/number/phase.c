@@ -1,4 +1,3 @@
-/* phase.c: see phase.h. */
 #include "phase.h"
 
 #include <math.h>

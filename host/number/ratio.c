@@ -1,4 +1,3 @@
-/* ratio.c: the fraction that a double stands for. */
 #include "ratio.h"
 
 #include <math.h>
@@ -19,7 +18,8 @@ typedef struct end {
 } end;
 
 /* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete
- * Mathematics, section 4.5): as long as no whole number lies between them, both begin with the same. */
+ * Mathematics, section 4.5). As long as there is no whole number between them, both have the same whole
+ * part. */
 static whole_ratio between(end low, end high) {
     uint128 p = uint128_of(1); /* convergents: the last, and the one before */
     uint128 q = uint128_of(0);
@@ -50,8 +50,7 @@ static whole_ratio between(end low, end high) {
 /* The simplest fraction within 2^-51 of the value, or a little less. */
 static whole_ratio simplest(double value) {
     int exponent;
-    const double mantissa =
-        number_split(value, &exponent); /* below one: 53 bits behind the point */
+    const double mantissa = number_split(value, &exponent); /* below one: 53 bits after the point */
     const uint64_t digits = (uint64_t)number_scaled(mantissa, MANTISSA);
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
     const uint64_t off = 2;
@@ -70,8 +69,8 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* The decimal of fewest digits as near, *said is 10 to the power of their number; false when it takes more than
- * 15 digits, or more than 60 bits as a fraction. */
+/* The decimal of fewest digits within the error; *said is 10 to the power of their number. False if it needs
+ * more than 15 digits, or more than 60 bits as a fraction. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
@@ -162,7 +161,7 @@ double ratio_times(uint64_t count, whole_ratio each) {
     }
     uint128 rest;
     uint128 quotient = uint128_over(of, uint128_of(each.denominator), &rest);
-    bool below = !uint128_is_zero(rest); /* rounded once, so with a mark for what lies below */
+    bool below = !uint128_is_zero(rest); /* rounded once, so with a sticky bit for the remainder */
     while (quotient.high != 0 || quotient.low >> 63 != 0) {
         below = below || (quotient.low & 1U) != 0;
         quotient = uint128_right(quotient, 1);

@@ -1,12 +1,12 @@
-/* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. How many steps
- * lie in a time is asked here only. */
+/* ratio.h: steps and ends of runs as fractions of whole numbers, so that counts and times are exact. All
+ * conversions of times to steps are here. */
 #ifndef NUMBER_RATIO_H
 #define NUMBER_RATIO_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What a duration above zero must lie between, s. */
+/* Limits of a positive duration, s. */
 #define RATIO_LEAST 1e-18
 #define RATIO_MOST 1e18
 
@@ -16,22 +16,22 @@ typedef struct whole_ratio {
     uint64_t denominator; /* > 0 */
 } whole_ratio;
 
-/* What `value` was before units and doubles rounded it: the decimal of fewest digits (at most 15), or the
- * simplest fraction, whichever says less, within 2^-51 of it, relatively. 0.0011000000000000001 is 11/10000, and
- * 1/44100 is what it looks like. A decimal with more than 60 bits over or under the bar (9.99999999999999e-7) becomes
- * the simplest fraction, too. 0 of what is not above zero; else what lies beyond RATIO_LEAST or RATIO_MOST is as they are. */
+/* `value` before the round-off of units and doubles. It is the decimal of fewest digits (at most 15) or the simplest
+ * fraction, whichever is shorter, within 2^-51 of it, relatively. So 0.0011000000000000001 is 11/10000, and 1/44100 is exact.
+ * A decimal with more than 60 bits in numerator or denominator (9.99999999999999e-7) becomes the simplest fraction, too. The
+ * result is 0 for values not above zero, and clamped to RATIO_LEAST and RATIO_MOST. */
 whole_ratio ratio_of(double value);
 
 /* The nearest whole number to whole / part, the lower one of two that are as near; false when that is
  * more than 2^63. `part` is above zero. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
 
-/* How many steps are as long as a spacing of `each_s` seconds: false when that is no whole number of them, within
- * 1e-6 of it, from 1 on. */
+/* Number of steps in a spacing of `each_s` seconds. False if that is not a whole number, from 1 on, within 1e-6
+ * of it. */
 bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
 
-/* The first step's end at or after from_s >= 0, which rounding may have put just behind one: 0 is the start. False
- * when that is more than 2^63. */
+/* The first step's end at or after from_s >= 0, allowing for round-off; 0 is the start. False if that is more than
+ * 2^63. */
 bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count);
 
 /* The largest number that divides both; 0 of two zeros. */

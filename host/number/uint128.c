@@ -1,4 +1,3 @@
-/* uint128.c: see uint128.h. */
 #include "uint128.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* uint128.h: whole numbers of 128 bits, without sign, for hosts whose compilers have none (all of 32 bits). */
+/* uint128.h: unsigned integers of 128 bits, for compilers without them (all for 32 bits). */
 #ifndef NUMBER_UINT128_H
 #define NUMBER_UINT128_H
 
@@ -16,7 +16,7 @@ uint128 uint128_of(uint64_t value);
 uint128 uint128_plus(uint128 a, uint128 b);
 uint128 uint128_minus(uint128 a, uint128 b);
 uint128 uint128_times(uint128 a, uint128 b);
-/* The whole part of a / b, and what is left in *rest (may be NULL); b is not 0. */
+/* The quotient of a / b, and the remainder in *rest (may be NULL); b is not 0. */
 uint128 uint128_over(uint128 a, uint128 b, uint128 *rest);
 bool uint128_below(uint128 a, uint128 b); /* a < b */
 bool uint128_is_zero(uint128 a);
