@@ -30,7 +30,7 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* A character, text[at], between gnuplot's double quotes. Letters and bytes of UTF-8 are literal; other characters are
+/* A character, text[at], between gnuplot's double quotes. Letters and bytes of UTF-8 are literal. Other characters are
  * octal codes, so that they cannot form a `command`, a @macro, an escape or a quote. Digits are octal, too: they could
  * extend a preceding code. XML has no control characters: each becomes a blank. "]]>" must not occur in XML, and
  * gnuplot does not escape its >: a zero-width character (U+2060) splits it. */
@@ -100,7 +100,6 @@ bool gnuplot_is_there(void) {
     return there;
 }
 
-/* The common look of all pictures. */
 static void set_look(gnuplot *g, int height) {
     const char *ending = ending_of(g->file);
     if (strcmp(ending, "svg") == 0) {

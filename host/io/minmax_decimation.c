@@ -1,4 +1,3 @@
-/* minmax_decimation.c: see minmax_decimation.h. */
 #include "minmax_decimation.h"
 
 #include <math.h>
@@ -40,7 +39,7 @@ void decimation_free(decimation *v) {
     }
 }
 
-/* Both, of which `later` came behind. Of equals the first counts; what is not finite gives way. */
+/* The union of two extents. Of equal values the first counts; a non-finite one is replaced. */
 static extent joined(extent earlier, extent later) {
     if (!isfinite(later.least) || !isfinite(later.most)) {
         return earlier;

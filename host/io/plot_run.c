@@ -111,7 +111,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
     return good;
 }
 
-/* The string at *at, which advances past it; NULL if there is none. Free it. */
+/* The string at *at, which advances past it; NULL if it is missing. Free it. */
 static char *string_at(const char **at) {
     char *made = alloc_words("%s", *at);
     size_t length = 0;

@@ -67,7 +67,7 @@ static int column_of(const records *r, int unknown_index, int primes) {
     return column;
 }
 
-/* What stands around the columns of a line. */
+/* The text around the columns of a line. */
 typedef struct layout {
     const char *header, *between, *end;
     const char *unit; /* before a unit's bracket: a blank would part columns */
@@ -136,7 +136,7 @@ void records_read(records *r, void *run, double time_s) {
         r->row[column_of(r, i, 0)] = r->output[own + 2 * k];
         r->row[column_of(r, i, 1)] = r->output[own + 2 * k + 1];
     }
-    for (int i = 0; i < r->columns; i++) { /* here, and nowhere else, SI becomes what people read */
+    for (int i = 0; i < r->columns; i++) { /* the only conversion from SI to declared units */
         r->row[i] = number_shown(i > 0 ? image_shown(r->column[i].unit, r->row[i]) : r->row[i]);
     }
 }

@@ -1,10 +1,10 @@
-/* records.h: what a run leaves behind: comma-separated values (RFC 4180), or plain columns, which Octave
- * and Matlab read with `load`: a header line after a percent sign, then numbers between spaces.
+/* records.h: the records of a run: comma-separated values (RFC 4180), or plain columns, which Octave and
+ * Matlab read with `load`: a header line after a percent sign, then numbers between spaces.
  *
- * Columns: time, the coordinates, their derivatives as der(theta), der(der(x)), ..., the outputs. Angles
- * are not wrapped. Numbers are in the unit in which a coordinate or output was declared (image_unit), else SI.
- * A unit that is not SI stands behind the column's name: theta [deg], der(theta) [deg/s]; in plain columns
- * without the blank. */
+ * Columns: time, the coordinates, their derivatives as der(theta), der(der(x)), ..., the outputs. Angles are
+ * not wrapped. Numbers are in the unit in which a coordinate or output was declared (image_unit), else SI. A
+ * unit other than SI follows the column's name: theta [deg], der(theta) [deg/s]; in plain columns without the
+ * blank. */
 #ifndef IO_RECORDS_H
 #define IO_RECORDS_H
 
@@ -12,7 +12,6 @@
 
 #include "host/engine/engine.h"
 
-/* What a column holds. */
 typedef struct record_column {
     const char *name; /* of the unknown or output; NULL: the time */
     int unknown;      /* index; -1 for an output */

@@ -1,4 +1,3 @@
-/* traces.c: see traces.h. */
 #include "traces.h"
 
 #include <math.h>
@@ -30,7 +29,7 @@ struct traces {
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* The step in units of 10^-power s; false when that is beyond what a ratio holds. */
+/* The step in units of 10^-power s; false if a ratio cannot represent it. */
 static bool step_in_units(whole_ratio step, int power, whole_ratio *in_units) {
     *in_units = step;
     for (int k = 0; k < power; k++) { /* ten is two fives */
@@ -175,9 +174,9 @@ traces *traces_open(FILE *out, const records *form, uint64_t every) {
     return w;
 }
 
-/* --- what happens ------------------------------------------------------------------------------------------------ */
+/* --- events ------------------------------------------------------------------------------------------------------ */
 
-/* What the wire of a contact in this mode shows. */
+/* The value of the wire of a contact in this mode. */
 static double shown_mode(int kind, int mode) {
     switch ((wh_contact_kind)kind) {
     case WH_STOP:

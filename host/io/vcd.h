@@ -13,8 +13,8 @@ enum { VCD_FINEST = 15 };
 
 typedef struct vcd vcd;
 
-/* Write to `out`, which the caller owns: the head, with the text `what`, a unit of 10^-power s, and a scope. Reals have
- * so many digits. */
+/* Writes to `out`, which the caller owns: the head, with the text `what`, a unit of 10^-power s, and a scope. Reals
+ * have `digits` digits. */
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits);
 
 /* Begin a scope for the following signals. */

@@ -1,4 +1,3 @@
-/* choice.c: see choice.h. */
 #include "choice.h"
 
 #include <math.h>
@@ -24,7 +23,8 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* A limit is kept by the most that a figure may be; a prediction that will be counted, by the least. */
+/* A counted figure must keep a limit with its upper bound, a prediction that will be counted with its
+ * lower one. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_wish *w, const table *made, int i) {
@@ -44,7 +44,7 @@ static choice_row judged(const trials *t, const choice_wish *w, const table *mad
     judge_limit(&row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row.load_most);
     judge_limit(&row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes),
                 bound_of(&c->flash_bytes, hopeful));
-    /* what does not fit without the stack does not fit, whatever that takes */
+    /* a program that does not fit without its stack never fits */
     const double ram = bound_of(&c->ram_bytes, hopeful);
     const bool known = is_known(&c->ram_bytes) && (is_known(&c->stack_bytes) || ram > w->ram_bytes);
     judge_limit(&row, CHOICE_RAM, w->ram_bytes, known, ram + bound_of(&c->stack_bytes, hopeful));
@@ -112,7 +112,8 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w) {
 
 /* A run on an emulator of no more instructions than this: some ten seconds. */
 #define RUN_INSTRUCTIONS 1e9
-/* Of what is not known of any run in this number: all rows of it before those of others. */
+/* Price of an evaluation in a number without any counted run: puts all of its rows before those of
+ * other numbers. */
 #define UNTRIED 1e-3
 
 /* With contacts: the expected cost of runs that were not counted, by `each` evaluation of a number. */
@@ -151,7 +152,7 @@ static void drop_long(const trials *t, table *made) {
     made->count = kept;
 }
 
-/* A row that an answer names and that was not counted; -1: there is none. */
+/* A row in an answer that was not counted, or -1. */
 static int uncounted(const table *made, const choice *c) {
     const bool found = c->fastest.row >= 0;
     const choice_row *const named[] = {found ? &c->fastest : &c->weaker,
@@ -367,7 +368,7 @@ static void print_bytes(FILE *out, const table *made, const choice_row *row) {
             number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
 }
 
-/* The limit that would have to give, and the row that would do then. */
+/* The limit to relax, and the row that would then fit. */
 static void print_remedies(FILE *out, const trials *t, const table *made, const choice_wish *w,
                            const choice *c) {
     char text[AMOUNT];

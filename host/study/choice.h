@@ -22,15 +22,14 @@ typedef struct choice_wish {
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* with the stack; 0: no limit */
-    bool
-        counts; /* what is named will be counted: a prediction need not keep a limit at the most that it may be */
+    bool counts; /* answers will be counted: a prediction may exceed a limit by its error bound */
     const char *prices;                           /* for people: how they are known */
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_wish;
 
 /* A row by the limits. Loads are parts of the period, or of a second without a rate: of the longest step. */
 typedef struct choice_row {
-    int row;      /* of the table; -1: none */
+    int row;      /* of the table, or -1 */
     double worst; /* cycles, or instructions, of a second of the longest steps, at most */
     double load;  /* 0: not known */
     double load_most;
@@ -39,13 +38,13 @@ typedef struct choice_row {
 } choice_row;
 
 typedef struct choice {
-    choice_row fastest;  /* of those that keep everything: the fewest cycles, */
+    choice_row fastest;  /* the fewest cycles within all limits, */
     choice_row smallest; /* and the least flash */
-    /* If no row does, the limit that would have to give: */
-    choice_row weaker; /* the least error of those that keep the other limits */
-    choice_row dearer; /* the least load of those that keep the error, flash and RAM */
-    choice_row larger; /* the least flash of those that keep the error and the load */
-    choice_row any;    /* the least load of those that keep the error */
+    /* If no row fits, the candidates for relaxing a limit: */
+    choice_row weaker; /* the least error within the other limits */
+    choice_row dearer; /* the least load within error, flash and RAM */
+    choice_row larger; /* the least flash within error and load */
+    choice_row any;    /* the least load within the error */
 } choice;
 
 choice choice_make(const trials *t, const table *made, const choice_wish *w);
@@ -58,7 +57,8 @@ measured_end choice_counted(trials *t, table *made, const choice_wish *w, const 
 /* Both answers; or that no row fits, and the nearest one. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words);
-/* The same as one JSON object (docs/warnings.md has the schema), without what would fit; `status`: exit status. */
+/* The same as one JSON object (docs/warnings.md has the schema), without the hint of limits that would fit;
+ * `status`: exit status. */
 void choice_json(FILE *out, const trials *t, const table *made, const choice_wish *w,
                  const choice *c, const table_words *words, int status);
 

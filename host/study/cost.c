@@ -1,4 +1,3 @@
-/* cost.c: see cost.h. */
 #include "cost.h"
 
 #include <stdlib.h>

@@ -1,18 +1,17 @@
 /* cost.h: the price of a step on a board: predicted from its image, or read from a counted row.
  *
- *     const cost_board *board = cost_board_named("mps2-an386");
- *     cost c = cost_of(image, board, COST_FLOAT);
+ *     cost c = cost_of(image, cost_board_named("mps2-an386"), COST_FLOAT);
  *
  * An image contains its settings (method, compensated sums, angles). A prediction is a sum over the classes of operations
  * (cost_count.h) times the figures of the board and number (cost_rows.h, written by `make price-table`). It needs neither
  * a source tree nor a compiler. docs/price.md gives its error.
  *
- * With the source tree and the board's compiler and emulator the same is counted:
+ * With the source tree and the board's compiler and emulator the same is counted by
  *
  *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
  *
- * prints COST_HEADER and one row, which cost_measured() reads. Exit status 2: wrong words, or a tool is missing. 1: the
- * scene cannot be derived, does not fit or does not run.
+ * It prints COST_HEADER and one row, which cost_measured() reads. Exit status 2: wrong words, or a tool is missing. 1:
+ * the scene cannot be derived, does not fit or does not run.
  *
  * Neither includes wait states of flash, caches, interrupts, and other compilers and flags. */
 #ifndef STUDY_COST_H
@@ -56,7 +55,7 @@ cost_figure cost_ranged(const cost_board *board, const cost_figure *instructions
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 enum { COST_COLUMNS = 15 };
-/* Cuts a row at its commas outside quotes; false unless it has so many columns. */
+/* Cuts a row at its commas outside quotes; false unless it has this many columns. */
 bool cost_cut(char *row, char **column, int columns);
 bool cost_measured(const char *row, const cost_board *board, cost *c);
 

@@ -1,4 +1,3 @@
-/* cost_board.c: see cost_board.h. */
 #include "cost_board.h"
 
 #include <stddef.h>
@@ -8,8 +7,8 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* Cycles an instruction, where nobody counts them: the least is what a core that issues so many at once could reach, the
- * most twice to thrice what Arm's timing gives for such steps on a Cortex-M4 (1.2 to 1.7). */
+/* Cycles per instruction of boards without counted cycles. The least is for a core that always issues as many instructions
+ * at once as it can. The most is two to three times Arm's timing of such steps on a Cortex-M4 (1.2 to 1.7). */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", "ATmega328P: Arduino Uno, Nano", false, COST_SIMULATED, 0, 0, 16e6, 32768,
      2048},

@@ -1,10 +1,10 @@
-/* cost_board.h: the boards that prices are told of, the numbers they compute in, and how a figure may have come about. */
+/* cost_board.h: the boards with prices, their number types, and the sources of a figure. */
 #ifndef STUDY_COST_BOARD_H
 #define STUDY_COST_BOARD_H
 
 #include <stdbool.h>
 
-/* X(id, word, what it says of a figure) */
+/* X(id, word, description of the figure's source) */
 #define COST_BASIS_ROWS(X) \
     X(COST_NOT_KNOWN, "not known", "nobody can tell: it must be measured") \
     X(COST_EXACT, "exact", "follows from the layout") \
@@ -35,15 +35,15 @@ typedef struct cost_board {
     cost_basis cycles;
     double cycles_least; /* COST_RANGE only, else 0 */
     double cycles_most;
-    double clock_Hz;  /* of a chip whose clock is given by the board, or 0 */
-    long flash_bytes; /* what it has, or 0 where the board is no single chip */
-    long ram_bytes;   /* likewise */
+    double clock_Hz;  /* of a chip with a clock set by the board, or 0 */
+    long flash_bytes; /* of the chip, or 0 if the board is no single chip */
+    long ram_bytes;   /* the same */
 } cost_board;
 
 #define COST_BOARD_DEFAULT "mps2-an386"
-/* All of them, in an order to show them in. */
+/* All boards, in display order. */
 extern const cost_board cost_boards[];
 extern const int cost_board_count;
-const cost_board *cost_board_named(const char *name); /* NULL: there is none */
+const cost_board *cost_board_named(const char *name); /* NULL: unknown */
 
 #endif

@@ -1,4 +1,3 @@
-/* cost_count.c: see cost_count.h. */
 #include "cost_count.h"
 
 #include <stdlib.h>
@@ -58,16 +57,16 @@ static cost_class class_of(const op *o) {
 static bool is_part_of_pair(const op *o) { return o->code == OP_SIN || o->code == OP_COS; }
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
-/* How often an inlined list's operations are executed: compilers see which of them are the same at every stage, and which
- * at stages that stand at the same place. */
+/* Executions of an inlined list's operations per step. Compilers share operations that are the same at every stage, and
+ * those of stages at the same place. */
 typedef struct times {
     double stages;
     double places;
     double once;
 } times;
 
-/* Of operation i: 0 the same at every stage, 1 a matter of places, 2 of rates as well; those of earlier operations are in
- * depth[]. */
+/* Dependence of operation i: 0 the same at every stage, 1 on places, 2 on rates as well; depth[] has those of earlier
+ * operations. */
 static int depth_of(const op_list *t, int i, const int *depth) {
     const op *o = &t->ops[i];
     int operand[2];
@@ -140,12 +139,12 @@ static void add_libraries(cost_counts *c, const image *im) {
 
 typedef struct work {
     int stages;
-    int places; /* where they stand: fewer where some stand at the same place */
+    int places; /* distinct places of the stages */
     int shares; /* that are not zero: of stages in stages and places, and in the end */
     int turns;  /* of a pair in a step, and stages that lean */
 } work;
 
-/* Does stage s stand where an earlier one does? */
+/* Is stage s at the same place as an earlier one? */
 static bool stands_again(const wh_tableau *by, unsigned s) {
     const wh_places *at = by->places;
     for (unsigned e = 0; e < s; e++) {

@@ -59,7 +59,7 @@ typedef struct cost_row {
     const char *board;
     cost_number number;
     cost_quantity quantity;
-    double within;  /* the factor of error that nine of ten counted steps kept */
+    double within;  /* the factor of error of nine of ten counted steps */
     double longest; /* the longest step over the mean; 1 of bytes */
     double figure
         [COST_CLASSES]; /* cost of one operation; COST_UNSEEN: no counted step has the class */
@@ -67,7 +67,7 @@ typedef struct cost_row {
 
 #define COST_UNSEEN (-1.0)
 
-/* Times that an operation of each class counts: of time as it is executed, of bytes as the firmware contains it. */
+/* The weight of an operation of each class: executions for time, copies in the firmware for bytes. */
 const double *cost_counted(const cost_counts *c, cost_quantity quantity);
 
 #endif

@@ -1,4 +1,3 @@
-/* extrapolation.c: see extrapolation.h. */
 #include "extrapolation.h"
 
 #include <math.h>
@@ -13,17 +12,17 @@ struct extrapolation {
     const image *image;
     extrapolation_setting how;
     long_list *list;
-    evaluator *rough; /* tells what rounding may leave of nothing */
+    evaluator *rough; /* bounds the round-off of a zero */
     double *input;    /* [inputs] */
     int count;        /* components */
     long double *state;
-    long double *lost;  /* what rounding the sums of steps took off the state */
+    long double *lost;  /* round-off of the sums of steps (Kahan) */
     long double *slope; /* at the state */
     long double *largest;
     long double *row[2]; /* [columns][count]: two rows of the tableau */
     long double *before, *here, *work;
     double *rounding;   /* [results] of the list */
-    long double step_s; /* to try next; 0: none yet */
+    long double step_s; /* to try next; 0: not chosen yet */
     double operations;
     double most_operations;
 };
@@ -94,8 +93,8 @@ void extrapolation_free(extrapolation *e) {
 const long double *extrapolation_state(const extrapolation *e) { return e->state; }
 double extrapolation_operations(const extrapolation *e) { return e->operations; }
 
-/* What a step's error is compared with, in `scale`: the largest value so far, or what rounding of the list's own
- * operations makes of a slope within the step, which of a component that ought to stay at zero is all there is. */
+/* The scale of a step's error: the largest value so far, or the round-off of the list's own operations within the
+ * step. The latter matters for a component that should stay at zero. */
 static void scale_of(extrapolation *e, long double span_s, long double *scale) {
     const image *im = e->image;
     const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
@@ -121,8 +120,8 @@ static void scale_of(extrapolation *e, long double span_s, long double *scale) {
     }
 }
 
-/* How far the modified midpoint rule of so many substeps moves the state. What is summed up and extrapolated are moves,
- * not states, so that a short step rounds little. False where something is not a finite number. */
+/* The increment of the state by the modified midpoint rule with this many substeps. Increments are summed and
+ * extrapolated instead of states, so that a short step has little round-off. False if a value is not finite. */
 static bool midpoint(extrapolation *e, long double span_s, int substeps, long double *result) {
     const long double h = span_s / (long double)substeps;
     long double *here = result; /* moves: after k substeps, and before that */
@@ -148,8 +147,8 @@ static bool midpoint(extrapolation *e, long double span_s, int substeps, long do
     return finite;
 }
 
-/* How far a step moves the state, by the last column; *error by the last two, as a part of what is allowed. Infinite
- * where something is not a finite number: the move is then of no use. */
+/* The increment of a step by the last column; *error is the difference of the last two, as a part of the tolerance.
+ * Infinite if a value is not finite: the increment is then invalid. */
 static const long double *try_step(extrapolation *e, long double span_s, double *error) {
     long double scale[2 * IMAGE_COMPONENTS_MAX] = {0};
     const int n = e->count;
@@ -190,7 +189,7 @@ static const long double *try_step(extrapolation *e, long double span_s, double 
     return made;
 }
 
-/* Kahan's sum: what one step's rounding takes off, the next one brings back. */
+/* Kahan's sum: the next step adds back the round-off of the last. */
 static void take(extrapolation *e, const long double *made) {
     for (int i = 0; i < e->count; i++) {
         const long double move = made[i] - e->lost[i];

@@ -1,6 +1,7 @@
-/* extrapolation.h: the motion of an image without contacts by the method of Gragg, Bulirsch and Stoer in long double:
- * modified midpoint rules of 2, 4, ..., 2 k substeps, extrapolated to none by Aitken and Neville (Hairer, Norsett and
- * Wanner, Solving Ordinary Differential Equations I, II.9). No step, sine or method of the core takes part. */
+/* extrapolation.h: the motion of an image without contacts by the method of Gragg, Bulirsch and Stoer in long double.
+ * It extrapolates modified midpoint rules of 2, 4, ..., 2 k substeps to step zero by Aitken and Neville (Hairer,
+ * Norsett and Wanner, Solving Ordinary Differential Equations I, II.9). It shares no step, sine or method with the
+ * core. */
 #ifndef STUDY_EXTRAPOLATION_H
 #define STUDY_EXTRAPOLATION_H
 
@@ -8,7 +9,7 @@
 
 typedef struct extrapolation extrapolation;
 
-/* How accurate: `columns` rules (order 2 columns) and steps whose last two columns agree within `tolerance` of each
+/* Accuracy: `columns` rules (order 2 columns). In each step the last two columns agree within `tolerance` of each
  * component's largest value so far. */
 typedef struct extrapolation_setting {
     int columns; /* <= EXTRAPOLATION_COLUMNS */

@@ -108,7 +108,7 @@ static char *trimmed(const char *text, size_t length) {
     return alloc_copy(text, length);
 }
 
-/* Begins a message: whose option it is, and what it was given. */
+/* Begins a message with the option and its value. */
 static void say(const grid *g, const char *over) {
     fprintf(stderr, "whirl %s: error: %s \"%s\"", g->command != NULL ? g->command : "sweep",
             g->option != NULL ? g->option : "--over", over);
@@ -161,7 +161,7 @@ static bool range_split(const grid *g, const char *text, range_text *r) {
     return true;
 }
 
-/* Where the number at the start of the text ends; NULL when there is none. */
+/* The end of the number at the start of `text`; NULL without a number. */
 static const char *behind_number(const char *text) {
     const char *end;
     (void)decimal_read(text, &end);

@@ -1,4 +1,4 @@
-/* grid.h: the points of a sweep: what is varied, over which range, in which order. */
+/* grid.h: the points of a sweep: varied values, their ranges and order. */
 #ifndef STUDY_GRID_H
 #define STUDY_GRID_H
 
@@ -30,7 +30,7 @@ typedef struct grid {
 
 #define GRID_POINTS_MAX UINT64_C(1000000000000)
 
-/* "NAME=FROM..TO:COUNT[,log]"; a unit behind TO counts for a bare FROM too. False when it is wrong
+/* "NAME=FROM..TO:COUNT[,log]"; a unit after TO also applies to a bare FROM. False if it is wrong
  * (reported on standard error). */
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
@@ -38,7 +38,7 @@ void grid_free(grid *g);
 /* The values of point `point` < g->points, by axis: value[g->count], SI. The ends are exact. */
 void grid_values(const grid *g, uint64_t point, double *value);
 
-/* The axis that varies the step; -1: none does. */
+/* The axis that varies the step, or -1. */
 int grid_step_axis(const grid *g);
 
 /* Does an axis vary a parameter? Then each point has equations of its own. */
@@ -55,15 +55,14 @@ char *number_shortest(double value, char text[NUMBER_SIZE]);
 /* === values of a point as changes ============================================================= */
 /* The swept values of one point as changes of the command line. */
 
-/* Those of `base` with the point's values behind them and so over them. Numbers of 17 digits: none is lost. Free with
- * changes_forget(). */
+/* Those of `base`, followed by the point's values, which take precedence. Numbers have 17 digits, so they are exact.
+ * Free with changes_forget(). */
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);
 void changes_forget(const overrides *base, overrides *changes);
 
-/* False, told on standard error, where an axis varies what takes no part in `base`: it would give the same run again and
- * again. */
+/* False, reported on standard error, if an axis varies a value that takes no part in `base`: all runs would be the same. */
 bool changes_take_part(const grid *g, const instance *base);
-/* False, told, where `base` sets what an axis varies: one value would take the place of the other. */
+/* False, reported, if `base` sets a value that an axis varies, because one would override the other. */
 bool changes_are_apart(const grid *g, const overrides *base);
 
 #endif

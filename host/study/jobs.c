@@ -19,7 +19,7 @@
 #define PAUSE_MS 50
 #define ASK_US 200000
 
-/* What a worker sends before row and reason. */
+/* The header that a worker sends before row and reason. */
 typedef struct answer {
     uint64_t point;
     uint64_t row_length;
@@ -37,7 +37,7 @@ typedef struct worker {
 
 /* A row that waits for its turn. */
 typedef struct slot {
-    char *row; /* NULL: not yet there; the reason follows behind its zero byte */
+    char *row; /* NULL: not yet received; the reason follows its zero byte */
     const char *reason;
     bool good;
 } slot;
@@ -57,7 +57,7 @@ typedef struct pool {
 
 static pid_t parent;
 
-/* Without a parent nobody waits for what it does. */
+/* Ends the worker when its parent ends. */
 static void ask_for_parent(int signal_number) {
     (void)signal_number;
     interrupted = getppid() != parent;
@@ -110,8 +110,8 @@ static bool start_worker(pool *p, int tickets) {
     if (pipe(results) != 0) {
         return false;
     }
-    fflush(NULL); /* or the child would have a copy of what is buffered */
-    /* what comes before the child has its own handlers waits until it has */
+    fflush(NULL); /* otherwise the child would have a copy of the buffers */
+    /* signals wait until the child has its own handlers */
     sigset_t both;
     sigset_t usual;
     sigemptyset(&both);
@@ -120,7 +120,7 @@ static bool start_worker(pool *p, int tickets) {
     sigprocmask(SIG_BLOCK, &both, &usual);
     const pid_t pid = fork();
     if (pid == 0) {
-        signal(SIGINT, SIG_IGN); /* the parent says when to end */
+        signal(SIGINT, SIG_IGN); /* the parent decides when to end */
         signal(SIGTERM, SIG_DFL);
         sigaction(SIGALRM,
                   &(struct sigaction){.sa_handler = ask_for_parent, .sa_flags = SA_RESTART}, NULL);
@@ -191,7 +191,7 @@ static void take_answers(pool *p, worker *w) {
     memmove(w->bytes, w->bytes + at, w->length);
 }
 
-/* Read what a worker has to say. False when it has ended. */
+/* Reads from a worker. False when it has ended. */
 static bool listen_to(pool *p, worker *w) {
     if (w->room - w->length < 65536) {
         w->room = 2 * w->room + 65536;
@@ -211,7 +211,7 @@ static bool listen_to(pool *p, worker *w) {
     return true;
 }
 
-/* Deliver every row whose turn has come. */
+/* Delivers rows in order, as far as they are complete. */
 static bool deliver(pool *p) {
     for (;;) {
         slot *next = &p->slots[p->delivered % p->window];
@@ -241,7 +241,7 @@ static jobs_result attend(pool *p) {
         const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
         for (int i = 0; i < p->started && heard > 0; i++) {
             if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
-                result = JOBS_WORKER_LOST; /* none ends before its numbers do */
+                result = JOBS_WORKER_LOST; /* workers end only after their numbers do */
             }
         }
         if (!deliver(p) || !j->pause(j->context, p->delivered)) {

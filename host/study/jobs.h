@@ -1,9 +1,9 @@
-/* jobs.h: points worked on by several processes, delivered in order.
+/* jobs.h: points computed by several processes and delivered in order.
  *
- * The parent hands numbers out over one pipe; whichever worker is free takes the next. Rows come
- * back over a pipe for each worker and are delivered by rising number, at once when their turn has
- * come. What a worker does for a point must depend on nothing but the point: then what is delivered does
- * not depend on the number of workers. Workers end when the parent does, however it ends. */
+ * The parent hands out numbers over one pipe, and the next free worker takes one. Rows come back over a
+ * pipe per worker and are delivered by rising number, as soon as possible. A worker's result for a point
+ * must depend on the point alone. Then the delivery does not depend on the number of workers. Workers
+ * end when the parent does, even after a crash. */
 #ifndef STUDY_JOBS_H
 #define STUDY_JOBS_H
 
@@ -16,20 +16,20 @@ typedef struct jobs {
     uint64_t first;
     uint64_t end;
     void *context;
-    /* In a worker: write the point's row, and in `reason` what else deliver() is to know of it,
-     * as one line or nothing. False when it failed. */
+    /* In a worker: writes the point's row, and in `reason` one line or nothing for deliver(). False
+     * if it failed. */
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
     /* In the parent, in order. False ends it all. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
-    /* In the parent, after some rows or a moment: write out what was delivered, show progress. */
+    /* In the parent, after some rows or a moment: writes out the delivered rows, shows progress. */
     bool (*pause)(void *context, uint64_t next);
 } jobs;
 
 typedef enum jobs_result {
     JOBS_DONE,
     JOBS_STOPPED,    /* interrupted */
-    JOBS_REFUSED,    /* deliver or pause said so */
-    JOBS_WORKER_LOST /* a worker ended early, or none could be started (said) */
+    JOBS_REFUSED,    /* deliver or pause returned false */
+    JOBS_WORKER_LOST /* a worker ended early, or could not be started (reported) */
 } jobs_result;
 
 #define JOBS_WORKERS_MAX 1024

@@ -1,4 +1,3 @@
-/* long_list.c: see long_list.h. */
 #include "long_list.h"
 
 #include <math.h>
@@ -10,7 +9,7 @@
 
 /* --- functions -------------------------------------------------------------------------------------*/
 
-/* 1/0!, 1/1!, ...: enough of them for 113 binary digits at the arguments below. */
+/* 1/0!, 1/1!, ..., enough for 113 binary digits at the arguments below. */
 static const long double inverse_factorial[] = {1.0L,
                                                 1.0L,
                                                 1.0L / 2.0L,
@@ -119,7 +118,7 @@ static long double exponential(long double x) {
     return sum * two_to(n);
 }
 
-/* 2 atanh((x - 1)/(x + 1)) near 1; else what a double's logarithm y lacks: log(x exp(-y)). */
+/* 2 atanh((x - 1)/(x + 1)) near 1; else corrects a double's logarithm y by log(x exp(-y)). */
 static long double logarithm(long double x) {
     if (!(x > 0.0L) || !isfinite(x)) {
         return x < 0.0L ? (long double)NAN : x > 0.0L || x != x ? x : -(long double)INFINITY;
@@ -171,7 +170,8 @@ long double long_power(long double base, long double exponent) {
 
 /* --- angles of ratios, hyperbolic functions ------------------------------------------------------ */
 
-/* What a double's angle y lacks is the angle of (x - tan y)/(1 + x tan y), too small for more than a cube. */
+/* Corrects a double's angle y by the angle of (x - tan y)/(1 + x tan y), which is too small for more than a
+ * cube. */
 static long double angle_of(long double x) {
     if (x != x || !isfinite((double)x)) {
         return x != x ? x : x < 0.0L ? -(QUARTER_1 + QUARTER_2) : QUARTER_1 + QUARTER_2;
@@ -278,8 +278,7 @@ static long double phase_of(const op_list *t, const op *o, const long_leaves *in
     return sum;
 }
 
-/* Where the numbers of the cell stand that a phase lies in. References are made of the exact list, which has none: the
- * middle of the cell will do. */
+/* The cell of a phase. References use the exact list, which has no cells: the middle of the cell suffices. */
 static long double cell_of(const op_list *t, long double phase_rad) {
     const long double turns = phase_rad / 6.28318530717958647692528676655900577L;
     const double cells = (double)(1U << (unsigned)t->tables.bits);
@@ -288,7 +287,7 @@ static long double cell_of(const op_list *t, long double phase_rad) {
     return (long double)((at < cells ? at : 0.0) * t->tables.count * t->tables.terms);
 }
 
-/* The operands of operation o, where these are values. */
+/* The operands of operation o, if they are values. */
 #define A (l->value[o->a])
 #define B (l->value[o->b])
 

@@ -11,7 +11,7 @@
 #include "host/image/op_list.h"
 #include "host/number/functions.h"
 
-/* Does long double hold more than a double here? Where it does not, the reference says so. */
+/* Does long double have more digits than double? If not, the reference reports that. */
 #define LONG_IS_LONGER (LDBL_MANT_DIG > DBL_MANT_DIG)
 
 static inline long double long_size(long double x) { return x < 0.0L ? -x : x; }
@@ -25,7 +25,7 @@ long double long_call(function_id function, long double x, long double y);
 
 typedef struct long_list long_list;
 
-/* What a list may ask for. Noise is none, and accelerations of contacts are not known: both are 0. */
+/* The inputs of a list. Noise and accelerations of contacts are not available: both are 0. */
 typedef struct long_leaves {
     const long double *angle_rad; /* unwrapped */
     const long double *linear;

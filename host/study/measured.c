@@ -1,4 +1,3 @@
-/* measured.c: see measured.h. */
 #include "measured.h"
 
 #include <stdlib.h>
@@ -12,7 +11,7 @@
 #include "host/number/functions.h"
 
 #define COUNTS "mk/price/measure_one.sh"
-/* Of it: words are wrong, or a tool is missing. */
+/* Its exit status for wrong words or a missing tool. */
 #define STATUS_MISSING 2
 
 /* The last line that a command prints, or the first with this in it. Returns its exit status, or -1. */
@@ -91,7 +90,7 @@ enum {
 
 static double value_of(const char *text) { return decimal_read(text, NULL); }
 
-/* The larger of a figure and what was counted at one more place. */
+/* The larger of a figure and the count at one more place. */
 static void grow(cost_figure *f, cost_basis basis, const char *text) {
     const double value = value_of(text);
     if (f->basis == COST_NOT_KNOWN || value > f->value) {
@@ -99,7 +98,7 @@ static void grow(cost_figure *f, cost_basis basis, const char *text) {
     }
 }
 
-/* Adds one place's whole run to a row: false where the line is none. */
+/* Adds the whole run at one place to a row; false: the line is not valid. */
 static bool enter_run(const cost_board *board, char *line, table_row *to) {
     char *column[RUN_COLUMNS];
     if (!cost_cut(line, column, RUN_COLUMNS) || strcmp(column[0], board->name) != 0) {
@@ -135,7 +134,7 @@ static int count_line(char *line, char *row, int size) {
     return status;
 }
 
-/* Whole runs at all places; no bound where one of them has none. */
+/* Whole runs at all places; unknown if one of them failed. */
 static int count_runs(const trials *t, const table_words *words, table_row *row) {
     bool bounded = true;
     int status = 0;
@@ -164,7 +163,7 @@ static int count_step(const trials *t, const table_words *words, table_row *row)
     return status == 0 && !cost_measured(line, t->wish.board, &row->cost) ? 1 : status;
 }
 
-/* Where counted figures stand for another row. */
+/* Do the counted figures of one row hold for another? */
 static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
     return setting_order(&a->setting) == setting_order(&b->setting) &&
            (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);

@@ -1,5 +1,5 @@
-/* measured.h: prices that are counted: in Whirl's source tree, with the board's compiler and emulator, by the line that
- * people are told (table_measure_line()). */
+/* measured.h: counted prices, in Whirl's source tree, with the board's compiler and emulator. They use the same command
+ * line that is shown to users (table_measure_line()). */
 #ifndef STUDY_MEASURED_H
 #define STUDY_MEASURED_H
 
@@ -10,8 +10,8 @@ typedef enum measured_end {
     MEASURED_MISSING /* a tool is */
 } measured_end;
 
-/* Why nothing can be counted on a board; NULL: it can, and the files that are compiled once are there. `text` has room for
- * the answer. */
+/* The reason why counting is impossible on a board. NULL: it is possible, and the files that are compiled once exist.
+ * `text` has room for the answer. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
 /* Counts the steps of a row (seconds), for all rows of its setting; with contacts its whole run. The table is sorted again.

@@ -14,7 +14,6 @@
 #include "host/number/functions.h"
 
 /* === a measure, sample by sample ============================================================== */
-/* Taking measures. */
 
 gauge gauge_start(measure_kind kind) { return (gauge){.kind = kind}; }
 
@@ -102,8 +101,8 @@ const symbol *measure_symbol(const measure *m) {
 
 static size_t blanks(const char *text) { return strspn(text, " \t"); }
 
-/* The length of "(...)" at the start of the text, parentheses balanced; 0 when it is not closed.
- * Sets *has_comma when a comma stands in it outside inner parentheses. */
+/* The length of "(...)" at the start of the text, with balanced parentheses; 0 if it is not closed.
+ * Sets *has_comma if there is a comma outside inner parentheses. */
 static size_t parenthesized(const char *text, bool *has_comma) {
     int depth = 0;
     *has_comma = false;
@@ -140,8 +139,8 @@ static measure_kind kind_of(const char *text, const char **inner, size_t *length
     return MEASURE_FINAL;
 }
 
-/* A state may be named with any number of primes; the equations give it no more than its order.
- * Each let is walked once. */
+/* A name may have any number of primes, but the equations define it only up to its order. Each let
+ * is walked once. */
 static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     if (tree == NULL) {
         return true;
@@ -181,8 +180,8 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* The expression with outputs that have noise as they are recorded. Noise stays out of other outputs
- * that use them, as in the records. */
+/* The expression with noisy outputs as they are recorded. Noise does not enter other outputs that
+ * use them, as in the records. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;

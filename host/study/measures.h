@@ -1,15 +1,14 @@
-/* measures.h: what a sweep keeps of each run.
+/* measures.h: the measures of a sweep's runs.
  *
  * A measure is an expression of the language over coordinates, rates, accelerations, inputs,
- * parameters, lets and outputs: its value at the end of the run, or what the series of its values
- * (one a step, from a given time on) comes to:
- *
- *     max(x)  min(x)   largest and smallest sample
- *     amplitude(x)     half the difference of the two
- *     mean(x)          over time, by the trapezoidal rule
- *     period(x)        mean spacing of the upward crossings of the mean, each found by linear
- *                      interpolation between two samples; nan with fewer than two crossings, or
- *                      when x does not vary beyond rounding */
+ * parameters, lets and outputs. It has its value at the end of the run, or a function of its series
+ * (one value a step, from a given time on):
+ *   - max(x), min(x): largest and smallest sample.
+ *   - amplitude(x): half the difference of the two.
+ *   - mean(x): over time, by the trapezoidal rule.
+ *   - period(x): mean spacing of the upward crossings of the mean, each found by linear
+ *     interpolation between two samples. It is nan with fewer than two crossings, or if x does not
+ *     vary beyond round-off. */
 #ifndef STUDY_MEASURES_H
 #define STUDY_MEASURES_H
 
@@ -20,7 +19,7 @@
 #include "host/lang/model.h"
 
 /* === a measure, sample by sample ============================================================== */
-/* What a measure of a sweep (measures.h) comes to, sample by sample. */
+/* The function of a measure of a sweep (measures.h), sample by sample. */
 
 typedef enum measure_kind {
     MEASURE_FINAL,
@@ -31,7 +30,7 @@ typedef enum measure_kind {
     MEASURE_PERIOD
 } measure_kind;
 
-/* What a measure has seen of one run. */
+/* The state of a measure during one run. */
 typedef struct gauge {
     measure_kind kind;
     uint64_t samples;
@@ -45,13 +44,13 @@ typedef struct gauge {
     size_t kept_room;
 } gauge;
 
-/* period() keeps every sample: no more than so many. */
+/* Most samples of period(), which stores all of them. */
 #define PERIOD_SAMPLES_MAX UINT64_C(100000000)
 
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
-/* `epsilon`: relative rounding error of a sample. nan when the measure has no value, of a period also when nothing
- * swings; infinite or nan when finite samples are too large for it, of a period always infinite. */
+/* `epsilon`: relative round-off of a sample. nan if the measure has no value, and for a period without a swing.
+ * Infinite or nan if finite samples are too large for it; a period is then infinite. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
@@ -61,20 +60,20 @@ typedef struct measure {
     const expr *of;
 } measure;
 
-/* The symbol, with m->of->primes, in whose declared unit the column stands; NULL: it is SI. */
+/* The symbol, with m->of->primes, that has the column's declared unit; NULL: SI. */
 const symbol *measure_symbol(const measure *m);
 
 typedef struct measures {
     struct arena *arena;
     measure *list; /* [count] */
     int count;
-    /* The mechanism with the measured expressions as its outputs and no others, so that what
-     * derives and computes outputs computes measures, and nothing that was not asked for. */
+    /* The mechanism with only the measured expressions as outputs. So measures are derived and
+     * computed as outputs are, without any others. */
     mechanism mechanism;
 } measures;
 
-/* Read `count` texts, or with none take the final state and the outputs. NULL when one is wrong,
- * reported to `errors`. `of` must outlive the result. */
+/* Reads `count` texts, or without texts takes the final state and the outputs. NULL if one is
+ * wrong, reported to `errors`. `of` must outlive the result. */
 measures *measures_new(const mechanism *of, const char *const *texts, int count, diags *errors);
 void measures_free(measures *m);
 

@@ -89,7 +89,7 @@ static bool keeps_samples(const measuring *w) {
     return false;
 }
 
-/* Enter what the run is judged by. False when an energy is not a finite number, said. */
+/* Enters the energy balance of the run. False, with a message, if an energy is not a finite number. */
 static bool balance(meter *m, diags *errors, FILE *reason) {
     const books *b = m->verdict->books;
     run_checks_enter(m->verdict);
@@ -120,7 +120,7 @@ static bool see(void *of, uint64_t step) {
     return w->good;
 }
 
-/* Step to the end. False when the run failed, said on `reason` or reported. */
+/* Steps to the end. False if the run failed, with a message on `reason` or reported. */
 static bool run_through(meter *m, diags *errors, FILE *reason) {
     const engine_kind *kind = m->wanted->kind;
     const image *im = m->image;
@@ -151,7 +151,7 @@ static bool run_through(meter *m, diags *errors, FILE *reason) {
     return true;
 }
 
-/* The measures, and behind them the balance; NAN where it is not known. */
+/* The measures, followed by the balance; NAN if that is unknown. */
 static bool read_measures(const meter *m, double *value, FILE *reason, point_notes *notes) {
     const measuring *w = m->wanted;
     const double epsilon = w->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
@@ -211,7 +211,7 @@ bool sweep_ends_are_alike(const sweep *s, double until_s) {
         return true;
     }
     double *value = alloc(s->grid->count, sizeof *value);
-    double off_s = 0.0; /* the step whose end is furthest from the end asked for */
+    double off_s = 0.0; /* the step whose end is furthest from the requested end */
     double most_s = ENDS_ALIKE * until_s;
     uint64_t steps_off = 0;
     for (uint64_t point = 0; point < s->grid->points; point++) {
@@ -284,7 +284,7 @@ image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors)
     overrides changes = changes_at(s->grid, s->changes, point);
     instance *inst = instance_make(s->mechanism, s->scene, &changes, errors);
     image *im = inst != NULL ? image_at(s, inst, plain, errors) : NULL;
-    instance_free(inst); /* what follows reads the image only */
+    instance_free(inst); /* only the image is needed from here on */
     changes_forget(s->changes, &changes);
     if (im != NULL && !(start_has_method(im, s->engine.method, errors) &&
                         start_is_possible(im, s->kind, errors))) {

@@ -1,4 +1,3 @@
-/* price_table.c: see price_table.h. */
 #include "price_table.h"
 
 #include <math.h>
@@ -63,7 +62,7 @@ static void price_by_evaluations(table_row *row) {
     row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
 }
 
-/* By ever finer steps, each of them as dear but for a matrix's and in fixed point. */
+/* By ever finer steps, each of the same cost, except for a matrix and in fixed point. */
 static void climb(trials *t, const table_wish *w, const setting *s, double each, climbed *c) {
     const bool contacts = t->image[0]->contacts > 0;
     deviation_pace first;

@@ -7,7 +7,7 @@
 /* The cost of a simulated second: rows are sorted by it. */
 typedef enum table_unit {
     PRICE_CYCLES,
-    PRICE_INSTRUCTIONS, /* on boards whose cycles are not counted */
+    PRICE_INSTRUCTIONS, /* on boards without counted cycles */
     PRICE_EVALUATIONS   /* of the accelerations, with contacts: counted in the run */
 } table_unit;
 extern const char *const table_unit_words[]; /* "cycles", ... */
@@ -47,7 +47,7 @@ typedef struct table {
     int broken_off;  /* finer steps would have taken more operations */
 } table;
 
-/* The error that is asked for, over the error that a chosen row may have. */
+/* The requested error, divided by the largest permitted error of a chosen row. */
 #define TABLE_MARGIN 2.0
 
 typedef struct table_wish {
@@ -67,8 +67,8 @@ bool table_pace(const table_wish *w, int rung, deviation_pace *pace);
 /* Steps of a period; 0 without a rate. */
 uint64_t table_substeps(const table_wish *w, const table_row *row);
 
-/* Settings are tried on so many processors at once, and each by its own share of the operations: the rows depend on
- * neither. Look at t->stopped. */
+/* Tries settings on several processors, each with its own share of the operations: the rows do not depend on
+ * either. Check t->stopped. */
 table *table_new(trials *t, const table_wish *w);
 void table_free(table *made);
 /* By price, and the front marked. */

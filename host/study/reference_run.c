@@ -1,9 +1,3 @@
-/* reference_run.c: what the runs that are priced are held against: the motion at evenly spaced records, computed twice, by
- * settings of their own. What the two differ by says how far the reference is to be trusted, and until when.
- *
- * Without contacts: by extrapolation in long double (extrapolation.h), which shares the operation list with what it
- * judges, and nothing else. With contacts, or where a jump or a pole stops that: by steps of RK4 in double with
- * compensated sums far finer than the scene's, against half as many. */
 #include "host/study/reference_run.h"
 
 #include <math.h>
@@ -29,7 +23,7 @@ static bool enter(const reference *r, const records *now, int record, deviation_
         }
         const long double unit = what.column >= 0 ? 1.0L : c->largest;
         const double off = (double)(long_size((long double)now->row[k] - row[k]) / unit);
-        if (d->column < 0 || !(off <= d->error)) { /* also what is no number */
+        if (d->column < 0 || !(off <= d->error)) { /* or NaN */
             d->error = off;
             d->column = k;
             d->known = (double)(c->off / unit);
@@ -38,13 +32,13 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
-/* Evaluations so far; of a scene with contacts reading a record is one, too, which is none of a step's. */
+/* Evaluations so far. With contacts, reading a record is also an evaluation, but not one of a step. */
 typedef struct counted {
     double in_steps;
     double most; /* in one of these */
 } counted;
 
-/* One step. They differ where there are contacts; a step as one matrix evaluates one list. */
+/* One step. With contacts their cost varies; a step as one matrix evaluates one list. */
 static bool take_step(const engine_kind *kind, void *run, const image *im, counted *c) {
     uint64_t declared;
     const bool matrix = im->list[IMAGE_MATRIX] != NULL;
@@ -75,7 +69,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     uint64_t most;
-    const bool matrix = im->list[IMAGE_MATRIX] != NULL; /* of which a step evaluates one list */
+    const bool matrix = im->list[IMAGE_MATRIX] != NULL; /* a step evaluates only one of its lists */
     const uint64_t evaluations = matrix ? kind->steps(run) : kind->evaluations(run, &most);
     d.operations =
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
@@ -158,7 +152,7 @@ void long_rows_read(long_rows *l, const long double *state, long double time_s, 
 
 /* As many times finer than the scene's step, if they may take the operations. */
 #define FINER 16.0
-/* Evaluations of a step: RK4's, and what looking for events takes besides. */
+/* Evaluations of a step: RK4's, and those of the search for events. */
 #define EVALUATIONS 4.0
 #define EVALUATIONS_CONTACTS 12.0
 
@@ -204,24 +198,23 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
     return done;
 }
 
-/* --- two computations, and what they agree about ---------------------------------------------------*/
+/* --- the two computations and their agreement ------------------------------------------------------*/
 
-/* The finer of two extrapolations, and the one that it is held against: of other orders, so by other steps. */
+/* The finer of two extrapolations, and its comparison, which has another order and so other steps. */
 static const extrapolation_setting fine = {6, 16.0 * (double)LDBL_EPSILON};
 static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
 
-/* A record is trusted while the two differ by less of a column's largest value. They begin with less than 1e-16 in long
- * double: what has grown to this is no error of theirs but the motion's own, which carries every rounding away. */
+/* A record is trusted while the two differ by less than this part of a column's largest value. They begin with less than
+ * 1e-16 in long double. A difference of this size is not their own error: the motion has amplified each round-off. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
-/* A component that they never agree about so well, from the start to some record by which it has this part of its largest
- * value, is nothing but rounding: of the motion, or of the constants that both take from the list. */
+/* A component is round-off if the two never agree to this part of it, from the start to the first record at which it has
+ * this part of its largest value. The round-off is the motion's, or that of the list's constants. */
 #define KNOWN_BY 1e-6L
 
-/* One of the two computations. */
 typedef struct computed {
     long double *row; /* [wanted + 1][columns] */
-    int records;      /* behind the start */
+    int records;      /* after the start */
     extrapolation_status status;
 } computed;
 
@@ -271,7 +264,7 @@ static void measure(reference *r, const computed *other, int until, int column) 
     }
 }
 
-/* Did they agree about a column, whose largest value is known, before the motion may have carried them apart? */
+/* Did they agree about a column, with a known largest value, before the motion may have carried them apart? */
 static bool is_known(const reference *r, const computed *other, int until, int column) {
     const long double enough = KNOWN_BY * r->column[column].largest;
     long double largest = 0.0L;
@@ -405,7 +398,7 @@ static bool moves(const reference *r) {
     return false;
 }
 
-/* Where nothing is known of any column, nothing ends the trust either: records say nothing then. */
+/* If no column is known, the trust has no end either, because records prove nothing. */
 static bool knows(const reference *r) {
     for (int k = 1; k < r->columns; k++) {
         if (r->column[k].counts) {

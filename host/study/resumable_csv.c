@@ -84,7 +84,7 @@ static bool ends_whole(const char *line, ssize_t length) {
     return length >= 2 && line[length - 2] == '\r' && line[length - 1] == '\n';
 }
 
-/* The text of the swept fields with the comma behind them. */
+/* The text of the swept fields, followed by a comma. */
 static char *swept_text(const resumable_csv_settings *s, uint64_t row) {
     char *text = NULL;
     size_t length = 0;
@@ -95,7 +95,7 @@ static char *swept_text(const resumable_csv_settings *s, uint64_t row) {
     return text;
 }
 
-/* Is this the row: its swept fields, and so many numbers or empty fields behind them? */
+/* Is this the row: its swept fields, followed by this many numbers or empty fields? */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,
                    bool *failed) {
     char *swept = swept_text(s, row);
@@ -111,7 +111,7 @@ static bool is_row(const resumable_csv_settings *s, const char *line, size_t len
     return good && commas == s->measures - 1;
 }
 
-/* Walk through the rows; *whole is where the last whole one ends. */
+/* Checks the rows; *whole is the end of the last complete one. */
 static int check_rows(resumable_csv *sh, const resumable_csv_settings *s, off_t *whole) {
     char *line = NULL;
     size_t size = 0;
@@ -168,7 +168,7 @@ static int go_on(resumable_csv *sh, const resumable_csv_settings *s, off_t size)
     if (code != EXIT_DONE) {
         return code;
     }
-    /* what the file holds must never be newer than what the fingerprint says */
+    /* the file must never be newer than its fingerprint */
     if (whole == 0 && ftruncate(fileno(sh->out), 0) != 0) {
         return cannot_write(s->path);
     }
@@ -256,7 +256,7 @@ bool resumable_csv_close(resumable_csv *s) {
     if (s->out == NULL) {
         return true;
     }
-    /* at standard output the program looks when all is said (host/whirl.c) */
+    /* standard output is checked at the end of the program (host/whirl.c) */
     const bool is_file = s->out != stdout;
     const bool good = !is_file || (fflush(s->out) == 0 && ferror(s->out) == 0);
     const bool closed = !is_file || fclose(s->out) == 0;

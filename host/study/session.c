@@ -1,4 +1,4 @@
-/* session.c: points to rows to a file, with what is to be said meanwhile. */
+/* session.c: runs a sweep's points and writes their rows and messages. */
 #include "host/study/session.h"
 
 #include <inttypes.h>
@@ -229,7 +229,7 @@ void progress_clear(progress *p) {
 
 /* === the session ============================================================================== */
 
-/* What the parent process knows while rows come in. */
+/* State of the parent process during a sweep. */
 typedef struct sitting {
     const sweep *sweep;
     resumable_csv sheet;
@@ -239,7 +239,7 @@ typedef struct sitting {
     uint64_t failed;
     int told;                 /* failures described */
     uint64_t ran;             /* points delivered, now */
-    uint64_t found[FINDINGS]; /* points of which `whirl run` tells so, */
+    uint64_t found[FINDINGS]; /* points with this finding of `whirl run`, */
     uint64_t found_first[FINDINGS];
     unsigned against;
     unsigned fails; /* for these findings the exit status is 1 */
@@ -278,7 +278,7 @@ static bool count_notes(sitting *s, uint64_t point, const char *notes) {
     return good;
 }
 
-/* Findings of rows that were in the file: a sweep that goes on ends as one that was not broken off. */
+/* Findings of the file's earlier rows: a continued sweep ends as an uninterrupted one does. */
 static unsigned fails_before(const sitting *s) {
     unsigned fails = 0;
     for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
@@ -379,7 +379,6 @@ static void say_end(const session_settings *o, const sitting *s, int workers) {
     fputc('\n', stderr);
 }
 
-/* Run what the sheet lacks. */
 static int run_points(const session_settings *o, sitting *s) {
     const uint64_t next = s->first + s->sheet.rows;
     const uint64_t missing = o->end - next;

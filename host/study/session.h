@@ -10,8 +10,8 @@
 #include "host/study/point.h"
 
 /* === JSON ===================================================================================== */
-/* A sweep as one JSON object: its columns, a row for each point with the findings of that point, and how it
- * ended (docs/warnings.md has the schema). */
+/* A sweep as one JSON object: its columns, a row for each point with the findings of that point, and the
+ * sweep's end (docs/warnings.md has the schema). */
 
 /* A column for each axis. */
 void sweep_json_axes(json *j, const grid *g);
@@ -29,15 +29,15 @@ typedef struct shard {
     uint64_t of;
 } shard;
 
-/* `model_text`: the whole .whirl text; `base` and `p`: the instance without what is swept. The
- * result is the caller's to free. */
+/* `model_text`: the whole .whirl text; `base` and `p`: the instance without the swept values. The
+ * caller frees the result. */
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);
 
 /* === a bar with rate and time to go, on one line that is drawn over again ===================== */
 
 typedef struct progress {
-    FILE *out;     /* NULL: nothing is drawn */
+    FILE *out;     /* NULL: no progress */
     uint64_t from; /* points done before it began */
     uint64_t end;
     double start_s;
@@ -64,8 +64,8 @@ typedef struct session_settings {
     bool json; /* one object on standard output; `csv` is then no file */
 } session_settings;
 
-/* Returns an exit code (host/base/exit.h): EXIT_RUN_FAILED when points failed or rows could not be written,
- * EXIT_BAD_INPUT when the file is another sweep's; what is wrong has been said on standard error. */
+/* Returns an exit code (host/base/exit.h). EXIT_RUN_FAILED: points failed or rows could not be written.
+ * EXIT_BAD_INPUT: the file belongs to another sweep. Errors have been reported on standard error. */
 int session_run(const sweep *s, const session_settings *settings);
 
 #endif

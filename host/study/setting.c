@@ -1,4 +1,3 @@
-/* setting.c: see setting.h. */
 #include "setting.h"
 
 #include <assert.h>
@@ -9,13 +8,13 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/image/turned.h"
 
-/* Numbers: what computes, and whether sums carry their rounding along. What C is to compute in is said where that is compiled,
- * but of fixed point. */
+/* Numbers: the arithmetic, and if sums are compensated. The number of generated C is chosen when it is compiled, except for
+ * fixed point. */
 static const struct {
     const char *word;
-    const char *run;    /* what `whirl run` is told besides */
-    const char *derive; /* what both are told */
-    const char *form;   /* what `whirl derive` alone is told */
+    const char *run;    /* additional options of `whirl run` */
+    const char *derive; /* options of both */
+    const char *form;   /* options of `whirl derive` only */
     const engine_kind *kind;
     bool compensated;
 } numbers[] = {{"float", " --number float", "", "", &engine_float, false},

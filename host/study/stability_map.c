@@ -1,8 +1,3 @@
-/* stability_map.c: what becomes of a scene's run for each pair of two swept values: does it stay bounded, keep its energy,
- * keep a tolerance?
- *
- * Each run has a finer one beside it (host/check/step_doubling.h), which says until when it is right, and books, which say what of
- * its energy is missing (host/check/energy_residual.h). A map's rows are the values of the axis that is no step. */
 #include "host/study/stability_map.h"
 
 #include <math.h>
@@ -48,8 +43,8 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* Its runs are judged by the range that each column has in the first of them, the finest: of a coarse one the looks are
- * few, and where half its step is too long as well, the finer one grows with it. */
+/* Runs of a row. Their errors are relative to the range of each column in the first and finest run. A coarse run has
+ * few samples, and if half its step is too long as well, its finer run diverges with it. */
 typedef struct row_runs {
     const map_wish *wish;
     stability_map *map;
@@ -74,7 +69,7 @@ static void take_ranges(row_runs *p, const horizon *h) {
     }
 }
 
-/* Where the finer one is, half the step being too long, the run is as well. */
+/* If the finer run is out of bounds at half the step, the run is as well. */
 static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
     for (int k = 1; k < h->of->columns; k++) {
@@ -113,7 +108,7 @@ static void show_share(double share, void *told) {
     p->wish->progress((double)p->map->done + share, p->wish->told);
 }
 
-/* Without an image the pair has no run: that is a verdict, and `whirl run` tells why. Stopped: nothing is known of it. */
+/* A refused image is a verdict, and `whirl run` gives the reason. After an interrupt the verdict is unknown. */
 static void try_point(row_runs *p, uint64_t point) {
     const map_wish *w = p->wish;
     diags *unsaid = diags_new();
@@ -193,7 +188,6 @@ uint64_t map_count(const stability_map *m, map_verdict verdict) {
 }
 
 /* === text, CSV and JSON ======================================================================= */
-/* A stability map for people and for programs. */
 
 static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
 static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
@@ -301,11 +295,10 @@ void map_json(FILE *out, const stability_map *m, const image *of, const map_wish
 }
 
 /* === the picture ============================================================================== */
-/* A stability map as a picture. */
 
 enum { HEIGHT = 620 };
 
-/* A gnuplot axis is logarithmic where its values are above zero: those below are drawn evenly. */
+/* A gnuplot axis is logarithmic only if its values are positive; others are linear. */
 static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
 
 /* The value half a cell further along the axis, down or up. */

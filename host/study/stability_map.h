@@ -1,18 +1,18 @@
-/* stability_map.h: what becomes of a scene's run for each pair of two swept values: does it stay bounded, keep its energy,
- * keep a tolerance?
+/* stability_map.h: the verdict on a scene's run for each pair of two swept values: bounded, energy conserved, accurate to a
+ * tolerance.
  *
- * Each run has a finer one beside it (host/check/step_doubling.h), which says until when it is right, and books, which say what of
- * its energy is missing (host/check/energy_residual.h). A map's rows are the values of the axis that is no step. */
+ * Each run has a finer run (host/check/step_doubling.h), which limits the time of its accuracy, and an energy balance with its
+ * residual (host/check/energy_residual.h). A map's rows are the values of the axis other than the step. */
 #ifndef STUDY_STABILITY_MAP_H
 #define STUDY_STABILITY_MAP_H
 
 #include "host/study/point.h"
 
-/* A rate that is off by so many times the range that it has in the finest run of its row has left all bounds: what
- * grows step by step passes that long before numbers end. */
+/* A run is out of bounds if the error of a rate exceeds this many times its range in the finest run of the row.
+ * Growing errors pass that long before overflow. */
 #define MAP_BOUND 100.0
 
-/* What becomes of a run, from good to bad. X(id, mark, word, words) */
+/* The verdicts, from good to bad. X(id, mark, word, words) */
 #define MAP_VERDICT_ROWS(X) \
     X(MAP_KEEPS, '.', "keeps", "accurate to the tolerance until its end") \
     X(MAP_OFF, 'o', "off", "bounded, but its error exceeds the tolerance before its end") \
@@ -34,7 +34,7 @@ typedef struct map_verdict_row {
 extern const map_verdict_row map_verdicts[MAP_VERDICTS];
 
 typedef struct map_cell {
-    map_verdict verdict; /* of MAP_NONE and MAP_UNTRIED nothing else is known */
+    map_verdict verdict; /* MAP_NONE and MAP_UNTRIED have no other values */
     double end_s;        /* until then it went */
     double until_s;      /* until then it is right to the tolerance */
     double left_over;    /* part of the energy's largest entry that is missing; NAN: not known */
@@ -43,15 +43,15 @@ typedef struct map_cell {
 typedef struct map_wish {
     sweep of; /* with two axes, in float or double */
     double tolerance;
-    void (*progress)(double runs, void *told); /* so many are done; or NULL */
+    void (*progress)(double runs, void *told); /* completed runs; or NULL */
     void *told;
 } map_wish;
 
 typedef struct stability_map {
     const grid *grid;
     map_cell *cell; /* [grid->points] */
-    uint64_t done;  /* cells; fewer than points where it was stopped */
-    int along;      /* the step's axis, or where neither is the step 1 */
+    uint64_t done;  /* cells; fewer than points after an interrupt */
+    int along;      /* the step's axis, or 1 if neither is the step */
     bool by_step;   /* one is the step */
 } stability_map;
 
@@ -67,13 +67,14 @@ uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 
-/* A row for each row, a mark for each value along it, rising. `words` tell what was run. */
+/* A line for each row, with a mark for each value along it, rising. `words` describe the run. */
 void map_print(FILE *out, const stability_map *m, const char *words);
-/* A row for each pair that was tried: both values, verdict, times, what is missing of the energy. */
+/* A row for each completed pair: both values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);
 /* The same as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
 void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status);
-/* A rectangle for each pair, to .svg or .png, drawn by gnuplot; `words` stand above. False: told on standard error. */
+/* A rectangle for each pair, to .svg or .png, drawn by gnuplot, with `words` as the title. False: reported on standard
+ * error. */
 bool map_plot(const char *file, const stability_map *m, const char *words);
 
 #endif

@@ -1,4 +1,3 @@
-/* subsets.c: see subsets.h. */
 #include "subsets.h"
 
 #include <math.h>
@@ -106,7 +105,7 @@ typedef struct lane {
     image *image;
     records *records;
     vector_field *field;
-    void *run; /* NULL: there is none any more */
+    void *run; /* NULL: it has ended */
 } lane;
 
 static lane lane_open(const subsets *s, subset *of) {
@@ -136,7 +135,7 @@ static void lane_close(lane *l, int columns) {
     image_free(l->image);
 }
 
-/* The largest difference of each column. A number beside NAN differs without a bound. */
+/* The largest difference of each column. A difference to NAN is infinite. */
 static void lane_compare(lane *l, const records *full) {
     records_read(l->records, l->run, full->row[0]);
     for (int i = 1; i < full->columns; i++) {
@@ -178,7 +177,7 @@ static bool terms_act(const lane *all, vector_field *less) {
     return act;
 }
 
-/* Statements are told apart by their places. */
+/* Statements are identified by their places. */
 static void contact_acts(subsets *s, int contact) {
     for (int i = 0; i < s->of->contact_count; i++) {
         const contact_statement *c = &s->of->contacts[i];
@@ -189,7 +188,7 @@ static void contact_acts(subsets *s, int contact) {
     }
 }
 
-/* Friction always acts; a stop or hold while it is closed; each of them when it has an event. */
+/* Friction always acts, a stop or hold while it is closed, and any contact at an event. */
 static void contacts_act(subsets *s, void *run) {
     engine_event event[WH_EVENT_LOG];
     int mode[WH_CONTACTS_LIMIT];
@@ -205,7 +204,7 @@ static void contacts_act(subsets *s, void *run) {
     }
 }
 
-/* What acts at this step of the full run: lane k + 1 is without effect k. */
+/* Notes the effects that act at this step of the full run: lane k + 1 is without effect k. */
 static void note_acting(subsets *s, const lane *lanes) {
     if (s->image->contacts > 0) {
         contacts_act(s, lanes[0].run);
@@ -239,7 +238,8 @@ static void lane_stop(lane *l, const char *why) {
     l->run = NULL;
 }
 
-/* The full run, and beside it those from list[first] on; behind those without one effect, while they keep the limits. */
+/* The full run, together with those from list[first] on; after those without one effect, while they are within the
+ * limits. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;

@@ -43,10 +43,12 @@ typedef struct subsets {
     int count;
 } subsets;
 
-/* Makes the full scene's image. False, reported: it has none, or too many effects. subsets_close() in any case. */
+/* Makes the full scene's image. False, reported: it has no image, or too many effects. subsets_close() in any
+ * case. */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
-/* Runs the full scene beside those without one effect. False, reported, when the full run diverges. */
+/* Runs the full scene, together with those without one effect. False, reported, if the full run
+ * diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
 /* Runs subsets of the effects that acted: all, or with *greedy one more effect left out at a time. Returns the one that

@@ -1,5 +1,3 @@
-/* table_text.c: error and cost of a run at twice its step, at its step and at half of it: a short form of the
- * table of `whirl price`, by the same trials. The reference is a run in double at a quarter of the step. */
 #include "host/study/table_text.h"
 
 #include <math.h>
@@ -12,7 +10,7 @@
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
-/* Steps of the run in a record's spacing, for each of so many records at most. */
+/* Most records of the run, and its steps per record. */
 enum { RECORDS_MOST = 20000, SPACING = 2 };
 /* Steps that a step of the run becomes, all rows together; and the reference's two runs together. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
@@ -232,7 +230,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
     const bool runs = t->image[0]->contacts > 0;
-    const bool ranged = runs || setting_is_fixed(s); /* whose ranges are those to the end */
+    const bool ranged = runs || setting_is_fixed(s); /* its ranges are those to the end */
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
                        words->target, words->changes, trial_place(t, point),
@@ -400,7 +398,7 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
 
 /* --- for programs ------------------------------------------------------------------------------------*/
 
-/* Where a row goes: CSV, its header, or an object in JSON. */
+/* The target of a row: CSV, its header, or an object in JSON. */
 typedef struct row_sink {
     FILE *csv;
     json *json;

@@ -9,8 +9,8 @@
 #include "host/study/trial.h"
 
 /* === three rows =============================================================================== */
-/* Error and cost of a run at twice its step, at its step and at half of it: a short form of the
- * table of `whirl price`, by the same trials. The reference is a run in double at a quarter of the step. */
+/* Error and cost of a run at twice its step, at its step and at half of it, a short form of the table of
+ * `whirl price`. The reference is a run in double at a quarter of the step. */
 
 enum { THREE_ROWS = 3 };
 
@@ -24,7 +24,7 @@ typedef struct three_rows_wish {
     double limit;            /* as of reference_steps */
     whole_ratio step;        /* the run's, s */
     whole_ratio priced_step; /* as of trial_wish */
-    uint64_t steps;          /* of it, which are looked at */
+    uint64_t steps;          /* of the run */
 } three_rows_wish;
 
 typedef struct three_rows {
@@ -37,27 +37,27 @@ typedef struct three_rows {
 
 /* Operations that the rows evaluate, about. */
 double three_rows_operations(const three_rows_wish *w, const image *im);
-/* Look at trial.stopped, then at trial.reliable. At least two steps; three_rows_end() in any case. */
+/* Check trial.stopped, then trial.reliable. At least two steps; three_rows_end() in any case. */
 void three_rows_make(three_rows *t, const three_rows_wish *w);
 void three_rows_print(FILE *out, const three_rows *t);
 void three_rows_end(three_rows *t);
 
 enum { FIGURE_TEXT = 64 };
 
-/* "1234 p": a letter for the basis, "-" for what is not known. Returns text. */
+/* "1234 p": a letter for the basis, "-" if unknown. Returns text. */
 const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]);
 /* The letter of a basis. */
 char figure_letter(cost_basis basis);
-/* What the letters mean, a line each of those that are in `cost`: "p  predicted: from the image, within a bound". */
+/* Explains the letters in `cost`, a line each: "p predicted: from the image, within a bound". */
 void figure_legend(FILE *out, const cost *c);
 /* "predicted, of simulated figures, within 8 %". Returns text. */
 enum { FIGURE_WORDS = 120 };
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 
-/* What was held against what, in lines that begin with two blanks. */
+/* Describes the comparison and its reference, in lines that begin with two blanks. */
 void figure_reference(FILE *out, const trials *t);
 
-/* What the command was given, as its words are typed, to build lines from that do a row again. */
+/* The command's words as typed, for command lines that repeat a row. */
 typedef struct table_words {
     const char *target;
     const char *changes; /* "" or " --set m=3 ..." */
@@ -87,7 +87,8 @@ char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int
                      const table_words *words);
 char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
                         const table_words *words);
-/* Counts the same row's step where a source tree and the board's compiler are: `sh mk/price/measure_one.sh ...`. */
+/* The command that counts this row's step in a source tree with the board's compiler: `sh mk/price/measure_one.sh
+ * ...`. */
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
                          const table_words *words);
 

@@ -1,4 +1,3 @@
-/* trial.c: see trial.h. */
 #include "trial.h"
 
 #include <stdio.h>
@@ -14,9 +13,9 @@
 
 /* Operations that a reference's two computations may evaluate each, of all points: some seconds. */
 #define REFERENCE_OPERATIONS 6e8
-/* A run that is off by more than this part of the largest value is of no use. */
+/* A run with a larger error, as a part of the largest value, is useless. */
 #define USABLE 1.0
-/* A scene that has no step in fixed point is asked for one a tenth as long, so many times. */
+/* If a scene has no step in fixed point, this many times a tenth of the step is tried. */
 enum { FINER_MOST = 3 };
 
 const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
@@ -111,7 +110,7 @@ static bool find_column(trials *t) {
     return true;
 }
 
-/* All points to the horizon that all of them are trusted for. */
+/* Limits all points to their common trusted horizon. */
 static void cut(trials *t) {
     t->records = t->wish.records;
     t->reliable = true;
@@ -129,7 +128,7 @@ static void cut(trials *t) {
     for (int p = 0; p < t->points; p++) {
         reference_cut(t->reference[p], t->records);
         if (t->reference[p]->kind == REFERENCE_NONE) {
-            t->worst = p; /* it is what is to be told */
+            t->worst = p; /* the point to report */
         }
     }
 }
@@ -211,8 +210,8 @@ static void drop(image *im) {
     }
 }
 
-/* Its step in fixed point; NULL, and no image, where it has none. What ranges are not declared, a run in double tells to the
- * end that command lines are given: it is counted among what was evaluated. */
+/* Makes its step in fixed point; NULL, with the image freed, if it has no such step. Undeclared ranges come from a run in
+ * double to the end, which counts as evaluated. */
 static image *in_fixed_point(trials *t, image *im) {
     diags *unsaid = diags_new();
     im->fixed = fixed_plan_make(im, false, unsaid);
@@ -226,7 +225,7 @@ static image *in_fixed_point(trials *t, image *im) {
     return im;
 }
 
-/* In fixed point an image is asked for its price first, and then run: it is kept between the two. */
+/* In fixed point an image is first priced and then run: it is stored between the two. */
 static image *kept(trials *t, int point, deviation_pace pace) {
     trial_planned *k = &t->planned[point];
     image *im = k->pace.steps == pace.steps && k->pace.records == pace.records ? k->image : NULL;
@@ -366,7 +365,7 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     return dearest;
 }
 
-/* What ranges are not declared, a run in double to the end looks for. */
+/* Undeclared ranges take a run in double to the end. */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
     return setting_is_fixed(s) && t->planned_most > 0.0 &&
            trial_operations(t, s, pace) > t->planned_most;

@@ -1,4 +1,4 @@
-/* trial.h: trying settings out: how far each is off the references, and what it costs. */
+/* trial.h: trials of settings: the error against the references, and the cost. */
 #ifndef STUDY_TRIAL_H
 #define STUDY_TRIAL_H
 
@@ -6,12 +6,12 @@
 #include "host/study/reference_run.h"
 #include "setting.h"
 
-/* Where images come from: the scene, varied. */
+/* The source of images: the scene, varied. */
 typedef struct trial_source {
     void *context;
-    int points; /* the scene itself, or so many places of its ranges and the scene's own values */
-    /* The image of a place, to run with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller
-     * frees it. NULL when there is none: told, but where the scene does not take the setting (setting_may_be_refused()). */
+    int points; /* the scene itself, or this many places of its ranges and the scene's own values */
+    /* The image of a place, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees it.
+     * NULL without an image: reported, unless the scene refuses the setting (setting_may_be_refused()). */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
     /* A place as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
     const char *(*name)(void *context, int point);
@@ -22,11 +22,10 @@ typedef struct trial_wish {
     const cost_board *board;
     const char *of;              /* an output, coordinate or rate; NULL: the worst component */
     whole_ratio spacing;         /* of the records, s */
-    int records;                 /* behind the start */
-    reference_steps by;          /* what the references are computed by */
+    int records;                 /* after the start */
+    reference_steps by;          /* the steps of the references */
     const image_settings *plain; /* of their images; NULL: the default ones */
-    whole_ratio
-        priced_step; /* whose cost stands for all steps, where it may; 0: each has its own */
+    whole_ratio priced_step; /* its cost stands for all steps, if possible; 0: each has its own */
 } trial_wish;
 
 typedef struct trial_planned {
@@ -36,50 +35,49 @@ typedef struct trial_planned {
 
 typedef struct trials {
     trial_wish wish;
-    int points; /* the source's places without those where nothing moves, unless nothing moves at all */
+    int points;    /* the source's moving places; all of them if nothing moves at all */
     int *place;    /* [points] their numbers in the source */
     char *still;   /* the options of the places that were left out: " --set M=0,"; or NULL */
     image **image; /* [points] of the references */
     reference **reference;  /* [points] */
     trial_planned *planned; /* [points] in fixed point: priced and to be run */
-    int worst;              /* the point whose reference ends first, or agrees least */
-    int records;            /* behind the start, that all references are trusted for */
+    int worst;              /* the point whose reference ends first, or is least accurate */
+    int records;            /* records after the start for which all references are trusted */
     deviation_of_what what;
     double
-        tolerated; /* of one column: a run that is off by no more is of use, however small the values are */
-    double planned_most; /* operations of a run that looks for ranges of fixed point; 0: any */
+        tolerated; /* for one column: a run with this error is useful, however small the values are */
+    double planned_most; /* operations of a run that finds ranges of fixed point; 0: any */
     bool reliable;       /* false: some reference is REFERENCE_NONE */
     bool without_events; /* prices of scenes with contacts are those of a step that has no event */
     bool stopped;
     double operations; /* evaluated in trials so far */
 } trials;
 
-/* How one setting does at one step. */
+/* The results of one setting at one step. */
 typedef struct trial_result {
     bool ran; /* false: stopped, or there is no image */
     bool
         usable; /* at all points it came to the end, and was not off by more than the values themselves */
     double
-        error; /* the worst, in the unit of `of` or as a part of the largest value; what the reference does not know
-                   * of it counts as error */
+        error; /* the worst, in the unit of `of` or as a part of the largest value, plus the reference's own error */
     bool bound;         /* it is no more than a bound: the reference does not know better */
-    int point;          /* where it is the worst */
+    int point;          /* with the worst error */
     int column;         /* which component */
     double evaluations; /* of the accelerations, a simulated second, at the place that takes most */
     double evaluations_most; /* in one step */
 } trial_result;
 
-/* Computes the references. False, told on standard error, when `of` is nothing of the scene, or an image is missing. */
+/* Computes the references. False, reported on standard error, if `of` is unknown to the scene, or an image is missing. */
 bool trial_begin(trials *t, const trial_wish *w);
 void trial_end(trials *t);
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
-/* Operations that it is going to evaluate, about, where no event takes more. */
+/* Estimated operations, without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* What it costs at the dearest of the points; *own: false where it is no setting of its own (setting_is_own()), or the
- * scene does not take it. */
+/* Its cost at the dearest of the points; *own: false if it equals another setting (setting_is_own()), or the scene
+ * refuses it. */
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
-/* The same where a scene may take the setting by finer steps alone, as in fixed point: by the first that it takes. */
+/* The same if a scene takes the setting only with finer steps, as in fixed point: by the first that it takes. */
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 /* Would that take more than t->planned_most? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
@@ -90,7 +88,7 @@ whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);
 /* The unit of errors: "m", or "" for parts of the largest value. */
 const char *trial_unit(const trials *t);
-/* An error in that unit is so many of SI. */
+/* Converts an error from that unit to SI. */
 double trial_error_si(const trials *t, double error);
 /* The component's name: "X", "theta'". Returns text. */
 enum { TRIAL_NAME = 96 };
@@ -99,7 +97,7 @@ const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 /* A time as --step and --until take it: seconds in as few digits as bring back the same fraction. Returns text. */
 enum { TRIAL_TIME = 40 };
 const char *trial_time(whole_ratio time, char text[TRIAL_TIME]);
-/* The end of the motion that is looked at, as --until takes it: ranges in fixed point are those to there. Returns text. */
+/* The end of the compared motion, as --until takes it; ranges in fixed point extend to it. Returns text. */
 const char *trial_until(const trials *t, char text[TRIAL_TIME]);
 
 #endif
