@@ -12,7 +12,7 @@
 #include "host/study/table_text.h"
 #include "pricing.h"
 
-/* Records to the horizon: so many to two and a half times as many. */
+/* Least records to the horizon; the most are two and a half times as many. */
 #define RECORDS 1000.0
 #define RECORDS_MOST 2500.0
 static const char head[] =
@@ -80,7 +80,8 @@ static bool read_limits(const pricing *p, choice_wish *w) {
            (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
 }
 
-/* Records of whole periods, 1, 2, 5, 10, ... of them, not too many; false when there is none to the horizon. */
+/* Spaces the records by whole periods, 1, 2, 5, 10, ..., below the most records; false if the horizon is
+ * shorter than a period. */
 static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing) {
     w->table.periods = 1;
     if (!(w->table.rate_Hz > 0.0)) {
@@ -128,7 +129,6 @@ static void show_counting(void *context, int counted) {
     fprintf(stderr, "\rcounting on the board: %d so far ", counted);
 }
 
-/* What can be said of how prices are known. */
 static const char prices_counted[] =
     "counted on the board: of what is named, its step or its whole run, and its bytes";
 static const char prices_asked[] = "predicted, as --predict asks for";
@@ -139,7 +139,7 @@ static const char *predicted_since(const char *missing, char text[PRICES_TEXT]) 
     return text;
 }
 
-/* A run with contacts, whose cost no prediction tells. */
+/* A run with contacts, without a predicted cost. */
 static int says_contacts(const pricing *p, const char *missing) {
     fprintf(stderr,
             "whirl choose: error: the cost of contacts must be counted: %s\n"
@@ -195,7 +195,7 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
     return code;
 }
 
-/* Why nothing is counted, or NULL; and what is said of prices. */
+/* The reason why nothing is counted, or NULL; and the statement about prices. */
 typedef struct basis {
     const char *missing;
     char text[MEASURED_TEXT];
@@ -204,7 +204,7 @@ typedef struct basis {
 
 static bool predicts(const pricing *p) { return p->options->value[PRICING_PREDICT] != NULL; }
 
-/* EXIT_BAD_INPUT: a --measure that no run can give. */
+/* EXIT_BAD_INPUT: --measure is impossible. */
 static int look_for_tools(const pricing *p, basis *b) {
     b->missing =
         predicts(p) ? "" : measured_missing(p->has_trial ? &p->trial : NULL, p->board, b->text);

@@ -156,7 +156,7 @@ static bool find_board(pricing *p) {
 /* Operations that all trials may evaluate without --effort. */
 #define EFFORT 1e9
 
-/* --error, in the dimension of what --of names. What that is, is told later if it is nothing. */
+/* --error, in the dimension of the value of --of. An unknown --of is reported later. */
 static bool read_error(pricing *p) {
     const char *of = p->options->value[PRICING_OF];
     const char *text = p->options->value[PRICING_ERROR];
@@ -242,7 +242,7 @@ static bool read_ranges(pricing *p) {
     return true;
 }
 
-/* What varies must take part, and all places must be able to start. */
+/* Varied values must take part, and all places must be able to start. */
 static bool can_start(pricing *p, const instance *inst) {
     for (int i = 0; i < p->grid.count; i++) {
         const effect *missing = instance_lacks(inst, p->grid.axes[i].symbol);

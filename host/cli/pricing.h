@@ -1,4 +1,4 @@
-/* pricing.h: what `whirl price` and `whirl choose` have in common: their options, the scene, its references. */
+/* pricing.h: the common part of `whirl price` and `whirl choose`: options, scene, references. */
 #ifndef CLI_PRICING_H
 #define CLI_PRICING_H
 
@@ -11,7 +11,7 @@
 /* Which of the two takes an option. */
 enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
 
-/* X(id, who takes it, word, its value or NULL for none, text). */
+/* X(id, commands, word, its value or NULL, text). */
 #define PRICING_OPTION_ROWS(X) \
     X(PRICING_BOARD, BOTH, "--board", "B", \
       "whose price: an emulated board of docs/boards.md, or host (default: mps2-an386, a " \
@@ -97,35 +97,35 @@ struct pricing {
     pricing_scene *scene;
     const cost_board *board;
     bool asks_error;
-    double error_si; /* what --error allows */
+    double error_si; /* the limit of --error */
     double until_s;  /* the horizon, or the scene's end */
     double step_s;   /* the scene's own */
     double effort;   /* operations */
     bool method[WH_METHODS];
-    char *words;  /* its changes, as they are typed */
-    char *target; /* as it is typed again */
+    char *words;  /* its changes, as typed */
+    char *target; /* as typed */
     trials trial;
     bool has_trial;
 };
 
-/* Reads all that the options say of the scene. Returns an exit code, what is wrong is told; pricing_close() in any case. */
+/* Reads the options and the scene. Returns an exit code, with errors reported; pricing_close() in any case. */
 int pricing_open(pricing *p, const pricing_options *o);
 void pricing_close(pricing *p);
 /* The board of --board, which has prices; NULL is reported. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* That --measure cannot be had, and why. */
+/* Reports that --measure is impossible, with the reason. */
 void pricing_says_missing(const pricing *p, const char *why);
-/* A quantity above zero of the command line, in SI: false, told. Its dimension is that of the quantity `name`, or, if that
- * is NULL, `wanted`. */
+/* A positive quantity of the command line, in SI; false: reported. Its dimension is that of the quantity `name`, or, if
+ * that is NULL, `wanted`. */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
-/* The table that is asked for: by the effort and the methods, on all processors. */
+/* The requested table: by the effort and the methods, on all processors. */
 table_wish pricing_wish(const pricing *p);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing);
-/* Records of `whirl price` to the horizon: so many to two and a half times as many. */
+/* Least records of `whirl price` to the horizon; the most are two and a half times as many. */
 #define PRICING_RECORDS 1000.0
-/* A spacing of about so many to two and a half times so many records, 1, 2 or 5 times a power of ten. */
+/* A spacing of 1, 2 or 5 times a power of ten for `count` to two and a half times `count` records. */
 whole_ratio pricing_spacing(double until_s, double count);
 
 #endif

@@ -1,4 +1,3 @@
-/* pricing_scene.c: see pricing_scene.h. */
 #include "pricing_scene.h"
 
 #include <stdlib.h>
@@ -36,7 +35,7 @@ char *pricing_words(const overrides *c, bool as_label) {
     size_t length;
     const struct {
         const char *option;
-        const char *label; /* NULL: stands in no label */
+        const char *label; /* NULL: not in labels */
         const char *const *list;
         int count;
     } parts[] = {{"--set ", "", c->sets, c->set_count},
@@ -60,7 +59,7 @@ char *pricing_words(const overrides *c, bool as_label) {
     return text;
 }
 
-/* Is there nothing to change at this point? */
+/* Is this the point without changes? */
 static bool is_own(const pricing_scene *p, int point) {
     return p->grid->count == 0 || (p->has_own && point == p->source.points - 1);
 }
@@ -95,7 +94,8 @@ static const char *name_of(void *context, int point) {
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The varied values as texts behind the command line's own, and so over them; free with forget(). */
+/* The varied values as texts after the command line's own, so that they take precedence; free with
+ * forget(). */
 static overrides changes_in(const pricing_scene *p, int point) {
     const grid *g = p->grid;
     overrides changes = *p->changes;
@@ -131,7 +131,7 @@ static bool same_lists(const image_settings *a, const image_settings *b) {
            (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
 }
 
-/* What `make` says of a setting that scenes need not take stays unsaid. */
+/* Discards the messages of `make` if scenes may refuse the setting. */
 static diags *diags_of(pricing_scene *p, const image_settings *settings) {
     return setting_may_be_refused(settings) ? diags_new() : p->errors;
 }
@@ -142,8 +142,8 @@ static void forget_diags(pricing_scene *p, diags *of) {
     }
 }
 
-/* The image of a place with the lists of these settings, made once; its step and end are the scene's. NULL: told, or it does not take
- * them. */
+/* The image of a place with the lists of these settings, made once; its step and end are the scene's. NULL: reported, or the scene
+ * refuses the settings. */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
     for (int i = 0; i < p->made_count; i++) {
         if (p->made[i].point == point && same_lists(&p->made[i].settings, settings)) {

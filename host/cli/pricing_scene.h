@@ -17,15 +17,15 @@ typedef struct pricing_made {
 typedef struct pricing_scene {
     const mechanism *mechanism;
     const scene *scene;       /* NULL for a bare mechanism */
-    const overrides *changes; /* the command line's, but for what varies */
-    const grid *grid;         /* what varies; no axes: nothing */
+    const overrides *changes; /* the command line's, except the varied ones */
+    const grid *grid;         /* the varied values; may have no axes */
     diags *errors;
     instance **instance;   /* [points] of: */
     equations **equations; /* [points] NULL: not yet */
     pricing_made *made;    /* [made_count] */
     int made_count;
     bool has_own; /* the last point is the scene's own place, which is no point of the grid */
-    char *name;   /* of the place that was asked for last */
+    char *name;   /* of the last requested place */
     trial_source source;
 } pricing_scene;
 
@@ -40,9 +40,9 @@ void pricing_scene_add_own(pricing_scene *p, const instance *own);
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 
-/* A word of a command line as a shell takes it: in quotes where it must be. To be freed. */
+/* A word of a command line, quoted for a shell if necessary. To be freed. */
 char *pricing_quoted(const char *word);
-/* The options that make these changes, each behind a blank; or as a label "m=2, with drag", without times. To be freed. */
+/* The options that make these changes, each after a blank; or as a label "m=2, with drag", without times. To be freed. */
 char *pricing_words(const overrides *c, bool as_label);
 
 #endif

@@ -37,7 +37,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
     fputc('\n', out);
 }
 
-/* The reason why a scene can have no rows, whatever its run gives; NULL: it can. */
+/* The reason why a scene has no rows, whichever result its run has; NULL: it has rows. */
 static const char *refused(const rating_wish *w) {
     diags *unsaid = diags_new();
     const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);

@@ -25,7 +25,7 @@ typedef struct visit {
     void *context;
 } visit;
 
-/* Visit every scene of an opened source, also behind one that is refused, and forget its model. Returns an exit code. */
+/* Visits every scene of an opened source, also after a refused one, and frees its model. Returns an exit code. */
 static int each_scene_of(source_model *from, const visit *v) {
     static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
                                    .use = IMAGE_TO_WRITE,
@@ -60,7 +60,7 @@ static int each_scene_of(source_model *from, const visit *v) {
     return code;
 }
 
-/* The scenes of the files, or, where there are none, every built-in one. Returns an exit code. */
+/* The scenes of the files, or, without files, every built-in one. Returns an exit code. */
 static int each_scene(int files, char **file, const visit *v) {
     int code = EXIT_DONE;
     for (int i = 0; i < files && code == EXIT_DONE; i++) {
@@ -127,7 +127,7 @@ static int emit_equations(void *context, const char *file, const loaded *made) {
     return EXIT_DONE;
 }
 
-/* Of a file's scene, what its runs come to. */
+/* The hashes of the runs of a file's scene. */
 static int emit_hashes(const emission *to, const image *im) {
     FILE *out = scenes_open(to->folder, im->name, ".hash");
     if (out == NULL) {

@@ -1,5 +1,5 @@
-/* sweep.c: `whirl sweep`: a run for every point of a grid, a row of measures each; and `whirl map`, a sweep over two axes whose
- * measure is whether a run stays bounded, keeps its energy and a tolerance. */
+/* sweep.c: `whirl sweep` and `whirl map`. A sweep runs every point of a grid and writes a row of measures each. A map sweeps
+ * two axes and measures if a run stays bounded, keeps its energy and meets a tolerance. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,12 +24,12 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Of a map: its axes; pairs that can be looked at; */
+/* Of a map: its axes; the most pairs; */
 enum { AXES = 2 };
 #define PAIRS_MOST 250000
 /* operations that it may evaluate without --effort; */
 #define EFFORT 1.5e11
-/* what looking, books and comparing take of operations, about, beside those of the step's lists. */
+/* Operations of checks, balance and comparison per step, approximately, besides the step's lists. */
 #define OPERATIONS_A_STEP 200.0
 
 static const command_usage sweep_usage = {
@@ -151,7 +151,7 @@ static bool read_shard(const char *text, sweep_options *o) {
 
 static bool is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
 
-/* Nothing is missing, and nothing contradicts. */
+/* Checks for missing and contradicting options. */
 static bool is_whole_sweep(sweep_options *o) {
     if ((o->jobs_text != NULL && !read_jobs(o->jobs_text, o)) ||
         (o->shard_text != NULL && !read_shard(o->shard_text, o))) {
@@ -203,7 +203,7 @@ static bool read_options(int count, char **words, sweep_options *o, const own_op
            target_is_there(o->target, o->usage);
 }
 
-/* --- what both begin with ------------------------------------------------------------------------*/
+/* --- common beginning ----------------------------------------------------------------------------*/
 
 static bool read_grid(const sweep_options *o, const mechanism *of, diags *errors, grid *g) {
     bool good = true;
@@ -222,7 +222,7 @@ static int load_base(const sweep_options *o, source_model *from, const sweep *s,
     return load(base, from, s->mechanism, s->scene, s->changes, &wish);
 }
 
-/* What is wrong with every point is told of the scene as it stands. */
+/* Errors common to all points are reported once, for the scene without changes. */
 static bool begins(const sweep *s, const loaded *base, diags *errors) {
     if (s->kind == &engine_float) {
         say_float_range(base->image);
@@ -358,7 +358,7 @@ static void show_progress(double runs, void *told) {
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
-/* Operations of all runs, about: as many steps as each step's length makes of the scene as it stands. */
+/* Estimated operations of all runs: the steps of each length times those of the unchanged scene. */
 static double operations_of(const grid *g, const image *base) {
     double runs = 0.0;
     for (int i = 0; i < AXES; i++) {
@@ -433,8 +433,8 @@ static int map_scene(const sweep_options *o, source_model *from, const mechanism
 
 /* --- the commands ------------------------------------------------------------------------------*/
 
-/* No file of the model is written over: neither by the rows nor by what stands beside them (host/study/resumable_csv.h). Of a map before
- * the work, which else would be in vain. */
+/* Refuses to overwrite a file of the model, by the rows or by their companion file (host/study/resumable_csv.h). For a map this is
+ * tested before the work. */
 static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
     if (source_would_be_lost(from, "--csv", o->csv, "") ||
         source_would_be_lost(from, maps ? "--plot" : "--csv", maps ? o->plot : o->csv,

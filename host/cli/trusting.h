@@ -1,4 +1,4 @@
-/* trusting.h: the common part of `whirl trust` and `whirl run`: the scene's image for the finer run beside it. */
+/* trusting.h: the common part of `whirl trust` and `whirl run`: the scene's image for the finer run. */
 #ifndef CLI_TRUSTING_H
 #define CLI_TRUSTING_H
 
@@ -11,7 +11,7 @@
 load_keep trusting_keep(const image_settings *settings);
 /* The image of step_doubling_plain(), to be freed. NULL: it is the image itself. */
 image *trusting_plain(const loaded *made);
-/* The scene's step in fixed point, which the image then has: takes as long as a run where ranges are not declared. Returns an exit
+/* The scene's step in fixed point, which the image then has: takes as long as a run if ranges are undeclared. Returns an exit
  * code; *plan is to be freed. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 

@@ -1,4 +1,3 @@
-/* null_space.c: see null_space.h. */
 #include "null_space.h"
 
 #include <math.h>

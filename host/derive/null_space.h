@@ -1,4 +1,4 @@
-/* null_space.h: the vectors that meet many linear conditions: a triangular factor, and its singular values by one-sided Jacobi
+/* null_space.h: the null space of many linear conditions: a triangular factor, and its singular values by one-sided Jacobi
  * rotations (Hestenes, "Inversion of matrices by biorthogonalization", 1958). */
 #ifndef DERIVE_NULL_SPACE_H
 #define DERIVE_NULL_SPACE_H

@@ -8,13 +8,13 @@
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
-/* Passes over rows and columns; each halves what is wrong with the logarithms of the scales. */
+/* Passes over rows and columns; each halves the error of the logarithms of the scales. */
 #define PASSES 16
-/* Part of the scaled size below which a pivot is rounding, however exact the entries are: of about four times
- * what the algebra takes for zero in a sum. */
+/* Part of the scaled size below which a pivot is round-off, even with exact entries: about four times the
+ * algebra's threshold of zero in a sum. */
 #define NO_PIVOT 4e-14
 
-/* The power of two next to 1/sqrt(x); 1 for what has no size. */
+/* The power of two next to 1/sqrt(x); 1 for zero. */
 static double scale_for(double x) {
     int exponent;
     if (!(x > 0.0) || !isfinite(x)) {

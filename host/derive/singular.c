@@ -11,12 +11,12 @@
 #include "rank.h"
 
 #define TRIES 24
-/* The try after those: the state at which a run starts. What is defined in a narrow range only may
- * be without a value at all the others. */
+/* The last try: the state at which a run starts. A mass matrix with a narrow domain may be
+ * undefined at all the others. */
 #define TRY_START TRIES
 /* Rounding of an entry, as part of the sizes of its terms. */
 #define ENTRY_ROUNDING 4e-16
-/* Nobody asks for a state at which more is left of it. */
+/* A relative accuracy of the mass matrix that suffices: no better state is searched for. */
 #define MASS_BLUR_FINE 1e-10
 
 enum { HINT_SIZE = 320 };
@@ -62,8 +62,8 @@ static bool mass_at(const equations *e, int try, double *m, double *error) {
     return finite;
 }
 
-/* The first row whose highest derivatives follow from those of the rows above, at the first finite
- * try; -1 when there is none. */
+/* The first row with highest derivatives that depend on those of the rows above, at the first
+ * finite try; -1: all are independent. */
 static int dependent_row(const equations *e) {
     const int n = e->count;
     double *m = room_for(n);
@@ -88,7 +88,6 @@ static int dependent_row(const equations *e) {
     return found;
 }
 
-/* Where equation `row` of a system stands. */
 static place place_of_equation(const equations *e, int row) {
     const mechanism *m = e->instance->mechanism;
     for (int t = 0, at = 0; t < m->term_count; t++) {
@@ -127,7 +126,7 @@ static void report_singular_system(const equations *e, diags *errors) {
     }
 }
 
-/* An effect that takes no part here and whose T contains the rate of `s`; NULL: none. */
+/* An inactive effect with the rate of `s` in its T; NULL: there is no such effect. */
 static const char *effect_with_inertia(const equations *e, const symbol *s) {
     const mechanism *m = e->instance->mechanism;
     for (int i = 0; i < m->term_count; i++) {
@@ -151,7 +150,7 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* The part of the kinetic energy that is negative most often, and *most: how often; NULL: none ever is. */
+/* The part of the kinetic energy that is negative most often, and the count in *most; NULL: it never is. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -228,10 +227,10 @@ static bool energies_finite(const equations *e, generic_state *state) {
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
 }
 
-/* What the best of the states tried allows. */
+/* The best result of the tried states. */
 typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } run_checks;
 
-/* Of a matrix that rank_of() has found to be regular: how little is left of it, and by how much that is off. */
+/* The largest error of a regular matrix after rank_of(), relative to its least pivot. */
 static double blur_of(const double *m, const double *error, int n) {
     double least = (double)INFINITY;
     double most = 0.0;

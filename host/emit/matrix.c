@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-/* Columns of a table that stand beside each other. */
+/* Columns of a table next to each other. */
 enum { BESIDE = 5, NAME_WIDTH = 14, NUMBER_WIDTH = 17 };
 
-/* What stands in column k, or row k: a state or an input. Its name with primes, in text[size]. */
+/* The label of column k, or row k: a state or an input. Its name with primes, in text[size]. */
 static const char *name_of(const image *im, int k, char *text, size_t size) {
     const int states = im->matrix.states;
     if (k >= states + im->inputs) {

@@ -7,8 +7,8 @@
 #include "host/fixed/fixed_list.h"
 
 /* === a list in fixed point as C =============================================================== */
-/* Each operation one statement. What engine_fixed.c computes of numbers and shifts stands here with them in
- * place, so that a compiler folds them. */
+/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written out, so that
+ * a compiler folds them. */
 
 /* A list of more operations than this is called at each stage and not inlined there. */
 enum { INLINED_MOST = 80 };
@@ -77,7 +77,7 @@ static void quotient(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
     fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n", o->spread > 0 ? 'u' : 'd',
             i, o->negated ? "0U - " : "", o->b.op, o->zeros);
-    if (o->spread == 1) { /* none or one */
+    if (o->spread == 1) { /* no or one shift */
         fprintf(out, "    const int z%d = (int)(~u%d >> 31);\n", i, i);
     } else if (o->spread > 1) {
         fprintf(out, "    const int z%d = wh_fixed_zeros(u%d);\n", i, i);
@@ -133,7 +133,7 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
     }
 }
 
-/* A constant stands in place, but where it is a result. */
+/* Constants are written in place, unless they are results. */
 static bool is_stated(const fixed_list *l, int i) {
     bool result = false;
     for (int k = 0; k < l->results; k++) {
@@ -171,7 +171,6 @@ static int operations(const fixed_list *l) {
     return count;
 }
 
-/* The function `accelerations`. */
 static void c_fixed_list(FILE *out, const fixed_list *l, bool second) {
     fprintf(out,
             "%s void accelerations(const uint32_t *phase, const int32_t *linear,%s\n"
@@ -197,7 +196,7 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* The limited sum of a component and what the caller writes next; limits() ends it. */
+/* The limited sum of a component and the caller's next output; limits() ends it. */
 static void limited(FILE *out, int i) {
     fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
 }
@@ -210,7 +209,7 @@ static void limits(FILE *out, const fixed_plan *p, int at) {
     fputs(", &saturated);\n", out);
 }
 
-/* What a stage moves a place by. */
+/* The increment of a place at a stage. */
 static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
     fputs("wh_fixed_round(", out);
     if (stage == 1) {
@@ -307,7 +306,7 @@ static void end_first(FILE *out, const fixed_plan *p) {
     }
 }
 
-/* None has no elements. */
+/* An array needs at least one element. */
 static int at_least_one(int count) { return count > 0 ? count : 1; }
 
 static void begin_step(FILE *out, const fixed_plan *p) {

@@ -103,7 +103,7 @@ static int32_t gained(fixed_gain g, int32_t x) {
     return wh_fixed_mul(wh_fixed_left(x, g.shift), g.number, g.by);
 }
 
-/* Of a step on its way: what the list takes at a stage, and what it has given. */
+/* A step in progress: the inputs of the list at a stage, and its results. */
 typedef struct fixed_stages {
     uint32_t phase[IMAGE_COMPONENTS_MAX];
     int32_t linear[2 * IMAGE_COMPONENTS_MAX];
@@ -112,8 +112,8 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-/* What stage s adds to a place, before that is rounded. Stages are not held to ranges: the list has room for where they can
- * be from within them (fixed_plan.c). */
+/* The increment of a place at stage s, before rounding. Stages are not clamped to ranges: the list has room for all stages
+ * of steps from within them (fixed_plan.c). */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1
                ? k->half_rate[i]
@@ -159,7 +159,7 @@ static int32_t limited(fixed_run *run, int at, int32_t x) {
     return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
 }
 
-/* (k1 + 2 k2 + 2 k3 + k4)/3, at the point of what is kept. */
+/* (k1 + 2 k2 + 2 k3 + k4)/3, at the point of the state. */
 static int32_t sixths(const fixed_mover *m, const fixed_stages *k, int i) {
     const int32_t middle = k->given[1][i] + k->given[2][i];
     return gained(m->third, k->given[0][i] + k->given[3][i] + 2 * middle);
@@ -234,7 +234,7 @@ static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     return WH_OK;
 }
 
-/* --- what a run is asked -----------------------------------------------------------------------------------*/
+/* --- queries of a run --------------------------------------------------------------------------------------*/
 
 static void *run_start(const image *im) {
     const fixed_plan *p = im->fixed;

@@ -4,7 +4,7 @@
 
 #include "host/engine/engine.h"
 
-/* Of images whose `fixed` is set. */
+/* For images with `fixed`. */
 extern const engine_kind engine_fixed;
 
 #endif

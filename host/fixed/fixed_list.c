@@ -1,4 +1,4 @@
-/* fixed_list.c: the copy of an image's list, with what a step multiplies its results by. */
+/* fixed_list.c: the fixed-point copy of an image's list, with the step's factors in its results. */
 #include "host/fixed/fixed_list.h"
 
 #include <math.h>
@@ -10,14 +10,14 @@
 #include "host/number/phase.h"
 
 /* === binary points and shifts ================================================================= */
-/* Where the binary point of each value stands, and the shifts that follow. */
+/* The binary point of each value, and the shifts that follow. */
 
 /* Points beyond these are for numbers that no mechanism has. */
 enum { BITS_LEAST = -60, BITS_MOST = 90 };
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
-    int exponent; /* size <= 2^exponent, but for what outward rounding adds to a power of two */
+    int exponent; /* size <= 2^exponent, except for the outward rounding of a power of two */
     if (number_split(ROUNDED * size, &exponent) == 0.0) {
         return digits;
     }
@@ -25,7 +25,7 @@ int fixed_point_of(double size, int digits) {
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
-/* The largest number that stands for it, as a double. */
+/* Its largest integer, as a double. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int least(int a, int b) { return a < b ? a : b; }
@@ -33,13 +33,13 @@ static int most(int a, int b) { return a > b ? a : b; }
 
 /* --- points ------------------------------------------------------------------------------------------*/
 
-/* What the operands of a product can make at most has room, too: then shifts to the left do. */
+/* The largest product of the operands has room, too, so that shifts to the left suffice. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* No digits that neither part has; and room for a constant, and for what is compared. */
+/* At most the digits of the finer part. Constants and compared values must have room. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -81,7 +81,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     }
 }
 
-/* Digits of operation i that user o takes no part of: a product whose sum has fewer behind the point may have these. */
+/* Digits that user o can use of operation i. If a sum has fewer digits after the point, its products have no more. */
 static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -90,7 +90,7 @@ static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Products and quotients round once by themselves: straight to what their sums take. */
+/* Products and quotients round only once: directly to the digits of their sums. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -138,15 +138,15 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     }
 }
 
-/* Digits that may be put behind a number of so many units, which keeps within 31. */
+/* Shifts to the left of a number of this many units that keep it within 31 digits. */
 static int left_of(double size) {
     int exponent;
     (void)number_split(size + 1.0, &exponent);
     return 31 - exponent;
 }
 
-/* Shifts of a product whose factors have `a_bits` and `b_bits` behind the point and room for a_left and b_left more: to
- * `bits`. False: there is no room. */
+/* Shifts of a product to `bits`. The factors have `a_bits` and `b_bits` after the point and room for a_left and b_left
+ * more. False: there is no room. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     const int by = a_bits + b_bits - o->bits - 32;
     const int short_of = by >= 1 ? 0 : 1 - by;
@@ -201,7 +201,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
         o->bits--;
     }
     o->follows = a_left >= o->spread;
-    if (o->follows) { /* shifts as they are where there are the least zeros */
+    if (o->follows) { /* shifts for the least number of leading zeros */
         const int more = most(o->spread - o->a.shift, 0);
         o->a.shift += more - o->spread;
         o->by += more;
@@ -321,7 +321,7 @@ enum {
 };
 
 #define TURN 6.283185307179586477
-/* What the core's sines are off, and its reciprocals of themselves (tests/core/test_fixed.c), and some. */
+/* Error bounds of the core's sines and reciprocals (tests/core/test_fixed.c), with a margin. */
 #define SINE_OFF 5e-8
 #define QUOTIENT_OFF 8e-9
 
@@ -332,9 +332,9 @@ typedef struct hull {
     enclosure *now;   /* [count] in this cell */
     enclosure *angle; /* [angles] */
     int *cell;        /* [angles] */
-    bool *cut;        /* [angles] is any phase made of it? */
+    bool *cut;        /* [angles] does any phase depend on it? */
     int cells;        /* a turn */
-    bool at_middles;  /* leaves stay in the middle of what they can be */
+    bool at_middles;  /* leaves are at the middle of their ranges */
     bool divides_zero;
     bool unbounded;
 } hull;
@@ -402,7 +402,7 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* Rounding is half a unit of the result, and of what is shifted. */
+/* Half a unit of the result, plus that of shifted operands, with a margin. */
 static double rounding_of(const hull *h, const fixed_op *o) {
     const bool rounds = o->code > FIXED_PHASE;
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
@@ -520,7 +520,7 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
 
 /* === the list ================================================================================= */
 
-/* --- what has no fixed form ------------------------------------------------------------------------*/
+/* --- operations without a fixed form ---------------------------------------------------------------*/
 
 static const char *without_form(const op *o) {
     switch (o->code) {
@@ -656,7 +656,7 @@ static fixed_op copy_of(const op_list *t, const op *o, const int *number) {
     return made;
 }
 
-/* Number `value` (a constant) joined to the constant factor of what operation i computes, if it has one. */
+/* Operation i times `scale`, joined to the operation's constant factor if it has one. */
 static int enter_scaled(fixed_list *l, int i, double scale) {
     const fixed_op *o = &l->op[i];
     double factor = scale;

@@ -1,32 +1,32 @@
-/* fixed_list.h: an operation list in fixed point: what the accelerations' list (host/image/op_list.h) becomes when each value is
- * a 32-bit integer with a binary point of its own.
+/* fixed_list.h: an operation list in fixed point: the accelerations' list (host/image/op_list.h), with each value a 32-bit
+ * integer with its own binary point.
  *
- * Made in three steps: copied (an operation without a fixed form is refused; the step goes into the results), its values
- * enclosed, its points chosen. What runs it (engine_fixed.c) and what writes it as C (c_fixed.c)
- * read numbers and shifts only, so both give the same bits. */
+ * It is made in three steps: the list is copied, its values are enclosed, its points chosen. The copy includes the step's
+ * factors, and refuses operations without a fixed form. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read
+ * numbers and shifts only, so both give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
 #include "host/fixed/fixed_range.h"
 #include "host/image/image.h"
 
-/* Of a value's size, binary digits: values fill 2^29 at most, so that what rounding adds, and twice that, fits; results
- * 2^28, since a step adds six of them; what is kept from step to step 2^30. */
+/* Binary digits of a value. Values fill at most 2^29, so that twice their round-off fits. Results fill 2^28, since a
+ * step adds six of them. The state fills 2^30. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
-    FIXED_CONSTANT, /* number, or what it is as an operand */
+    FIXED_CONSTANT, /* number, or its value as an operand */
     FIXED_LINEAR,   /* leaf `index` */
     FIXED_RATE,
     FIXED_INPUT,
     FIXED_PHASE,      /* offset + sum turns[i] phase[i] */
     FIXED_SINE,       /* of phase a */
-    FIXED_COSINE,     /* likewise */
+    FIXED_COSINE,     /* of phase a */
     FIXED_SUM,        /* round(a) + round(b): each with its shift */
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
     FIXED_QUOTIENT, /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
-    FIXED_SAME,     /* round(a), or -round(a): powers of two cost nothing but that */
+    FIXED_SAME,     /* round(a), or -round(a): a power of two costs no product */
     FIXED_ABS,      /* round(|a|) */
     FIXED_SIGN,     /* of a: -1, 0 or 1 */
     FIXED_LEAST,    /* the lesser of round(a) and round(b) */
@@ -35,8 +35,8 @@ typedef enum fixed_code {
 
 typedef struct fixed_operand {
     int op;
-    int shift;      /* to the right where it is rounded, to the left where it is multiplied */
-    int32_t number; /* of a constant: as it is taken, the shift done */
+    int shift;      /* to the right for a sum, to the left for a product */
+    int32_t number; /* of a constant: shifted already */
 } fixed_operand;
 
 typedef struct fixed_op {
@@ -45,8 +45,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: the least zeros in front of |b|, and how many more there may be, `more`: by these a is shifted,
-     * too, or, where it has no room for that, `by` is less. */
+    /* FIXED_QUOTIENT: `zeros` is the least number of leading zeros of |b|, and `spread` the most further ones,
+     * `more`. They also shift a; if a has no room for that, `by` is less. */
     int zeros;
     int spread;
     bool follows;
@@ -56,7 +56,7 @@ typedef struct fixed_op {
     uint32_t offset;
     double value;    /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
     enclosure range; /* of the values that it can have */
-    int bits;        /* behind the binary point */
+    int bits;        /* after the binary point */
     bool used;
 } fixed_op;
 
@@ -72,20 +72,18 @@ typedef struct fixed_list {
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
 void fixed_list_free(fixed_list *list);
 
-/* What the leaves can be. */
+/* The ranges of the leaves. */
 typedef struct fixed_leaves {
     const enclosure *linear;
     const enclosure *rate;
     const enclosure *input;
 } fixed_leaves;
 
-/* The largest size of a value that anything here has to do with: products of two of it are finite, so that intervals are of
- * numbers throughout. */
+/* The largest size of a value. Products of two such values are finite, so that all intervals are finite. */
 #define FIXED_SIZE_MOST 0x1p80
 
-/* Enclose all values: op[].range. Turn angles are cut into cells. `bits_known`: rounding to op[].bits takes part. Returns the
- * cells a turn, or what else there is to say: denominators were not kept from zero (reported), or values are larger than
- * FIXED_SIZE_MOST, or it was stopped. */
+/* Encloses all values: op[].range. Turn angles are cut into cells. `bits_known`: includes the rounding to op[].bits. Returns
+ * the cells a turn, or a code: a denominator may be zero (reported), a value exceeds FIXED_SIZE_MOST, or it was stopped. */
 enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
@@ -96,9 +94,10 @@ bool fixed_bits(fixed_list *list, const image *im, diags *errors);
 /* With the ranges of fixed_hull(), rounding in them: does everything fit? */
 bool fixed_fits(const fixed_list *list);
 
-/* Digits behind the point with which `size` fills at most `digits` binary digits; `most` of zero. */
+/* Digits after the point with which `size` fills at most `digits` binary digits; the largest for
+ * zero. */
 int fixed_point_of(double size, int digits);
-/* The same of a constant factor: with 31 binary digits, the last of them rounded. */
+/* The same for a constant factor: with 31 binary digits, the last of them rounded. */
 int fixed_factor_bits(double value);
 
 #endif

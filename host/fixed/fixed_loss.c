@@ -1,4 +1,3 @@
-/* fixed_loss.c: see fixed_loss.h. */
 #include "fixed_loss.h"
 
 #include <math.h>
@@ -16,7 +15,7 @@ typedef struct component_loss {
     double asked; /* of the step in progress */
     double lost;  /* since the start */
     double most;
-    double low, high; /* where it would have been */
+    double low, high; /* range without round-off */
 } component_loss;
 
 struct fixed_loss {
@@ -67,7 +66,7 @@ void fixed_loss_free(fixed_loss *l) {
     }
 }
 
-/* What all components, angles first, change by in a second. */
+/* The derivatives of all components, angles first, per second. */
 static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const fixed_plan *p = l->plan;
     const int angles = p->image->angles;

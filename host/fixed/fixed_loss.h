@@ -1,5 +1,5 @@
-/* fixed_loss.h: what rounding takes from the steps of a run in fixed point: beside each, the same step of RK4 in double, from
- * the same state. What that adds and the run's did not is lost; its sum since the start is told (host/check/slow.h). */
+/* fixed_loss.h: round-off of the steps of a run in fixed point, compared with the same step of RK4 in double from the same
+ * state. The difference of the increments is lost; its sum since the start is reported (host/check/slow.h). */
 #ifndef FIXED_FIXED_LOSS_H
 #define FIXED_FIXED_LOSS_H
 
@@ -10,7 +10,7 @@ typedef struct fixed_loss fixed_loss;
 fixed_loss *fixed_loss_new(const fixed_plan *p, const wh_fixed_state *start);
 void fixed_loss_free(fixed_loss *l);
 
-/* Around each step. One in which values were held at an end of their range does not count: that is told by itself. */
+/* Around each step. A step with clamped values does not count, because clamping is reported separately. */
 void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state);
 void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state);
 
@@ -18,7 +18,7 @@ void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state);
  * covered with it; SI. */
 double fixed_loss_off(const fixed_loss *l, int i, double *span);
 
-/* What component i moves by, at least; SI. */
+/* The smallest increment of component i; SI. */
 double fixed_loss_unit(const fixed_plan *p, int i);
 
 #endif

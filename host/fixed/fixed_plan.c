@@ -62,7 +62,6 @@ bool fixed_has_step(const image *im, diags *errors) {
     return false;
 }
 
-/* Does everything start within its range? */
 static bool starts_inside(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -123,7 +122,7 @@ static wh_fixed_format format_of(enclosure range, int bits) {
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
 
-/* Largest number of binary digits behind the point with which `size` has room in `most` units. */
+/* Largest number of binary digits after the point with which `size` fits in `most` units. */
 static int room_for(double size, double most) {
     const int finest = fixed_point_of(size, FIXED_DIGITS) + 3;
     int less = 0;
@@ -133,7 +132,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Times `factor` of a number of up to `size` units and so many bits, to so many. False: no room. */
+/* Multiplication by `factor` of a number of up to `size` units, from one number of bits to another.
+ * False: no room. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;
@@ -145,15 +145,14 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* The same of results of the list, with 15 digits: of what stages are moved by twice over. */
+/* The same for results of the list, with 15 digits: for stage increments of second order. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
     return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
 }
 
-/* A component of which 2 `by` is the most that a step adds: as fine as there is room for that, and for what is added to it
- * to be finer still. */
+/* Digits of a component with step increments of at most 2 `by`: as many as fit, and fewer than those of the increments. */
 static int kept_bits(enclosure range, double by, int list_bits) {
     const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
@@ -184,7 +183,8 @@ static int kept_at(const fixed_plan *p, int i) {
 
 enum { GUARD_MOST = 8 };
 
-/* Where results end: `kept` digits behind the point are what they are added to. */
+/* Sets the point of a mover's results: they are added to a state with `kept` digits after the
+ * point. */
 static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
     m->to_kept = accel->bits - kept;
@@ -281,8 +281,8 @@ static double most_added(const fixed_plan *p, int at) {
            (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
 }
 
-/* Stages leave the ranges by what is added to them, and that depends on where they are: from nothing on until it is enough.
- * False: it never was. */
+/* Stages leave the ranges by their increments, which depend on the stages. Iterates from zero until they are enclosed.
+ * False: they never were. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -297,8 +297,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* What the values can be with the stages where they are. False, reported: within the ranges alone they may be too large, or
- * where steps from there get. */
+/* The ranges of all values with the present stages. False, reported: the values are too large within the ranges alone, or
+ * after steps from there. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);
@@ -313,7 +313,6 @@ static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *er
     return p->cells > 0;
 }
 
-/* Encloses all values. */
 static bool enclose(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     bool enough = false;
@@ -330,7 +329,8 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Points for all: those of what is kept follow from the list's results, and theirs from those. */
+/* Points for all values: those of the state follow from the list's results, and theirs from the
+ * ranges. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
@@ -357,8 +357,8 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Points for all, with which everything fits, rounding included: that takes the stages further, which is much where a step
- * adds little. */
+/* Chooses points until everything fits, rounding included. Rounding widens the stages, which matters if a step adds
+ * little. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {
@@ -401,7 +401,7 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* To begin with: room for where stages are. */
+/* At first: room for the stages. */
 static wh_fixed_format first_format(enclosure range, enclosure stage) {
     const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
     const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);

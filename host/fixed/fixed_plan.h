@@ -1,4 +1,4 @@
-/* fixed_plan.h: a scene's step in fixed point: ranges and formats of what is kept, the list of the accelerations, and the
+/* fixed_plan.h: a scene's step in fixed point: ranges and formats of the state, the list of the accelerations, and the
  * constants of the method. */
 #ifndef FIXED_FIXED_PLAN_H
 #define FIXED_FIXED_PLAN_H
@@ -10,14 +10,14 @@
 
 /* === statements that fixed point refuses, each at its place =================================== */
 
-/* Contacts, books, noise, other methods and settings: false, reported. */
+/* Contacts, ledger, noise, other methods and settings: false, reported. */
 bool fixed_has_step(const image *im, diags *errors);
 
 /* Ranges of the reals and inputs: larger than anything may be, or a start outside its own: false, reported. */
 bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors);
 
-/* Code takes inputs that nobody has run yet: each input without a declared range is reported, with the range that a run
- * takes; false: there is one. */
+/* Code takes inputs that no run has tested. So each input without a declared range is reported, with the range of a
+ * run; false: there is one. */
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);
 
 /* x 2^shift number 2^-(32 + by), rounded: times a constant, to another binary point. */
@@ -27,14 +27,14 @@ typedef struct fixed_gain {
     int by;
 } fixed_gain;
 
-/* How Runge and Kutta's method of order 4 moves a component. Second order: its rate v by h/2 of the acceleration, A (a
- * result of the list), and itself by h/2 of the rate, W, and of the A's:
+/* How RK4 moves a component. Second order: its rate v by h/2 of the acceleration, A (a result of the list), and itself by h/2
+ * of the rate, W, and of the A's:
  *
  *     v2 = v + A1   v3 = v + A2   v4 = v + 2 A3   v+ = v + (A1 + 2 A2 + 2 A3 + A4)/3
  *     q2 = q + W    q3 = q + W + h/2 A1    q4 = q + 2 W + h A2    q+ = q + 2 W + h/3 (A1 + A2 + A3)
  *
- * First order: as v. A's point is `to_kept` digits behind that of v, those of W and of what is added to it are `guard` behind
- * that of q. */
+ * First order: as v. A has `to_kept` more digits after the point than v. W and the terms added to it have `guard` more than
+ * q. */
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;
@@ -47,8 +47,8 @@ typedef struct fixed_mover {
 typedef struct fixed_plan {
     const image *image;
     wh_fixed_format *format; /* [reals + inputs] as the scene has them */
-    enclosure *range;        /* [reals + inputs] where a step begins and ends, and */
-    enclosure *stage;        /* [reals + inputs] where its stages can be from there */
+    enclosure *range;        /* [reals + inputs] at the ends of steps, and */
+    enclosure *stage;        /* [reals + inputs] at their stages */
     bool *declared;          /* [reals + inputs]: else from a reference run */
     bool second;
     int coordinates;    /* or components */
@@ -60,12 +60,13 @@ typedef struct fixed_plan {
     int32_t *start_input;
 } fixed_plan;
 
-/* Of an image made with the default method; NULL, reported, where the scene has no such step, or after an interrupt. `progress` is
+/* For an image made with the default method. NULL, reported, if the scene has no such step, or after an interrupt. `progress` is
  * shown on standard error. */
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Ranges that turn angles do not take, and those that were not declared, a line each, begun by `begin`: "the range of theta' is -40 .. 40 [rad/s], ...". */
+/* Ranges that turn angles do not use, and undeclared ones, a line each, begun by `begin`: "the range of theta' is -40 .. 40
+ * [rad/s], ...". */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

@@ -21,7 +21,7 @@ static enclosure twice(enclosure seen) {
                        seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
-/* Often enough to be seen, seldom enough to cost nothing. */
+/* Often enough to be seen, rarely enough to cost little. */
 static void show(uint64_t step, uint64_t steps) {
     if ((step & 0x3fffU) == 0x3fffU) {
         fprintf(stderr, "\rranges, from a run in double: %5.1f %%",

@@ -5,9 +5,9 @@
 #include "host/image/image.h"
 #include "host/number/enclosure.h"
 
-/* range[reals + inputs] of components, then inputs: as declared; else twice as far from zero as a reference run of the scene
- * gets (double, its method), or half as near, where that keeps on one side of it; -1 to 1 where it stays zero. False: that
- * run failed (reported), or was interrupted. `progress`: shown on standard error. */
+/* range[reals + inputs] of components, then inputs, as declared. An undeclared range comes from a reference run of the scene
+ * (double, its method). It reaches twice as far from zero as the run; or half as near, if the run stays on one side of zero;
+ * -1 to 1 if it stays zero. False: that run failed (reported), or was interrupted. `progress`: shown on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
 #endif
