@@ -8,11 +8,11 @@ set -u
 
 # The name, and the limits: "what" in 1,000 words, words of a mean sentence, sentences of more than 35 words.
 budget='
-core 21 18 110
-hal-boards 22 18 25
-host 23 18 95
-tests 26 18 240
-pages 11 18 60
+core 2 13 13
+hal-boards 2 13 5
+host 2 13 6
+tests 2 13 7
+pages 2 14 7
 '
 
 files() { # files NAME
