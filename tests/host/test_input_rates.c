@@ -331,7 +331,7 @@ static void test_a_refused_step_leaves_no_trace(void) {
         TEST_ASSERT_TRUE_MESSAGE(left[0][0] == left[1][0] && fabs(left[0][0]) < 1e-2, text);
         /* Coordinates that follow an input are not corrected, all others are. */
         const image *im = m[0].image;
-        wh_real real[8] = {0};
+        wh_real real[2 * IMAGE_COMPONENTS_MAX] = {0};
         wh_contacts contacts;
         wh_state state = {.real = real, .contacts = &contacts};
         const wh_scene stepped = {.angles = (uint8_t)im->angles,
