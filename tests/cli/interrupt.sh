@@ -157,7 +157,9 @@ spent_by() {
     cat /proc/[0-9]*/stat 2>/dev/null | sed 's/^\([0-9]*\) (.*) /\1 /' |
         awk -v p="$1" '$1 == p || $3 == p { sum += $13 + $14 } END { print sum + 0 }'
 }
-has_spent() { ! kill -0 "$2" 2>/dev/null || [ "$(spent_by "$2")" -ge "$1" ]; }
+# A shell's background process ignores SIGINT until it catches it itself.
+catches() { [ $((0x$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status" 2>/dev/null || echo 2) & 2)) -ne 0 ]; }
+has_spent() { ! kill -0 "$2" 2>/dev/null || { [ "$(spent_by "$2")" -ge "$1" ] && catches "$2"; }; }
 
 seed=$(date +%s)
 echo "  moments: seed $seed"
