@@ -40,7 +40,7 @@ static bool is_started(const wh_scene *scene, const wh_state *state) {
 
 /* Does it follow an input with a rate? Then the next step would set it back. */
 static bool is_driven(const wh_scene *scene, unsigned real) {
-    const unsigned linears = (scene->reals - scene->angles) / 2U;
+    const unsigned linears = ((unsigned)scene->reals - scene->angles) / 2U;
     const unsigned behind = real < linears ? linears : scene->reals;
     return real + scene->driven >= behind;
 }
