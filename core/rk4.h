@@ -16,7 +16,7 @@
  *
  * `--method rk4-plain` runs a scene by this step. The method `rk4` has the same formulas as a row of method.h. Its steps
  * (step.h) share sums between positions and rates, and look a sine up once (stage_turn.h), so they cost less.
- * tests/core/test_method.c compares both.
+ * `build/tests/host rk4` compares both.
  */
 #ifndef WH_RK4_H
 #define WH_RK4_H

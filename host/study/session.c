@@ -105,7 +105,7 @@ void sweep_json_end(json *j, uint64_t failed, int status) {
     json_close(j, '}');
 }
 
-/* === the session ============================================================================== */
+/* === the settings of a sweep, hashed ============================================================== */
 
 static uint64_t hash_text(const char *text) {
     uint64_t hash = WH_HASH_START;

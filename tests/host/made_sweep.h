@@ -1,5 +1,5 @@
 /* made_sweep.h: a sweep made of a text as the command makes it, and a session of it in its own file, for tests of
- * host/sweep. */
+ * host/study. */
 #ifndef TESTS_HOST_MADE_SWEEP_H
 #define TESTS_HOST_MADE_SWEEP_H
 

@@ -1,5 +1,5 @@
 /* priced.h: the scenes of texts as places of trials, and the settings with an image, for the quick suites of
- * host/price. */
+ * host/study. */
 #ifndef TESTS_HOST_PRICED_H
 #define TESTS_HOST_PRICED_H
 
