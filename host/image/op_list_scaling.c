@@ -1,4 +1,4 @@
-/* op_list_gauge.c: the search for factors that bring float's constants close to their exact values. */
+/* op_list_scaling.c: the search for factors that bring float's constants close to their exact values. */
 #include "host/image/op_list_scaling.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* op_list_gauge.h: the gauge freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
+/* op_list_scaling.h: the gauge freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
  * or in the equations of a system. Some factors suit the constants of float better: 1.08 - 0.36 s^2 over M is 27 - 9
  * s^2 over 25 M, where no constant is rounded. */
 #ifndef IMAGE_OP_LIST_SCALING_H
