@@ -43,8 +43,8 @@ void board_wait_until(uint32_t ticks);
 bool board_converse(void);
 
 /* The processor's own cycle counter, wrapping at 2^32. board_cycles_start() switches it on and returns whether one
- * counts: on silicon with a Cortex-M3, M4, M7 or M33 (DWT's CYCCNT); not on the PC, and not in emulators, which have no
- * cycle times. Without one, board_cycles() is 0. */
+ * counts. Silicon with a Cortex-M3, M4, M7 or M33 has one (DWT's CYCCNT). The PC has none, and emulators have no cycle
+ * times. Without one, board_cycles() is 0. */
 bool board_cycles_start(void);
 uint32_t board_cycles(void);
 

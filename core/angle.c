@@ -75,7 +75,7 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* In integers up to the one rounding to float: a float has fewer bits than an angle, and a product of two rounded
+/* In integers up to the one rounding to float. A float has fewer bits than an angle, and a product of two rounded
  * factors would err by more than one unit in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {

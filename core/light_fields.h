@@ -15,8 +15,8 @@
 #define WH_LIGHT_END "end 0x"
 #define WH_LIGHT_NONE "none"
 
-/* Scenes that the image runs to their end: one angle under gravity, a hinge, a gear on a carriage, a coordinate that is
- * computed from its momentum, and stops with friction. */
+/* Scenes that the image runs to their end: an angle under gravity, a hinge, a gear on a carriage, a coordinate computed
+ * from its momentum, and stops with friction. */
 #define WH_LIGHT_SCENES(X) \
     X(rig_fixed) \
     X(driven_hinge_from_rest) \

@@ -93,8 +93,8 @@ static size_t all_reals(const wh_scene *scene) {
     return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
 }
 
-/* Every object in a state's memory may begin here: the address is a multiple of the alignment in a struct, which on
- * some machines (i386, AVR) is less than the size. */
+/* Every object in a state's memory may begin here: the address is a multiple of its alignment in a struct. On some
+ * machines (i386, AVR) that is less than the size. */
 static bool is_aligned(const void *memory) {
     struct behind_a_byte {
         char byte;

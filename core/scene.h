@@ -138,9 +138,9 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
  * corrected state. It puts a coordinate beyond a stop back onto the stop, finds every contact's mode again, and each
  * hold keeps the value it finds. The component's compensation is reset. With a ledger, the change of each account is
  * stored apart (wh_ledger_corrected()). An angle keeps its turns. wh_scene_move_angle() adds to the angle and so keeps
- * all its digits after many turns. Returns WH_OK; or, with the state unchanged, WH_E_ARGUMENT for an index that the
- * scene does not have or that follows an input with a rate (set the input), a value that is not finite or out of
- * bounds, and a state that was not started. */
+ * all its digits after many turns. Returns WH_OK. It returns WH_E_ARGUMENT, with the state unchanged, for a state
+ * that was not started, an unknown index, and a value that is not finite or out of bounds. So it does for an index that
+ * follows an input with a rate: set the input. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,

@@ -8,11 +8,11 @@ set -u
 
 # The name, and the limits: "what" in 1,000 words, words of a mean sentence, sentences of more than 35 words.
 budget='
-core 2 13 13
-hal-boards 2 13 5
-host 2 13 6
-tests 2 13 7
-pages 2 14 7
+core 2 13 0
+hal-boards 2 13 0
+host 2 13 0
+tests 2 13 0
+pages 2 14 0
 '
 
 files() { # files NAME
@@ -29,13 +29,17 @@ files() { # files NAME
 prose() {
     if [ "$1" = pages ]; then
         files "$1" | xargs awk '
-            function flush() { if (text != "") { print file "\t" text } text = "" }
+            function flush() {
+                gsub(/`[^`]*`/, "X", text); gsub(/\]\([^)]*\)/, "", text); gsub(/\[/, "", text)
+                if (text != "") { print file "\t" text }
+                text = ""
+            }
             FNR == 1 { flush(); file = FILENAME; code = 0 }
             /^ *```/ { code = !code; flush(); next }
             code || /^ *\|/ || /^#/ || /^</ { flush(); next }
-            /^ *$/ { flush(); next }
+            /^ *$/ || (text == "" && /^    /) { flush(); next }
             /^ *([-*]|[0-9]+\.) / { flush(); sub(/^ *([-*]|[0-9]+\.) /, "") }
-            { gsub(/`[^`]*`/, "X"); gsub(/\]\([^)]*\)/, ""); gsub(/\[/, ""); text = text " " $0 }
+            { text = text " " $0 }
             END { flush() }'
     else
         files "$1" | xargs awk '
@@ -44,6 +48,7 @@ prose() {
             {
                 line = $0
                 if (!inside) {
+                    gsub(/"([^"\\]|\\.)*"/, "", line)
                     if (match(line, /\/\/ /)) { flush(); text = substr(line, RSTART + 3); flush(); next }
                     if (!match(line, /\/\*/)) { next }
                     flush()
@@ -53,56 +58,59 @@ prose() {
                 ended = match(line, /\*\//)
                 if (ended) { line = substr(line, 1, RSTART - 1) }
                 sub(/^ *\*? ?/, "", line)
-                if (line ~ /^ *$/ || line ~ /^=+ .*=+ *$/) { flush() } else { text = text " " line }
-                if (ended) { flush(); inside = 0 }
+                if (line ~ /^ *- /) { flush(); item = 1 }
+                if (line ~ /^ *$/ || line ~ /^=+ .*=+ *$/) { flush(); item = 0 }
+                else if (!item && line ~ /^(  |[^ ]+  )/) { flush() } # code, or a table
+                else { text = text " " line }
+                if (ended) { flush(); inside = 0; item = 0 }
             }
             END { flush() }'
     fi
 }
 
-# figures NAME: words, "what" in 1,000, mean sentence, sentences over 30 and over 35 words; LONG=1: the latter themselves
+# figures NAME: words, "what" in 1,000, vague words in 1,000, mean sentence, sentences over 30 and over 35 words
 figures() {
-    prose "$1" | awk -F'\t' -v long="${LONG:-0}" '
+    prose "$1" | awk -F'\t' -v long="${LONG:-0}" -v limit="${2:-35}" '
         {
             n = split($2, word, " ")
             count = 0
+            first = 1
             for (i = 1; i <= n; i++) {
                 bare = tolower(word[i])
                 gsub(/[^a-z]/, "", bare)
-                if (bare == "") { continue }
-                words++
-                count++
-                if (bare ~ /^(what|whats|whoever|whatever|nobody|none|behind|anew|likewise)$/) { what++ }
-                if (count == 1) { first = i }
-                if (word[i] ~ /[.!?][)"]*$/ || i == n) {
+                if (bare != "") { words++; count++ }
+                what += bare ~ /^(what|whats|whoever|whatever|nobody|none|behind|anew|likewise)$/
+                vague += bare ~ /^(told|held|kept|behind|anew|likewise|none|off)$/ || (bare == "left" && word[i + 1] ~ /^over/)
+                if (word[i] ~ /[.!?][)"*]*$/ || i == n) {
                     if (count >= 3) { sentences++; total += count }
                     over30 += count > 30
-                    if (count > 35) {
-                        over35++
-                        if (long) {
-                            line = $1 ":"
-                            for (k = first; k <= i; k++) { line = line " " word[k] }
-                            print line
-                        }
+                    over35 += count > 35
+                    if (long && count > limit) {
+                        line = $1 ":"
+                        for (k = first; k <= i; k++) { line = line " " word[k] }
+                        print line
                     }
                     count = 0
+                    first = i + 1
                 }
             }
         }
-        END { if (!long) { printf "%d %.1f %.1f %d %d\n", words, 1000 * what / words, total / sentences, over30, over35 } }'
+        END {
+            if (!long) { printf "%d %.1f %.1f %.1f %d %d\n", words, 1000 * what / words, 1000 * vague / words, total / sentences, over30, over35 }
+        }'
 }
 
 if [ "${1:-}" = long ]; then
-    for name in core hal-boards host tests pages; do LONG=1 figures $name; done
+    for name in core hal-boards host tests pages; do LONG=1 figures $name "${2:-35}"; done
     exit 0
 fi
-[ "${1:-}" != table ] || printf '| read | words | "what" in 1,000 | mean sentence | over 30 words | over 35 words |\n| :-- | --: | --: | --: | --: | --: |\n'
+[ "${1:-}" != table ] || printf '| read | words | "what" in 1,000 | vague in 1,000 | mean sentence | over 30 words | over 35 words |\n| :-- | --: | --: | --: | --: | --: | --: |\n'
 bad=0
 for name in core hal-boards host tests pages; do
-    read -r words what mean over30 over35 <<END
+    read -r words what vague mean over30 over35 <<END
 $(figures $name)
 END
-    [ "${1:-}" != table ] || echo "| $name | $words | $what | $mean | $over30 | $over35 |"
+    [ "${1:-}" != table ] || echo "| $name | $words | $what | $vague | $mean | $over30 | $over35 |"
     read -r what_most mean_most long_most <<END
 $(echo "$budget" | sed -n "s/^$name //p")
 END

@@ -63,8 +63,8 @@ static bool drives;  /* obey.h */
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* at most one pulse a step, and one end before it: a storm must not delay the step, and stamps stay valid; a sample
-     * that had to wait for a pulse comes first */
+    /* At most one pulse a step, and one end before it: a storm must not delay the step, and stamps stay valid. A sample
+     * that had to wait for a pulse comes first. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;

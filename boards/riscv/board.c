@@ -1,5 +1,5 @@
-/* board.c: board.h on the RISC-V family, with the devices of QEMU's machine `virt`: a 16550 UART, the timer of the
- * core-local interruptor, and the register that ends the emulator (SiFive's test finisher). */
+/* board.c: board.h on the RISC-V family, with the devices of QEMU's machine `virt`. These are a 16550 UART, the timer
+ * of the core-local interruptor, and the register that ends the emulator (SiFive's test finisher). */
 #include "riscv.h"
 
 #include "boards/board.h"

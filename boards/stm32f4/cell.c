@@ -23,7 +23,7 @@
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
 /* From the middle of the forces to the interrupt after the last pair. It is half of the pairs less half of one, plus
- * the remainder of the 9 us of two conversions after the 4 us of sampling, at whose end the force is held. */
+ * 5 us: two conversions take 9 us, and the force is sampled until 4 us of them. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* STM32F405's data sheet, table 67. */

@@ -91,8 +91,8 @@ extern const wh_observer_config wh_observer_standard;
 #define wh_observer_coasting WH_NAME(wh_observer_coasting)
 
 /* Begin with unknown state. The observer must not be moved in memory afterwards. Returns WH_OK; an error of
- * wh_scene_start(); or WH_E_ARGUMENT for a scene of another kind (not one angle of second order, one input, no
- * contacts, not compensated, a whole number of microseconds a step). */
+ * wh_scene_start(); or WH_E_ARGUMENT for a scene of another kind. The scene must have one angle of second order, one
+ * input, no contacts, no compensated sums, and a step of whole microseconds. */
 wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
                             uint32_t now_ticks);
 

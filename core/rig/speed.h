@@ -56,8 +56,8 @@ WH_INLINE wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) 
                : WH_R(0.0);
 }
 
-/* True if no pulse has come for more than a whole turn at the known speed, so that at least one was lost (regular
- * intervals are at most three quarters of a turn). */
+/* True if no pulse has come for more than a whole turn at the known speed. At least one was lost then: regular
+ * intervals are at most three quarters of a turn. */
 WH_INLINE bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
     return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
 }

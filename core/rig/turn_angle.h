@@ -24,8 +24,8 @@
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
- * The sensors' marks do not show it: the user gives D and I, and the arms must turn in a level plane (the interaction
- * of gravity's swing with this wave is neglected). On a carriage three times as heavy as the arms an even angle makes
+ * The sensors' marks do not show it: the user gives D and I. The arms must turn in a level plane, because the
+ * interaction of gravity's swing with this wave is neglected. On a carriage three times as heavy as the arms an even angle makes
  * the force 0.9 % too large, and its phase error is 0.11 degrees. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H

@@ -2,8 +2,8 @@
  * method's error, or round-off, would add up.
  *
  * The ledger gives the drift D: the part of the energy's change that no entry explains (ledger.h), without earlier
- * corrections. If the kinetic energy is a quadratic form of the rates, scaling all rates by 1 + s changes the energy by s
- * P, with P = sum q_i' p_i and the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change. So
+ * corrections. Scaling all rates by 1 + s changes the energy by s P, if the kinetic energy is a quadratic form of the
+ * rates. P is sum q_i' p_i, with the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change. So
  * each step sets
  *
  *     s = -D / (1024 max P),     at most 2^-20 in size,

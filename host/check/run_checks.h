@@ -1,8 +1,8 @@
 /* run_checks.h: findings against a run, made while it goes on and at its end.
  *
  * Two checks judge every run: a finer run in double (step_doubling.h), and the energy residual (energy_residual.h). The others find
- * faults that both may miss. These are a singular matrix or coordinate, a pole or a contact that a step jumped over, forcing that
- * aliases with the step, steps with too many events, and too few digits. `whirl run` and `whirl sweep` share these checks, so that
+ * faults that both may miss. These are a singular matrix or coordinate, a pole or contact that a step jumped over, and too few digits.
+ * Forcing that aliases with the step and steps with too many events are two more. `whirl run` and `whirl sweep` share these checks, so that
  * both report the same for the same point. The checks never change the run. docs/warnings.md has the cures. */
 #ifndef CHECK_RUN_CHECKS_H
 #define CHECK_RUN_CHECKS_H

@@ -1,5 +1,5 @@
-/* taylor_bounds.h: bounds of an operation list on a part of a step: Taylor forms of second order in the time of the step (Moore,
- * Kearfott, Cloud, Introduction to Interval Analysis, 2009, chapter 6).
+/* taylor_bounds.h: bounds of an operation list on a part of a step, by Taylor forms of second order in the time (Moore, Kearfott,
+ * Cloud, Introduction to Interval Analysis, 2009, chapter 6).
  *
  * Natural interval bounds of a multiplied-out polynomial are wide: x occurs in it several times, as if each were another x.
  * Here each operation carries its value and slope at the middle of the part, and bounds of value, slope and curvature on the

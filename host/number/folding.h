@@ -20,8 +20,8 @@
 
 #include "functions.h"
 
-/* To nearest, as on a board; sums and functions to the other side; to nearest, without merging nearly equal numbers; and then
- * all, products and quotients too, up or down by their digits. */
+/* To nearest, as on a board. Sums and functions to the other side. To nearest, without merging nearly equal numbers. Then all,
+ * products and quotients too, up or down by their digits. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
 /* Room for residues; further ones are not recognized. */

@@ -208,8 +208,8 @@ static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
  * 1e-16 in long double. A difference of this size is not their own error: the motion has amplified each round-off. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
-/* A component is round-off if the two never agree to this part of it, from the start to the first record at which it has
- * this part of its largest value. The round-off is the motion's, or that of the list's constants. */
+/* A component is round-off if the two never agree to this part of it before the first record at which it reaches this part
+ * of its largest value. The round-off is the motion's, or that of the list's constants. */
 #define KNOWN_BY 1e-6L
 
 typedef struct computed {

@@ -251,8 +251,8 @@ static double pi(void) { return acos(-1.0); }
 #define ALL_KG (4.0 * ECCENTRIC_KG)                                     /* weight ratio 1/3 */
 #define MOMENT_KG_M (2.0 * LB * INCH * (0.152 * 7.25 / 2 + 0.15 * 6.5)) /* sum of m r */
 
-/* Largest and least X over the next `turns` turns. A turn is not a whole number of steps, so over twenty turns some
- * step comes within a twentieth of one to the swing's end: (0.05 w h)^2/2, 2e-6 of the swing. */
+/* Largest and least X over the next `turns` turns. A turn is not a whole number of steps. So over twenty turns
+ * some step ends within a twentieth of a step of the swing's end: (0.05 w h)^2/2, 2e-6 of the swing. */
 static void swing(motion *m, double turns, double *least, double *most) {
     const double until = motion_value(m, "theta") + turns * 2.0 * pi();
     *least = HUGE_VAL;

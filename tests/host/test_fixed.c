@@ -148,9 +148,9 @@ void suite_fixed_loss(void) {
 
 enum { KINDS = 5, CASES = 40, TEXT_SIZE = 3000, MOST = 8 };
 
-/* A mechanism m with a scene s of kind `which` with these ranges. Kinds are masses between springs (one of them
- * one-sided), a damped pendulum on a carriage, a driven rotor with an uneven load, two coupled pendulums, and a system
- * of first order. */
+/* A mechanism m with a scene s of kind `which` with these ranges. Kinds are masses between springs, one of them
+ * one-sided, a damped pendulum on a carriage, and a driven rotor with an uneven load. Two coupled pendulums and a system
+ * of first order are the others. */
 static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t seed,
                             const char *ranges) {
     double r[10];

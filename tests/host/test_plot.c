@@ -387,7 +387,7 @@ void suite_envelope(void) {
 
 /* === palette ================================================================================== */
 /* Contrast and distance of the colours of pictures (host/io/palette.h): WCAG 2.1's contrast ratio, and CIEDE2000
- * (Sharma, Wu and Dalal, 2005), for eyes without and with colour blindness (Machado, Oliveira and Fernandes, 2009,
+ * (Sharma, Wu and Dalal, 2005). Eyes are without and with colour blindness (Machado, Oliveira and Fernandes, 2009,
  * severity 1). */
 
 #define CONTRAST 3.0

@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* The rig of docs/rig.md: two shafts, on each an arm of 0.152 lb, 7.25 in long, and discs of
- * 0.15 lb at 6.5 in; a motor of 1.5 N*m at rest and 600 rpm without load at 24 V. */
+ * 0.15 lb at 6.5 in. The motor has 1.5 N*m at rest and 600 rpm without load at 24 V. */
 #define GRAVITY 9.80665
 #define POUND 0.45359237
 #define INCH 0.0254

@@ -80,9 +80,9 @@ static void blame(outcome *o, bool *rule, const char *format, ...) {
 }
 
 /* Compare a good result with the force's Fourier coefficient over as many turns, the last ones or
- * up to two earlier. A result is right, too, if it has just those errors that no run can tell
- * (docs/rig.md): a gain off by less than 5 %, a sensor 1 by less than 5 degrees, a load train, a
- * pick-up once a turn. */
+ * up to two earlier. A result is right, too, if its only errors are those that no run can show
+ * (docs/rig.md). These are a gain error below 5 %, a sensor 1 less than 5 degrees from its place,
+ * a load train, and a pick-up once a turn. */
 static void judge_result(const plant *p, outcome *o) {
     double least = NEVER;
     for (int known = 0; known < 2; known++) {
@@ -121,8 +121,8 @@ static void judge_result(const plant *p, outcome *o) {
 }
 
 /* After stop, a trip or the run's end no voltage may be asked for. A stage that drives all the same
- * must lose its enable within 1 s of the first turn that shows it: one by which the rotor has not
- * slowed down, or comes above 408 rpm in a run. */
+ * must lose its enable within 1 s of the first turn that shows it. Such a turn does not slow the
+ * rotor down, or brings it above 408 rpm in a run. */
 typedef struct {
     double off_since, drives_since, shown, angle_0, last_at, last_took;
     long turns;
