@@ -1,4 +1,4 @@
-# settings.mk: the same bits on every board with every setting that `whirl price` tries (host/study/setting.h). The program
+# settings.mk: the same bits on every board with every setting that `whirl price` tries (host/study/trial.h). The program
 # writes some scenes with every setting that each takes, and the interpreter's hashes (host/cli/emit_settings.c); what is
 # compiled of that, for this machine and for boards, must print the same.
 

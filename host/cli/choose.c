@@ -9,7 +9,7 @@
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/study/choice.h"
-#include "host/study/table_text.h"
+#include "host/study/price_table.h"
 #include "pricing.h"
 
 /* Least records to the horizon; the most are two and a half times as many. */

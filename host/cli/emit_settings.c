@@ -12,7 +12,7 @@
 #include "host/fixed/c_fixed.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/number/decimal.h"
-#include "host/study/setting.h"
+#include "host/study/trial.h"
 #include "load.h"
 #include "scenes.h"
 

@@ -8,7 +8,7 @@
 #include "files.h"
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"
-#include "host/study/measured.h"
+#include "host/study/price_table.h"
 #include "pricing.h"
 
 static const char head[] =

@@ -3,7 +3,7 @@
 #define CLI_PRICING_H
 
 #include "host/cli/load.h"
-#include "host/study/table_text.h"
+#include "host/study/price_table.h"
 #include "options.h"
 #include "pricing_scene.h"
 #include "target.h"

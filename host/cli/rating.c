@@ -8,7 +8,7 @@
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/number/functions.h"
-#include "host/study/table_text.h"
+#include "host/study/price_table.h"
 #include "pricing.h"
 
 /* --- the rows --------------------------------------------------------------------------------------*/

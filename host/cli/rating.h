@@ -1,11 +1,11 @@
-/* rating.h: the rows of accuracy and cost at the end of a run (host/study/table_text.h), and the step for `--error`. */
+/* rating.h: the rows of accuracy and cost at the end of a run (host/study/price_table.h), and the step for `--error`. */
 #ifndef CLI_RATING_H
 #define CLI_RATING_H
 
 #include "host/check/horizon.h"
 #include "host/check/simulate.h"
 #include "host/cli/load.h"
-#include "host/study/cost_board.h"
+#include "host/study/cost.h"
 #include "options.h"
 #include "pricing_scene.h"
 

@@ -433,7 +433,7 @@ static int map_scene(const sweep_options *o, source_model *from, const mechanism
 
 /* --- the commands ------------------------------------------------------------------------------*/
 
-/* Refuses to overwrite a file of the model, by the rows or by their companion file (host/study/resumable_csv.h). For a map this is
+/* Refuses to overwrite a file of the model, by the rows or by their companion file (host/study/session.h). For a map this is
  * tested before the work. */
 static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
     if (source_would_be_lost(from, "--csv", o->csv, "") ||

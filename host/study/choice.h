@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "measured.h"
+#include "host/study/price_table.h"
 
 /* The limits that a row must keep: X(id, word). */
 #define CHOICE_LIMIT_ROWS(X) \

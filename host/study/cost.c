@@ -1,14 +1,354 @@
-#include "cost.h"
+#include "host/study/cost.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cost_count.h"
+#include "host/base/alloc.h"
 #include "host/engine/start.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/image/core_rows.h"
+#include "host/image/turned.h"
 
-#include "cost_rows.h"
+#include "host/study/cost_rows.h"
+
+/* === boards and number types ================================================================== */
+
+#define COST_BASIS_WORD(id, word, says) word,
+const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
+const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
+
+/* Cycles per instruction of boards without counted cycles. The least is for a core that always issues as many instructions
+ * at once as it can. The most is two to three times Arm's timing of such steps on a Cortex-M4 (1.2 to 1.7). */
+const cost_board cost_boards[] = {
+    {"atmega328p", "AVR", "ATmega328P: Arduino Uno, Nano", false, COST_SIMULATED, 0, 0, 16e6, 32768,
+     2048},
+    {"atmega2560", "AVR", "ATmega2560: Arduino Mega", false, COST_SIMULATED, 0, 0, 16e6, 262144,
+     8192},
+    {"mps2-an385-m0", "Cortex-M0", "STM32F0, nRF51, LPC11xx", false, COST_ESTIMATED, 0, 0, 0, 0, 0},
+    {"mps2-an385", "Cortex-M3", "STM32F1, LPC17xx, SAM3X", false, COST_ESTIMATED, 0, 0, 0, 0, 0},
+    {"mps2-an386", "Cortex-M4F", "STM32F4, nRF52, SAMD51, MSP432", true, COST_ESTIMATED, 0, 0, 0, 0,
+     0},
+    {"mps2-an500", "Cortex-M7", "STM32F7, STM32H7, i.MX RT (Teensy 4)", true, COST_RANGE, 0.5, 3.0,
+     0, 0, 0},
+    {"mps2-an505", "Cortex-M33", "STM32U5, nRF53, RP2350", true, COST_RANGE, 0.8, 3.0, 0, 0, 0},
+    {"rv32imac", "RV32IMAC", "GD32VF103, CH32V203, FE310", false, COST_RANGE, 1.0, 4.0, 0, 0, 0},
+    {"rv32imafc", "RV32IMAFC", "CH32V307", true, COST_RANGE, 1.0, 5.0, 0, 0, 0},
+    {"host", "x86-64", "a PC", true, COST_RANGE, 0.2, 3.0, 0, 0, 0},
+};
+const int cost_board_count = sizeof cost_boards / sizeof cost_boards[0];
+
+const cost_board *cost_board_named(const char *name) {
+    for (int i = 0; i < cost_board_count; i++) {
+        if (strcmp(cost_boards[i].name, name) == 0) {
+            return &cost_boards[i];
+        }
+    }
+    return NULL;
+}
+
+/* === the operations of a step, by class ======================================================= */
+
+/* Longer lists become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
+enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
+/* Values of the state and its stages beyond these lie in memory, not in registers of the FPU. */
+enum { REGISTERS = 16 };
+/* Sums of a number that a matrix moves, compensated. */
+enum { SUMS_CARRIED = 9 };
+
+static void add(cost_counts *c, cost_class class, double run, double code) {
+    c->run[class] += run;
+    c->code[class] += code;
+}
+
+/* --- the lists ---------------------------------------------------------------------------------------*/
+
+static cost_class class_of(const op *o) {
+    switch (o->code) {
+    case OP_ADD:
+    case OP_SUB: return COST_CLASS_SUM;
+    case OP_MUL: return COST_CLASS_PRODUCT;
+    case OP_DIV: return COST_CLASS_QUOTIENT;
+    case OP_SQRT: return COST_CLASS_ROOT;
+    case OP_PHASE: return COST_CLASS_LOOKED_UP;
+    case OP_CALL: return COST_CLASS_FUNCTION;
+    case OP_POW: return COST_CLASS_POWER;
+    case OP_CELL: return COST_CLASS_CELL;
+    case OP_LINE: return COST_CLASS_LINE;
+    case OP_CUBIC: return COST_CLASS_CUBIC;
+    case OP_CONSTANT:
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE:
+    case OP_SIN:
+    case OP_COS:
+    case OP_NEG:
+    case OP_ABS:
+    case OP_SIGN:
+    case OP_MIN:
+    case OP_MAX: break;
+    }
+    return COST_CLASS_MOVE;
+}
+
+/* A pair of sine and cosine is one operation: its phase. */
+static bool is_part_of_pair(const op *o) { return o->code == OP_SIN || o->code == OP_COS; }
+static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
+
+/* Executions of an inlined list's operations per step. Compilers share operations that are the same at every stage, and
+ * those of stages at the same place. */
+typedef struct times {
+    double stages;
+    double places;
+    double once;
+} times;
+
+/* Dependence of operation i: 0 the same at every stage, 1 on places, 2 on rates as well; depth[] has those of earlier
+ * operations. */
+static int depth_of(const op_list *t, int i, const int *depth) {
+    const op *o = &t->ops[i];
+    int operand[2];
+    int most = o->code == OP_CONSTANT || o->code == OP_INPUT                   ? 0
+               : o->code == OP_RATE || o->code == OP_CALL || o->code == OP_POW ? 2
+               : op_rows[o->code].kind == OP_IS_LEAF || o->code == OP_CELL || o->code == OP_PHASE
+                   ? 1
+                   : 0;
+    for (int k = op_list_operands(o, operand); k > 0; k--) {
+        most = depth[operand[k - 1]] > most ? depth[operand[k - 1]] : most;
+    }
+    return most;
+}
+
+/* `turned`: pairs are rotated, which is counted elsewhere. */
+static void add_list(cost_counts *c, const op_list *t, bool turned, times run, double code) {
+    int *depth = t != NULL ? alloc(t->count, sizeof *depth) : NULL;
+    for (int i = 0; t != NULL && i < t->count; i++) {
+        const op *o = &t->ops[i];
+        depth[i] = depth_of(t, i, depth);
+        if (!is_part_of_pair(o) && !(turned && is_turned(o))) {
+            add(c, class_of(o),
+                depth[i] == 0   ? run.once
+                : depth[i] == 1 ? run.places
+                                : run.stages,
+                code);
+        }
+    }
+    if (t != NULL) {
+        add(c, COST_CLASS_MOVE, run.stages * (op_list_carried(t) + t->results), code * t->results);
+    }
+    free(depth);
+}
+
+static int pairs_of(const op_list *t) {
+    int pairs = 0;
+    for (int i = 0; i < t->count; i++) {
+        pairs += is_turned(&t->ops[i]);
+    }
+    return pairs;
+}
+
+/* The code of a function is there once. */
+static void add_libraries(cost_counts *c, const image *im) {
+    bool has[COST_CLASSES] = {false};
+    bool calls[FUNCTIONS] = {false};
+    const op_list *lists[] = {im->list[IMAGE_STEP], im->list[IMAGE_OBSERVE]};
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; lists[k] != NULL && i < lists[k]->count; i++) {
+            const op *o = &lists[k]->ops[i];
+            has[class_of(o)] = true;
+            if (o->code == OP_CALL) {
+                calls[o->function] = true;
+            }
+        }
+    }
+    static const cost_class shared[] = {COST_CLASS_QUOTIENT, COST_CLASS_ROOT, COST_CLASS_LOOKED_UP,
+                                        COST_CLASS_FUNCTION, COST_CLASS_POWER};
+    int count = 0;
+    for (size_t i = 0; i < sizeof shared / sizeof shared[0]; i++) {
+        count += has[shared[i]];
+    }
+    for (int i = 0; i < FUNCTIONS; i++) {
+        count += calls[i];
+    }
+    add(c, COST_CLASS_LIBRARY, 0, count);
+}
+
+/* --- the method --------------------------------------------------------------------------------------*/
+
+typedef struct work {
+    int stages;
+    int places; /* distinct places of the stages */
+    int shares; /* that are not zero: of stages in stages and places, and in the end */
+    int turns;  /* of a pair in a step, and stages that lean */
+} work;
+
+/* Is stage s at the same place as an earlier one? */
+static bool stands_again(const wh_tableau *by, unsigned s) {
+    const wh_places *at = by->places;
+    for (unsigned e = 0; e < s; e++) {
+        bool same = at->node[e] == at->node[s] && at->reach[e].parts == at->reach[s].parts;
+        for (unsigned j = 0; j < by->stages; j++) {
+            same = same && at->reach[e].share[j] == at->reach[s].share[j];
+        }
+        if (same) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static work work_of(const wh_tableau *by, bool reaches) {
+    work w = {.stages = (int)by->stages};
+    for (unsigned s = 0; s < by->stages; s++) {
+        bool leans = false;
+        for (unsigned j = 0; j < s; j++) {
+            w.shares += by->stage[s].share[j] != 0;
+            w.shares += reaches && by->places->reach[s].share[j] != 0;
+            leans = leans || (j > 0 && by->stage[s].share[j] != 0);
+        }
+        w.shares += by->rates[s] != 0;
+        w.shares += by->positions[s] != 0 && by->positions[s] != by->rates[s];
+        w.turns += leans;
+        w.places += !(reaches && stands_again(by, s));
+    }
+    int most = 0;
+    for (unsigned s = 0; s < by->stages; s++) {
+        most = by->turns[s] > most ? by->turns[s] : most;
+    }
+    w.turns += most;
+    return w;
+}
+
+static void add_stages(cost_counts *c, const image *im, bool called, bool fpu) {
+    const wh_tableau *by = wh_tableau_of(im->settings.method);
+    const bool second = im->form == WH_SECOND_ORDER;
+    const bool turned = image_turns(im);
+    const work w = work_of(by, second && by->places != NULL);
+    const op_list *list = im->list[IMAGE_STEP];
+    const int pairs = pairs_of(list);
+    const int components = second ? im->coordinates : im->angles + im->reals;
+    const double copies = called ? 1 : w.stages;
+    const times each = {w.stages, called ? w.stages : w.places, called ? w.stages : 1};
+    const times all = {w.stages, w.stages, w.stages};
+    add(c, COST_CLASS_STAGE, (second ? 2 : 1) * components * w.stages, components * w.stages);
+    add(c, COST_CLASS_ANGLE, turned ? im->angles : w.stages * im->angles, im->angles);
+    const int more = (second ? 4 : 2) * components - REGISTERS;
+    const int spilled = fpu && more > 0 ? more : 0;
+    add(c, COST_CLASS_SPILL, w.stages * spilled, spilled);
+    add(c, COST_CLASS_SHARE, w.shares * components, w.shares * components);
+    add(c, COST_CLASS_CALL, called ? w.stages : 0, called);
+    add_list(c, list, turned, each, copies);
+    if (turned) {
+        add(c, COST_CLASS_LOOKED_UP, pairs, pairs);
+        add(c, COST_CLASS_TURNED, w.turns * pairs, w.turns * pairs);
+    }
+    if (im->ledger.kept) {
+        add_list(c, im->list[IMAGE_POWERS], false, all, 1);
+        add(c, COST_CLASS_BOOK, w.stages * im->ledger.entries, im->ledger.entries);
+    }
+    if (im->settings.compensated) {
+        const double carried = im->reals + im->angles;
+        add(c, COST_CLASS_CARRY, carried + (turned ? w.turns * pairs : 0), carried);
+    }
+}
+
+static void add_firmware(cost_counts *c, const image *im) {
+    const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
+    const double cells = of->count > 0 ? (double)(1U << (unsigned)of->bits) : 0.0;
+    add_list(c, im->list[IMAGE_OBSERVE], false, (times){0, 0, 0}, 1);
+    add_libraries(c, im);
+    add(c, COST_CLASS_TABLE, 0, (of->folds ? cells / 2 + 1 : cells) * of->count * of->terms);
+}
+
+/* --- fixed point -------------------------------------------------------------------------------------*/
+
+static cost_class class_of_fixed(fixed_code code) {
+    switch (code) {
+    case FIXED_PHASE: return COST_CLASS_LOOKED_UP;
+    case FIXED_SUM:
+    case FIXED_DIFFERENCE: return COST_CLASS_SUM;
+    case FIXED_PRODUCT: return COST_CLASS_PRODUCT;
+    case FIXED_QUOTIENT: return COST_CLASS_QUOTIENT;
+    case FIXED_CONSTANT:
+    case FIXED_LINEAR:
+    case FIXED_RATE:
+    case FIXED_INPUT:
+    case FIXED_SINE:
+    case FIXED_COSINE:
+    case FIXED_SAME:
+    case FIXED_ABS:
+    case FIXED_SIGN:
+    case FIXED_LEAST:
+    case FIXED_MOST: break;
+    }
+    return COST_CLASS_MOVE;
+}
+
+static bool is_shifted(const fixed_list *l, fixed_operand from) {
+    return l->op[from.op].code != FIXED_CONSTANT && from.shift != 0;
+}
+
+static void add_fixed(cost_counts *c, const image *im) {
+    const fixed_list *l = im->fixed->list;
+    int operations = 0;
+    for (int i = 0; i < l->count; i++) {
+        operations += l->op[i].used && class_of_fixed(l->op[i].code) != COST_CLASS_MOVE;
+    }
+    const bool called = operations > INLINED_FIXED;
+    const double stages = wh_methods[WH_RK4].stages;
+    const double copies = called ? 1 : stages;
+    for (int i = 0; i < l->count; i++) {
+        const fixed_op *o = &l->op[i];
+        const bool is_none = !o->used || o->code == FIXED_CONSTANT || o->code == FIXED_SINE ||
+                             o->code == FIXED_COSINE;
+        const cost_class class = class_of_fixed(o->code);
+        if (is_none) {
+            continue;
+        }
+        add(c, class, stages, copies);
+        const bool two = class == COST_CLASS_SUM || class == COST_CLASS_PRODUCT;
+        const double shifts = two ? is_shifted(l, o->a) + is_shifted(l, o->b) : 0;
+        add(c, COST_CLASS_SHIFT, stages * shifts, copies * shifts);
+        if (class == COST_CLASS_LOOKED_UP) {
+            c->code[COST_CLASS_LIBRARY] = 1;
+        }
+    }
+    const int each = im->fixed->second ? 2 : 1;
+    add(c, COST_CLASS_STAGE, stages * each * im->fixed->coordinates,
+        stages * each * im->fixed->coordinates);
+    add(c, COST_CLASS_ANGLE, stages * im->angles, im->angles);
+    add(c, COST_CLASS_CALL, called ? stages : 0, called);
+}
+
+cost_counts cost_count(const image *im, const cost_board *board, cost_number number) {
+    cost_counts c = {.run = {0}};
+    add(&c, COST_CLASS_STEP, 1, 1);
+    add(&c, COST_CLASS_WORD, 0,
+        2 * im->angles + 2 * im->reals + im->inputs + core_ledger_words(im) + im->outputs);
+    if (number == COST_FIXED) {
+        add_fixed(&c, im);
+    } else if (im->settings.matrix != MATRIX_NONE) {
+        add_firmware(&c, im);
+        add_list(&c, im->list[IMAGE_MATRIX], false, (times){1, 1, 1}, 1);
+        add(&c, COST_CLASS_MATRIX, im->reals, im->reals);
+        add(&c, COST_CLASS_ANGLE, im->angles, im->angles);
+        if (im->settings.compensated) {
+            add(&c, COST_CLASS_SUM, SUMS_CARRIED * im->reals, SUMS_CARRIED * im->reals);
+        }
+    } else {
+        const bool called = op_list_operations(im->list[IMAGE_STEP]) > INLINED_MOST ||
+                            im->contacts > 0 || !board->fpu;
+        add_firmware(&c, im);
+        add_stages(&c, im, called, board->fpu);
+    }
+    return c;
+}
+
+/* === the price of a step ====================================================================== */
 
 /* --- predicting -----------------------------------------------------------------------------------*/
 

@@ -3,7 +3,7 @@
  *     cost c = cost_of(image, cost_board_named("mps2-an386"), COST_FLOAT);
  *
  * An image contains its settings (method, compensated sums, angles). A prediction is a sum over the classes of operations
- * (cost_count.h) times the figures of the board and number (cost_rows.h, written by `make price-table`). It needs neither
+ * (below) times the figures of the board and number (cost_rows.h, written by `make price-table`). It needs neither
  * a source tree nor a compiler. docs/price.md gives its error.
  *
  * With the source tree and the board's compiler and emulator the same is counted by
@@ -17,9 +17,124 @@
 #ifndef STUDY_COST_H
 #define STUDY_COST_H
 
-#include "cost_board.h"
+#include <stdbool.h>
+
 #include "host/image/image.h"
 
+/* === boards and number types ================================================================== */
+/* The boards with prices, their number types, and the sources of a figure. */
+
+/* X(id, word, description of the figure's source) */
+#define COST_BASIS_ROWS(X) \
+    X(COST_NOT_KNOWN, "not known", "nobody can tell: it must be measured") \
+    X(COST_EXACT, "exact", "follows from the layout") \
+    X(COST_PREDICTED, "predicted", "from the image, as a sum over its operations") \
+    X(COST_MEASURED, "measured", "counted in an emulator, or read off a linked image") \
+    X(COST_ESTIMATED, "estimated", \
+      "cycles of counted instructions by Arm's timing, no wait states") \
+    X(COST_SIMULATED, "simulated", "cycles as simavr plays the chip") \
+    X(COST_RANGE, "range", "instructions times the least and most cycles of one")
+#define COST_BASIS_ID(id, word, says) id,
+typedef enum cost_basis { COST_BASIS_ROWS(COST_BASIS_ID) } cost_basis;
+#undef COST_BASIS_ID
+#define COST_BASIS_ONE(id, word, says) +1
+enum { COST_BASES = COST_BASIS_ROWS(COST_BASIS_ONE) };
+#undef COST_BASIS_ONE
+extern const char *const cost_basis_words[COST_BASES];
+
+/* The number that a scene computes in. */
+typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_FIXED, COST_NUMBERS } cost_number;
+extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double", "fixed" */
+
+typedef struct cost_board {
+    const char *name;  /* its folder of boards/, or "host" for this kind of machine (x86-64) */
+    const char *core;  /* "Cortex-M4F" */
+    const char *chips; /* known chips with that core, for people; "" */
+    bool fpu;          /* float in hardware */
+    /* How its cycles are known: COST_ESTIMATED, COST_SIMULATED, or COST_RANGE: cycles an instruction, least and most. */
+    cost_basis cycles;
+    double cycles_least; /* COST_RANGE only, else 0 */
+    double cycles_most;
+    double clock_Hz;  /* of a chip with a clock set by the board, or 0 */
+    long flash_bytes; /* of the chip, or 0 if the board is no single chip */
+    long ram_bytes;   /* the same */
+} cost_board;
+
+#define COST_BOARD_DEFAULT "mps2-an386"
+/* All boards, in display order. */
+extern const cost_board cost_boards[];
+extern const int cost_board_count;
+const cost_board *cost_board_named(const char *name); /* NULL: unknown */
+
+/* === the operations of a step, by class ======================================================= */
+/* The operations of a step, counted by class. A prediction is the sum of these counts times the figures of
+ * cost_rows.h. Sums over stages come from the method's tableau (core/method.h), so every method has counts. */
+
+/* X(id, meaning): a class of operations. */
+#define COST_CLASS_ROWS(X) \
+    X(STEP, "the step itself") \
+    X(STAGE, "a position or rate of a stage") \
+    X(ANGLE, "an angle that is moved") \
+    X(SHARE, "a share of one stage in another, or in the step's end") \
+    X(SPILL, "a value of the state that registers do not hold, in a stage") \
+    X(CALL, "a call of the list, in a stage") \
+    X(SUM, "a sum or difference") \
+    X(PRODUCT, "a product") \
+    X(QUOTIENT, "a quotient") \
+    X(ROOT, "a square root") \
+    X(MOVE, "a size, a sign, a choice, or a value that is loaded or kept") \
+    X(LOOKED_UP, "a sine and cosine, looked up") \
+    X(TURNED, "a sine and cosine, rotated on") \
+    X(CELL, "an angle's cell of a table") \
+    X(LINE, "a value of a linear table") \
+    X(CUBIC, "a value of a cubic table") \
+    X(FUNCTION, "another function") \
+    X(POWER, "a power") \
+    X(CARRY, "a compensated value") \
+    X(BOOK, "an entry of the energy's account") \
+    X(MATRIX, "a number of the state, in a step as one matrix") \
+    X(SHIFT, "a shift, in fixed point") \
+    X(WORD, "a word of the state or of its start") \
+    X(TABLE, "a number of a table") \
+    X(LIBRARY, "a function's code, however often it is called")
+#define COST_CLASS_ID(id, meaning) COST_CLASS_##id,
+typedef enum cost_class { COST_CLASS_ROWS(COST_CLASS_ID) COST_CLASSES } cost_class;
+#undef COST_CLASS_ID
+
+typedef struct cost_counts {
+    double run[COST_CLASSES];  /* times that a step executes it */
+    double code[COST_CLASSES]; /* times that the firmware contains it */
+} cost_counts;
+
+/* In fixed point the image has its step in fixed point. */
+cost_counts cost_count(const image *im, const cost_board *board, cost_number number);
+
+/* A row of the table of figures (cost_rows.h). */
+typedef enum cost_quantity {
+    COST_OF_INSTRUCTIONS,
+    COST_OF_CYCLES,
+    COST_OF_FLASH,
+    COST_OF_RAM,
+    COST_OF_STACK,
+    COST_QUANTITIES
+} cost_quantity;
+
+typedef struct cost_row {
+    const char *board;
+    cost_number number;
+    cost_quantity quantity;
+    double within;  /* the factor of error of nine of ten counted steps */
+    double longest; /* the longest step over the mean; 1 of bytes */
+    double figure
+        [COST_CLASSES]; /* cost of one operation; COST_UNSEEN: no counted step has the class */
+} cost_row;
+
+#define COST_UNSEEN (-1.0)
+
+/* The weight of an operation of each class: executions for time, copies in the firmware for bytes. */
+const double *cost_counted(const cost_counts *c, cost_quantity quantity);
+
+/* === the price of a step ====================================================================== */
 /* A figure: the value is between `least` and `most`, of a prediction in nine of ten cases. COST_RANGE has no value.
  * COST_NOT_KNOWN: all are 0. */
 typedef struct cost_figure {

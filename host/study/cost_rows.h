@@ -1,6 +1,4 @@
-/* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */
-#include "cost_count.h"
-
+/* cost_rows.h: the cost of one operation of each class (cost.h); written by `make price-table`. */
 /* clang-format off */
 static const cost_row cost_rows[] = {
 {"atmega328p", COST_FLOAT, COST_OF_INSTRUCTIONS, 1.7, 1.09, {54.2, 325, 449, 65.3, -1, 0, 165, 60.5, 654, 3.74e+03, 0, 1.21e+03, 1.19e+03, 7.8, 236, 620, 8.35e+03, -1, 1.87e+03, 822, 0, -1, -1, -1, -1}},

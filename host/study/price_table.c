@@ -1,13 +1,21 @@
-#include "price_table.h"
+#include "host/study/price_table.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/base/interrupts.h"
+#include "host/check/run_json.h"
+#include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/study/jobs.h"
+
+/* === the table ================================================================================ */
 
 /* A finer step helps no more after it took off less than this part of the error, twice in a row. */
 #define FALLS 0.7
@@ -211,4 +219,716 @@ void table_free(table *made) {
         free(made->row);
         free(made);
     }
+}
+
+/* === three rows =============================================================================== */
+
+/* Most records of the run, and its steps per record. */
+enum { RECORDS_MOST = 20000, SPACING = 2 };
+/* Steps that a step of the run becomes, all rows together; and the reference's two runs together. */
+#define ROWS_STEPS (0.5 + 1.0 + 2.0)
+#define REFERENCE_STEPS (4.0 + 2.0)
+
+double three_rows_operations(const three_rows_wish *w, const image *im) {
+    const double runs = setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* one finds the ranges */
+    const double each = ROWS_STEPS * runs * wh_methods[w->setting.image.method].stages +
+                        REFERENCE_STEPS * wh_methods[w->method].stages;
+    return (double)w->steps * each * (double)engine_evaluation(im);
+}
+
+void three_rows_make(three_rows *t, const three_rows_wish *w) {
+    const uint64_t pairs = w->steps / SPACING;
+    const uint64_t many = 1 + (pairs - 1) / RECORDS_MOST;
+    *t = (three_rows){.setting = w->setting};
+    const trial_wish wish = {
+        .source = w->source,
+        .board = w->board,
+        .spacing = ratio_of(ratio_times(SPACING * many, w->step)),
+        .records = (int)(pairs / many),
+        .by = {.steps = 8 * many, .method = w->method, .order = w->order, .limit = w->limit},
+        .plain = &w->plain,
+        .priced_step = w->priced_step};
+    t->trial.reliable = trial_begin(&t->trial, &wish) && t->trial.reliable;
+    for (int i = 0; i < THREE_ROWS && t->trial.reliable && !t->trial.stopped; i++) {
+        bool own;
+        t->pace[i] = (deviation_pace){many << i, 1};
+        t->cost[i] = trial_cost(&t->trial, &t->setting, t->pace[i], &own);
+        t->result[i] = trial_run(&t->trial, &t->setting, t->pace[i]);
+    }
+}
+
+void three_rows_end(three_rows *t) { trial_end(&t->trial); }
+
+static const char *bytes_text(const cost_figure *f, char text[FIGURE_TEXT]) {
+    snprintf(text, FIGURE_TEXT, f->basis == COST_NOT_KNOWN ? "-" : "%.0f", f->value);
+    return text;
+}
+
+static void print_short_row(FILE *out, const three_rows *t, int i) {
+    char text[FIGURE_TEXT];
+    char name[TRIAL_NAME] = "";
+    const trial_result *r = &t->result[i];
+    const cost *c = &t->cost[i];
+    const double step_s = ratio_times(1, trial_step(&t->trial, t->pace[i]));
+    bool known;
+    const table_price price = table_price_of(c, step_s, &known);
+    fprintf(out, "  %-10.6g", step_s);
+    if (!r->ran) {
+        fprintf(out, " %9s", "-");
+    } else if (!r->usable) {
+        fprintf(out, " %9s", "above 1");
+    } else {
+        snprintf(text, sizeof text, "%s%.2e", r->bound ? "<" : "", r->error);
+        fprintf(out, " %9s", text);
+    }
+    snprintf(text, sizeof text, known ? "%.3g" : "-", price.value);
+    fprintf(out, "  %10s", text);
+    fprintf(out, "  %8s", bytes_text(&c->flash_bytes, text));
+    fprintf(out, "  %6s", bytes_text(&c->ram_bytes, text));
+    fprintf(out, "  %8s", bytes_text(&c->stack_bytes, text));
+    fprintf(out, "   %s\n", r->ran ? trial_column(&t->trial, r->column, name) : "no such step");
+}
+
+void three_rows_print(FILE *out, const three_rows *t) {
+    const cost_board *board = t->trial.wish.board;
+    bool known;
+    const table_price price = table_price_of(&t->cost[0], 1.0, &known);
+    fprintf(out, "accuracy and cost  in %s on %s (%s), until t = %.6g s; costs are %s\n",
+            t->setting.number->name, board->name, board->core, trial_horizon_s(&t->trial),
+            known ? cost_basis_words[price.basis] : "not known");
+    fprintf(out, "  %-10s %9s  %10s  %8s  %6s  %8s   worst\n", "step, s", "error",
+            table_heads[price.unit], "flash, B", "RAM, B", "stack, B");
+    for (int i = 0; i < THREE_ROWS; i++) {
+        print_short_row(out, t, i);
+    }
+}
+
+/* === text ===================================================================================== */
+
+/* --- figures ---------------------------------------------------------------------------------------*/
+
+char figure_letter(cost_basis basis) {
+    switch (basis) {
+    case COST_NOT_KNOWN: return '-';
+    case COST_EXACT: return 'x';
+    case COST_PREDICTED: return 'p';
+    case COST_MEASURED: return 'm';
+    case COST_ESTIMATED: return 'e';
+    case COST_SIMULATED: return 's';
+    case COST_RANGE: return 'r';
+    }
+    return '-';
+}
+
+const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]) {
+    if (f->basis == COST_NOT_KNOWN) {
+        snprintf(text, FIGURE_TEXT, "-");
+    } else if (f->basis == COST_RANGE) {
+        snprintf(text, FIGURE_TEXT, "%.3g to %.3g r", f->least, f->most);
+    } else {
+        snprintf(text, FIGURE_TEXT, "%.0f %c", f->value, figure_letter(f->basis));
+    }
+    return text;
+}
+
+const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]) {
+    const char *word = cost_basis_words[f->basis];
+    if (f->basis == COST_PREDICTED && f->least > 0.0) {
+        snprintf(text, FIGURE_WORDS, "%s: in nine of ten counted cases within %.0f %%", word,
+                 100.0 * (number_root(f->most / f->least) - 1.0));
+    } else {
+        snprintf(text, FIGURE_WORDS, "%s", word);
+    }
+    return text;
+}
+
+void figure_legend(FILE *out, const cost *c) {
+    static const char *const says[COST_BASES] = {
+#define COST_BASIS_SAYS(id, word, says) says,
+        COST_BASIS_ROWS(COST_BASIS_SAYS)
+#undef COST_BASIS_SAYS
+    };
+    const cost_figure *const figures[] = {&c->instructions, &c->instructions_worst, &c->cycles,
+                                          &c->cycles_worst, &c->flash_bytes,        &c->ram_bytes,
+                                          &c->stack_bytes,  &c->state_bytes};
+    for (int basis = COST_EXACT; basis < COST_BASES; basis++) {
+        bool there = false;
+        for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+            there = there || (int)figures[i]->basis == basis;
+        }
+        if (there) {
+            fprintf(out, "  %c  %s: %s\n", figure_letter((cost_basis)basis),
+                    cost_basis_words[basis], says[basis]);
+        }
+    }
+}
+
+/* Does a column count at any place? */
+static bool counts(const trials *t, int column) {
+    for (int p = 0; p < t->points; p++) {
+        if (t->reference[p]->column[column].counts) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void say_missing(FILE *out, const trials *t) {
+    const reference *r = t->reference[t->worst];
+    bool first = true;
+    for (int k = 1; k < r->columns; k++) {
+        char name[TRIAL_NAME];
+        if (r->shape->column[k].unknown >= 0 && !counts(t, k)) {
+            fprintf(out, "%s%s", first ? "  left out    stays at zero but for rounding: " : ", ",
+                    trial_column(t, k, name));
+            first = false;
+        }
+    }
+    fputs(first ? "" : "\n", out);
+}
+
+void figure_reference(FILE *out, const trials *t) {
+    const reference *r = t->reference[t->worst];
+    fprintf(out, "  reference   %s\n", r->how);
+    if (r->kind == REFERENCE_NONE) {
+        const char *where = trial_place(t, t->worst);
+        fprintf(out, "              none that could be trusted%s%s: %s\n",
+                where[0] != '\0' ? ", with" : "", where, r->why);
+        return;
+    }
+    fprintf(out, "              the two agree within %.1e of each component's largest value\n",
+            reference_agreement(r));
+    fprintf(out, "  horizon     %.9g s", trial_horizon_s(t));
+    if (t->records < t->wish.records) {
+        fprintf(out, " of %.9g s: %s\n", ratio_times((uint64_t)t->wish.records, t->wish.spacing),
+                r->why != NULL ? r->why : "the reference ends");
+    } else {
+        fprintf(out, ", %d records\n", t->records);
+    }
+    if (t->what.column < 0) {
+        say_missing(out, t);
+    }
+    if (t->still != NULL) {
+        fprintf(out, "  left out    nothing moves with%.*s\n", (int)strlen(t->still) - 1, t->still);
+    }
+}
+
+/* --- lines and rows --------------------------------------------------------------------------------*/
+
+static char *line_of(const trials *t, const setting *s, deviation_pace pace, int point,
+                     const table_words *words, bool run) {
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    char until[TRIAL_TIME];
+    return alloc_words("whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
+                       words->target, words->changes, run ? trial_place(t, point) : "",
+                       setting_options(s, run, options), run ? "" : setting_form(s),
+                       trial_time(trial_step(t, pace), step), trial_until(t, until),
+                       run ? "" : " --as c");
+}
+
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                     const table_words *words) {
+    return line_of(t, s, pace, point, words, true);
+}
+
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
+                        const table_words *words) {
+    return line_of(t, s, pace, 0, words, false);
+}
+
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
+                         const table_words *words) {
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    char until[TRIAL_TIME];
+    const bool runs = t->image[0]->contacts > 0;
+    const bool ranged = runs || setting_is_fixed(s); /* its ranges are those to the end */
+    return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
+                       runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
+                       words->target, words->changes, trial_place(t, point),
+                       setting_options(s, false, options), trial_time(trial_step(t, pace), step),
+                       ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
+}
+
+static void print_row(FILE *out, const trials *t, const table_row *row) {
+    char text[FIGURE_TEXT];
+    char options[SETTING_TEXT];
+    char step[TRIAL_TIME];
+    char error[24];
+    char price[24];
+    const cost *c = &row->cost;
+    snprintf(error, sizeof error, "%s%.2e", row->result.bound ? "<" : "", row->result.error);
+    snprintf(price, sizeof price, "%.3g %c", row->price.value, figure_letter(row->price.basis));
+    fprintf(out, "%s %9s  %10s", row->on_front ? "*" : " ", error, price);
+    fprintf(out, "  %8s", figure_text(&c->flash_bytes, text));
+    fprintf(out, "  %7s", figure_text(&c->ram_bytes, text));
+    fprintf(out, "  %7s", figure_text(&c->stack_bytes, text));
+    fprintf(out, "  %6s ", figure_text(&c->state_bytes, text));
+    fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options),
+            trial_time(trial_step(t, row->pace), step));
+}
+
+const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
+                                   [PRICE_INSTRUCTIONS] = "instr./s",
+                                   [PRICE_EVALUATIONS] = "eval./s"};
+
+/* The rows of the front that are shown: its errors fall by this factor at least, so that TABLE_ROWS rows do. */
+static int shown(const table *made, double factor, bool *show) {
+    double before = 0.0;
+    int count = 0;
+    for (int i = 0; i < made->count; i++) {
+        const table_row *row = &made->row[i];
+        show[i] = row->on_front && (count == 0 || row->result.error * factor <= before);
+        before = show[i] ? row->result.error : before;
+        count += show[i];
+    }
+    return count;
+}
+
+static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
+    char heading[40] = "error";
+    bool *show = alloc(made->count, sizeof *show);
+    const int front = shown(made, 1.0, show);
+    int rows = front;
+    double factor = 1.1;
+    while (rows > TABLE_ROWS) {
+        rows = shown(made, factor, show);
+        factor *= 1.1;
+    }
+    if (trial_unit(t)[0] != '\0') {
+        snprintf(heading, sizeof heading, "error, %s", trial_unit(t));
+    }
+    fprintf(out, "\n  %9s  %10s  %8s  %7s  %7s  %6s   settings\n", heading,
+            table_heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
+    for (int i = 0; i < made->count; i++) {
+        if (words->all || show[i]) {
+            print_row(out, t, &made->row[i]);
+        }
+    }
+    free(show);
+    fprintf(out, "\n%d rows, %d of them on the front (*): no row is as cheap and errs less",
+            made->count, front);
+    if (!words->all) {
+        fprintf(out, "; %d are shown, --all shows all", rows);
+    }
+    fputc('\n', out);
+}
+
+void table_print_left(FILE *out, const table *made, double operations) {
+    fprintf(out, "%d settings", made->settings);
+    if (made->broken_off > 0) {
+        fprintf(out, "; finer steps of %d take more than their share of --effort %.3g",
+                made->broken_off, operations);
+    }
+    if (made->unpriced > 0) {
+        fprintf(out, "; %d without a price here: %s", made->unpriced, made->why);
+    }
+    fputc('\n', out);
+}
+
+/* Above the table: m is no metre. */
+static void print_letters(FILE *out, const table_row *first) {
+    fputs("\nletters behind figures: how each is known\n", out);
+    figure_legend(out, &first->cost);
+    if (first->price.unit == PRICE_EVALUATIONS) {
+        fputs(
+            "  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
+            "  -  not known: the cost of contacts depends on the motion\n",
+            out);
+    }
+}
+
+/* The command that fills the columns that are empty. */
+static void say_contacts(FILE *out, const trials *t, const table_words *words) {
+    const char *board = t->wish.board->name;
+    if (strcmp(board, "host") != 0) {
+        fprintf(
+            out,
+            "run this in the root of Whirl's source tree to count cycles, flash and RAM with the "
+            "emulator:\n  whirl choose %s%s --error 1e-3 --board %s\n",
+            words->target, words->changes, board);
+    }
+}
+
+static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
+    char text[FIGURE_WORDS];
+    const table_row *first = &made->row[0];
+    table_print_left(out, made, words->operations);
+    if (first->price.unit == PRICE_EVALUATIONS) {
+        say_contacts(out, t, words);
+    } else {
+        fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
+                figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
+                                                               : &first->cost.instructions,
+                             text));
+    }
+    int last = made->count - 1;
+    while (last > 0 && !made->row[last].on_front) {
+        last--;
+    }
+    const table_row *row = &made->row[last];
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, words);
+    fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run, derive);
+    free(run);
+    free(derive);
+}
+
+void table_print(FILE *out, const trials *t, const table *made, const table_words *words) {
+    const image *im = t->image[0];
+    char name[TRIAL_NAME];
+    fprintf(out, "%s on %s (%s)\n", im->name, t->wish.board->name, t->wish.board->core);
+    if (t->what.column < 0) {
+        fputs(
+            "  error       measured: the largest deviation from the reference over all records, of\n"
+            "              each coordinate and rate as a part of its largest value, of the worst\n",
+            out);
+    } else {
+        fprintf(out,
+                "  error       measured: the largest deviation of %s from the reference over all "
+                "records\n",
+                trial_column(t, t->what.column, name));
+    }
+    if (t->points > 1) {
+        fprintf(out, "              the worst of %d sampled places of what varies\n", t->points);
+    }
+    figure_reference(out, t);
+    if (t->reliable && made != NULL && made->count > 0) {
+        print_letters(out, &made->row[0]);
+        print_rows(out, t, made, words);
+        print_notes(out, t, made, words);
+    } else if (t->reliable && made != NULL && made->unpriced + made->broken_off > 0) {
+        fputs("no setting has a row: ", out);
+        table_print_left(out, made, words->operations);
+    } else if (t->reliable) {
+        fputs("no setting keeps to the motion: none is off by less than the values themselves\n",
+              out);
+    } else {
+        fputs("no front: without a reference no error is known\n", out);
+    }
+}
+
+/* --- for programs ------------------------------------------------------------------------------------*/
+
+/* The target of a row: CSV, its header, or an object in JSON. */
+typedef struct row_sink {
+    FILE *csv;
+    json *json;
+    bool is_head;
+    bool begun;
+} row_sink;
+
+static void put(row_sink *s, const char *name, const char *text, bool is_number) {
+    if (s->json == NULL) {
+        fputs(s->begun ? "," : "", s->csv);
+        atomic_file_field(s->csv, s->is_head ? name : text);
+        s->begun = true;
+    } else if (is_number) {
+        json_number(s->json, name, text[0] != '\0' ? decimal_read(text, NULL) : (double)NAN);
+    } else {
+        json_text(s->json, name, text);
+    }
+}
+
+static void put_words(row_sink *s, const char *name, const char *text) {
+    put(s, name, text, false);
+}
+
+static void put_number(row_sink *s, const char *name, int digits, double value) {
+    char text[FIGURE_TEXT];
+    snprintf(text, sizeof text, "%.*g", digits, value);
+    put(s, name, text, true);
+}
+
+static void put_figure(row_sink *s, const char *name, const char *basis, const cost_figure *f) {
+    if (f->basis == COST_NOT_KNOWN) {
+        put(s, name, "", true);
+    } else {
+        put_number(s, name, 17, f->value);
+    }
+    put_words(s, basis, cost_basis_words[f->basis]);
+}
+
+static void put_row(row_sink *s, const trials *t, const table_row *row, const table_words *words) {
+    char text[TRIAL_NAME];
+    put_number(s, "front", 9, row->on_front ? 1.0 : 0.0);
+    put_number(s, "error", 9, row->result.error);
+    put_words(s, "error_unit", trial_unit(t));
+    put_words(s, "error_basis", "measured");
+    put_number(s, "error_bound", 9, row->result.bound ? 1.0 : 0.0);
+    put_words(s, "component", trial_column(t, row->result.column, text));
+    put_number(s, "price_per_s", 9, row->price.value);
+    put_words(s, "price_of", table_unit_words[row->price.unit]);
+    put_words(s, "price_basis", cost_basis_words[row->price.basis]);
+    put_number(s, "price_least", 9, row->price.least);
+    put_number(s, "price_most", 9, row->price.most);
+    put(s, "step_s", trial_time(trial_step(t, row->pace), text), true);
+    for (int axis = 0; axis < AXES; axis++) {
+        put_words(s, setting_heading((setting_axis)axis),
+                  setting_word(&row->setting, (setting_axis)axis));
+    }
+    put_figure(s, "flash_bytes", "flash_basis", &row->cost.flash_bytes);
+    put_figure(s, "ram_bytes", "ram_basis", &row->cost.ram_bytes);
+    put_figure(s, "stack_bytes", "stack_basis", &row->cost.stack_bytes);
+    put_figure(s, "state_bytes", "state_basis", &row->cost.state_bytes);
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
+    char *derive = table_derive_line(t, &row->setting, row->pace, words);
+    put_words(s, "run", run);
+    put_words(s, "derive", derive);
+    free(run);
+    free(derive);
+}
+
+void table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
+    for (int i = made->count > 0 ? -1 : 0; i < made->count; i++) {
+        row_sink s = {.csv = out, .is_head = i < 0};
+        put_row(&s, t, &made->row[i < 0 ? 0 : i], words);
+        fputs("\r\n", out);
+    }
+}
+
+void table_json_begin(json *j, const char *command, const trials *t) {
+    const image *im = t->image[0];
+    json_begin(j, command, im->name, im->title, NULL, im->settings.method);
+    json_text(j, "board", t->wish.board->name);
+    json_text(j, "reference", t->reference[t->worst]->how);
+    json_number(j, "horizon_s", t->reliable ? trial_horizon_s(t) : (double)NAN);
+    json_whole(j, "places", t->points);
+}
+
+void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words) {
+    row_sink s = {.json = j};
+    put_row(&s, t, row, words);
+}
+
+void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
+                int status) {
+    json j = {.out = out};
+    table_json_begin(&j, "price", t);
+    json_open(&j, "rows", '[');
+    for (int i = 0; made != NULL && i < made->count; i++) {
+        json_open(&j, NULL, '{');
+        table_json_row(&j, t, &made->row[i], words);
+        json_close(&j, '}');
+    }
+    json_close(&j, ']');
+    json_whole(&j, "exit", status);
+    json_close(&j, '}');
+}
+
+/* === counted prices =========================================================================== */
+
+#define COUNTS "mk/price/measure_one.sh"
+/* Its exit status for wrong words or a missing tool. */
+#define STATUS_MISSING 2
+
+/* The last line that a command prints, or the first with this in it. Returns its exit status, or -1. */
+static int line_from(const char *command, const char *with, char *line, int size) {
+    FILE *from = popen(command, "r");
+    if (from == NULL) {
+        return -1;
+    }
+    char next[1024];
+    bool found = false;
+    while (fgets(next, sizeof next, from) != NULL) {
+        next[strcspn(next, "\r\n")] = '\0';
+        if (!found) {
+            snprintf(line, (size_t)size, "%s", next);
+            found = with != NULL && strstr(next, with) != NULL;
+        }
+    }
+    const int status = pclose(from);
+    return status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* --- can it be counted? --------------------------------------------------------------------------------*/
+
+#define NO_COMMAND 127 /* of a shell */
+
+static bool is_host(const cost_board *board) { return strcmp(board->name, "host") == 0; }
+
+const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]) {
+    static const char missing[] = " is missing";
+    if (t != NULL && t->image[0]->contacts > 0 && is_host(board)) {
+        return "runs with contacts are counted in emulators alone";
+    }
+    if (access(COUNTS, R_OK) != 0) {
+        return "this is not the root of Whirl's source tree; run it there to count with the "
+               "emulator";
+    }
+    char line[MEASURED_TEXT] = "";
+    char *target = is_host(board) ? alloc_words("price-ready-host")
+                                  : alloc_words("BOARD=%s price-ready-board", board->name);
+    char *command = alloc_words("make -s %s 2>&1", target);
+    const int status = line_from(command, missing, line, sizeof line);
+    const char *quoted = strchr(line, '\'');
+    char *end = strstr(line, missing);
+    if (status == 0) {
+        text = NULL;
+    } else if (status == NO_COMMAND) {
+        snprintf(text, MEASURED_TEXT, "'make'%s", missing);
+    } else if (quoted != NULL && end != NULL && quoted < end) {
+        end[sizeof missing - 1] = '\0';
+        snprintf(text, MEASURED_TEXT, "%s", quoted);
+    } else {
+        snprintf(text, MEASURED_TEXT, "make %.80s fails", target);
+    }
+    free(command);
+    free(target);
+    return text;
+}
+
+/* --- counting --------------------------------------------------------------------------------------------*/
+
+/* Columns of count_run.sh's row. */
+enum {
+    RUN_STEPS = 2,
+    RUN_INSTRUCTIONS,
+    RUN_MOST,
+    RUN_BOUND,
+    RUN_CYCLES,
+    RUN_CYCLES_MOST,
+    RUN_CYCLES_BOUND,
+    RUN_OBTAINED,
+    RUN_FLASH,
+    RUN_RAM,
+    RUN_STACK,
+    RUN_COLUMNS
+};
+
+static double value_of(const char *text) { return decimal_read(text, NULL); }
+
+/* The larger of a figure and the count at one more place. */
+static void grow(cost_figure *f, cost_basis basis, const char *text) {
+    const double value = value_of(text);
+    if (f->basis == COST_NOT_KNOWN || value > f->value) {
+        *f = cost_known(value, basis);
+    }
+}
+
+/* Adds the whole run at one place to a row; false: the line is not valid. */
+static bool enter_run(const cost_board *board, char *line, table_row *to) {
+    char *column[RUN_COLUMNS];
+    if (!cost_cut(line, column, RUN_COLUMNS) || strcmp(column[0], board->name) != 0) {
+        return false;
+    }
+    cost *c = &to->cost;
+    grow(&c->instructions, COST_MEASURED, column[RUN_INSTRUCTIONS]);
+    grow(&c->instructions_worst, COST_MEASURED, column[RUN_MOST]);
+    if (board->cycles == COST_RANGE) {
+        c->cycles = cost_ranged(board, &c->instructions);
+        c->cycles_worst = cost_ranged(board, &c->instructions_worst);
+    } else {
+        grow(&c->cycles, board->cycles, column[RUN_CYCLES]);
+        grow(&c->cycles_worst, board->cycles, column[RUN_CYCLES_MOST]);
+    }
+    grow(&c->flash_bytes, COST_MEASURED, column[RUN_FLASH]);
+    grow(&c->ram_bytes, COST_MEASURED, column[RUN_RAM]);
+    grow(&c->stack_bytes, COST_MEASURED, column[RUN_STACK]);
+    to->run.steps += value_of(column[RUN_STEPS]);
+    to->run.instructions_bound =
+        number_most(to->run.instructions_bound, value_of(column[RUN_BOUND]));
+    to->run.cycles_bound = number_most(to->run.cycles_bound, value_of(column[RUN_CYCLES_BOUND]));
+    return true;
+}
+
+/* The exit status of a line, and the last line that it prints. */
+static int count_line(char *line, char *row, int size) {
+    char *command = alloc_words("%s 2>/dev/null", line);
+    row[0] = '\0';
+    const int status = line_from(command, NULL, row, size);
+    free(command);
+    free(line);
+    return status;
+}
+
+/* Whole runs at all places; unknown if one of them failed. */
+static int count_runs(const trials *t, const table_words *words, table_row *row) {
+    bool bounded = true;
+    int status = 0;
+    row->cost = (cost){.why = ""};
+    for (int p = 0; p < t->points && status == 0; p++) {
+        char line[1024];
+        const double before = row->run.instructions_bound;
+        row->run.instructions_bound = 0.0;
+        status = count_line(table_measure_line(t, &row->setting, row->pace, p, words), line,
+                            sizeof line);
+        status = status == 0 && !enter_run(t->wish.board, line, row) ? 1 : status;
+        bounded = bounded && row->run.instructions_bound > 0.0;
+        row->run.instructions_bound = number_most(before, row->run.instructions_bound);
+    }
+    if (!bounded) {
+        row->run.instructions_bound = row->run.cycles_bound = 0.0;
+    }
+    return status;
+}
+
+static int count_step(const trials *t, const table_words *words, table_row *row) {
+    char line[1024];
+    const int status =
+        count_line(table_measure_line(t, &row->setting, row->pace, row->result.point, words), line,
+                   sizeof line);
+    return status == 0 && !cost_measured(line, t->wish.board, &row->cost) ? 1 : status;
+}
+
+/* Do the counted figures of one row hold for another? */
+static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
+    return setting_order(&a->setting) == setting_order(&b->setting) &&
+           (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);
+}
+
+measured_end measured_count(const trials *t, table *made, int row, const table_words *words) {
+    const bool runs = t->image[0]->contacts > 0;
+    table_row counted = made->row[row];
+    const int status = runs ? count_runs(t, words, &counted) : count_step(t, words, &counted);
+    if (status == STATUS_MISSING) {
+        return MEASURED_MISSING;
+    }
+    int kept = 0;
+    const bool by_pace = runs || setting_price_varies(&counted.setting);
+    for (int i = 0; i < made->count; i++) {
+        table_row now = made->row[i];
+        const bool alike = is_alike(&now, &counted, by_pace);
+        if (alike) {
+            bool known;
+            now.cost = counted.cost;
+            now.run = counted.run;
+            now.counted = true;
+            now.price = table_price_of(&now.cost, ratio_times(1, trial_step(t, now.pace)), &known);
+        }
+        if (!alike || status == 0) {
+            made->row[kept++] = now;
+        }
+    }
+    made->count = kept;
+    if (status != 0) {
+        made->unpriced++;
+        made->why = "it cannot be built, linked or run there";
+    }
+    table_sort(made);
+    return MEASURED_COUNTED;
+}
+
+static int uncounted(const table *made) {
+    int i = 0;
+    while (i < made->count && (!made->row[i].on_front || made->row[i].counted)) {
+        i++;
+    }
+    return i;
+}
+
+measured_end measured_front(const trials *t, table *made, const table_words *words,
+                            const table_wish *w) {
+    int i = t->image[0]->contacts > 0 ? made->count : uncounted(made);
+    while (i < made->count && !interrupted) {
+        if (w->progress != NULL) {
+            w->progress(w->context, i, made->count);
+        }
+        if (measured_count(t, made, i, words) == MEASURED_MISSING) {
+            return MEASURED_MISSING;
+        }
+        i = uncounted(made);
+    }
+    return MEASURED_COUNTED;
 }

@@ -1,14 +1,89 @@
 /* reference_run.h: the reference of priced runs: the motion at evenly spaced records, computed twice with independent
  * settings. The difference of the two is its error estimate, and limits the time until which it is trusted.
  *
- * Without contacts the method is extrapolation in long double (extrapolation.h), which shares only the operation list with
+ * Without contacts the method is extrapolation in long double (below), which shares only the operation list with
  * the judged runs. With contacts, or if a jump or a pole stops it, it is RK4 in double with compensated sums. Its steps
  * are far finer than the scene's, and it is compared with half as many. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
-#include "host/io/records.h"
+#include <float.h>
 
+#include "host/engine/engine.h"
+#include "host/image/op_list.h"
+#include "host/io/records.h"
+#include "host/number/functions.h"
+
+/* === functions and lists in long double ======================================================= */
+/* The language's functions, and an operation list, in long double: 64 binary digits on x86, 113 on AArch64.
+ * The reference (reference_run.h) is computed with them. They share no code with the core or with a library. If a double's
+ * value begins an iteration, the missing digits are computed here.
+ *
+ * Errors are a few units of the last place; of powers some |exponent log(base)| of them. */
+
+/* Does long double have more digits than double? If not, the reference reports that. */
+#define LONG_IS_LONGER (LDBL_MANT_DIG > DBL_MANT_DIG)
+
+static inline long double long_size(long double x) { return x < 0.0L ? -x : x; }
+
+/* Angles of up to 2^31 quarter turns. */
+void long_sincos(long double rad, long double *sine, long double *cosine);
+long double long_root(long double x);
+long double long_power(long double base, long double exponent);
+/* A function of function_rows.h at x, or at (x, y). */
+long double long_call(function_id function, long double x, long double y);
+
+typedef struct long_list long_list;
+
+/* The inputs of a list. Noise and accelerations of contacts are not available: both are 0. */
+typedef struct long_leaves {
+    const long double *angle_rad; /* unwrapped */
+    const long double *linear;
+    const long double *rate;
+    const double *input;
+    long double time_s;
+} long_leaves;
+
+long_list *long_list_new(const op_list *t); /* `t` must outlive it */
+void long_list_free(long_list *l);          /* NULL is fine */
+/* result[t->results] */
+void long_list_run(long_list *l, const long_leaves *in, long double *result);
+
+/* Does a result depend on an operation of this code? */
+bool long_list_asks(const op_list *t, int result, op_code code);
+
+/* === extrapolation ============================================================================ */
+/* The motion of an image without contacts by the method of Gragg, Bulirsch and Stoer in long double.
+ * It extrapolates modified midpoint rules of 2, 4, ..., 2 k substeps to step zero by Aitken and Neville (Hairer,
+ * Norsett and Wanner, Solving Ordinary Differential Equations I, II.9). It shares no step, sine or method with the
+ * core. */
+
+typedef struct extrapolation extrapolation;
+
+/* Accuracy: `columns` rules (order 2 columns). In each step the last two columns agree within `tolerance` of each
+ * component's largest value so far. */
+typedef struct extrapolation_setting {
+    int columns; /* <= EXTRAPOLATION_COLUMNS */
+    double tolerance;
+} extrapolation_setting;
+enum { EXTRAPOLATION_COLUMNS = 12 };
+
+typedef enum extrapolation_status {
+    EXTRAPOLATION_OK,
+    EXTRAPOLATION_SMALL, /* no step is small enough: a jump, a pole, or no finite number */
+    EXTRAPOLATION_LONG   /* more operations than it may take */
+} extrapolation_status;
+
+/* At the image's start. It must outlive this. `operations`: most that it may evaluate in all. */
+extrapolation *extrapolation_new(const image *im, extrapolation_setting how, double operations);
+void extrapolation_free(extrapolation *e);
+/* On by span_s, which need not be a whole number of anything. */
+extrapolation_status extrapolation_go(extrapolation *e, long double span_s);
+/* The state: angles first, as engine_kind.state() has it; long as the extrapolation. */
+const long double *extrapolation_state(const extrapolation *e);
+double extrapolation_operations(const extrapolation *e);
+
+/* === the reference ============================================================================ */
 /* A cheap reference: a run in double with compensated sums, compared with one of twice its step. */
 typedef struct reference_steps {
     uint64_t steps; /* in a record's spacing, even; 0: not wanted, but the best reference */

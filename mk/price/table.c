@@ -15,7 +15,6 @@
 #include "host/cli/options.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/study/cost.h"
-#include "host/study/cost_count.h"
 
 enum { ROWS_MOST = 20000, SWEEPS = 4000, WORDS_MOST = 16 };
 
@@ -234,7 +233,7 @@ int main(int count, char **words) {
     }
     read_rows(words[1]);
     puts(
-        "/* cost_rows.h: the cost of one operation of each class (cost_count.h); written by `make price-table`. */\n#include \"cost_count.h\"\n\n"
+        "/* cost_rows.h: the cost of one operation of each class (cost.h); written by `make price-table`. */\n\n"
         "/* clang-format off */\nstatic const cost_row cost_rows[] = {");
     fputs(
         "| board | number | of a step | counted | half within | nine of ten within | all within |\n"

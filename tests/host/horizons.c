@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "host/lang/builtin.h"
-#include "host/study/extrapolation.h"
 #include "host/study/reference_run.h"
 #include "unity.h"
 

@@ -1,6 +1,6 @@
 /* horizons.h: time until which a run is accurate, by a reference with other steps. `whirl trust` estimates it.
  *
- * Without contacts, the reference is the extrapolation in long double (host/study/extrapolation.h) of order 12, checked
+ * Without contacts, the reference is the extrapolation in long double (host/study/reference_run.h) of order 12, checked
  * by one of order 10. Their difference must be far below the tolerance at the run's end of accuracy. With contacts, it
  * is RK4 in double with a 32nd of the run's step, checked by a 16th. */
 #ifndef TESTS_HORIZONS_H

@@ -1,5 +1,5 @@
 /* made_up_tree.h: a fake source tree whose make and measure_one.sh record their arguments and print given texts, for
- * tests of host/study/measured.h. */
+ * tests of host/study/price_table.h. */
 #ifndef TESTS_HOST_MADE_UP_TREE_H
 #define TESTS_HOST_MADE_UP_TREE_H
 

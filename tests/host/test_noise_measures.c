@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "host/engine/engine.h"
-#include "host/study/measures.h"
+#include "host/study/point.h"
 #include "unity.h"
 
 void suite_noise_measures(void);

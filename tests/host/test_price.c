@@ -13,8 +13,8 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/study/choice.h"
-#include "host/study/extrapolation.h"
-#include "host/study/table_text.h"
+#include "host/study/price_table.h"
+#include "host/study/reference_run.h"
 
 #include "blocks.h"
 #include "caught.h"
@@ -657,7 +657,7 @@ void suite_price_chosen(void) {
 }
 
 /* === price control ============================================================================ */
-/* Steps of the extrapolation (host/study/extrapolation.h) for one equation. The reference uses Lagrange weights
+/* Steps of the extrapolation (host/study/reference_run.h) for one equation. The reference uses Lagrange weights
  * instead of a tableau. Tries and end must agree. */
 
 /* y' = linear y + square y^2 */

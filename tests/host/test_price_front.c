@@ -11,8 +11,6 @@
 #include "host/base/interrupts.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/study/choice.h"
-#include "host/study/extrapolation.h"
-#include "host/study/long_list.h"
 #include "host/study/price_table.h"
 #include "host/study/reference_run.h"
 
@@ -156,7 +154,7 @@ void suite_price_front(void) {
 }
 
 /* === price measured =========================================================================== */
-/* Counted prices (host/study/measured.h) and choices by them (choice.h), in a made-up source tree (made_up_tree.h). */
+/* Counted prices (host/study/price_table.h) and choices by them (choice.h), in a made-up source tree (made_up_tree.h). */
 
 /* --- can it be counted? ----------------------------------------------------------------------------------*/
 
@@ -557,7 +555,7 @@ void suite_price_measured(void) {
 }
 
 /* === price motion ============================================================================= */
-/* The reference (host/study/extrapolation.h, reference_run.h) compared with closed forms and its order; deviations
+/* The reference (host/study/reference_run.h) compared with closed forms and its order; deviations
  * (deviation.h) with the test's own loop. Long motions: test_price_reference.c. */
 
 static const char *const spring =

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/study/long_list.h"
 #include "host/study/reference_run.h"
 #include "unity.h"
 

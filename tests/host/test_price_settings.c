@@ -1,4 +1,4 @@
-/* test_price_settings.c: priced settings (host/study/setting.h): their number, order, and options, parsed by the
+/* test_price_settings.c: priced settings (host/study/trial.h): their number, order, and options, parsed by the
  * test. Also reference rows and trials. */
 #include <float.h>
 #include <math.h>
@@ -8,7 +8,6 @@
 
 #include "host/base/interrupts.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/study/long_list.h"
 #include "host/study/reference_run.h"
 
 #include "blocks.h"

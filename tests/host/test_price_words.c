@@ -1,4 +1,4 @@
-/* test_price_words.c: printed prices (host/study/table_text.h): digits and basis of figures, rows of a made-up table
+/* test_price_words.c: printed prices (host/study/price_table.h): digits and basis of figures, rows of a made-up table
  * as text and CSV, parsed. */
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/study/table_text.h"
+#include "host/study/price_table.h"
 #include "priced.h"
 #include "unity.h"
 

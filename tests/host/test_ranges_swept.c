@@ -15,7 +15,7 @@
 #include "host/base/exit.h"
 #include "host/lang/model.h"
 #include "host/study/grid.h"
-#include "host/study/resumable_csv.h"
+#include "host/study/session.h"
 
 #include "blocks.h"
 #include "command.h"
@@ -464,7 +464,7 @@ void suite_ranges_swept(void) {
 }
 
 /* === sheet ==================================================================================== */
-/* A sweep's CSV file (host/study/resumable_csv.h): created, resumed after truncation anywhere, restarted, or refused
+/* A sweep's CSV file (host/study/session.h): created, resumed after truncation anywhere, restarted, or refused
  * unchanged if another sweep's. Compared with the test's own text. */
 
 enum { ROWS_MOST = 12, TEXT = 2000, PATH = 120 };

@@ -126,7 +126,7 @@ static void test_samples(void) {
         const image *im = s.image;
         const engine_kind *kind = drawn_kind();
         const int from = c % 3 == 0 ? 0 : (int)dice_one_of(&die, (unsigned)im->steps - 1U);
-        measured list[MEASURES_MOST];
+        gauged list[MEASURES_MOST];
         measuring w = {.kind = kind,
                        .from_s = 0.001 * from,
                        .list = list,
@@ -134,9 +134,9 @@ static void test_samples(void) {
         TEST_ASSERT_TRUE(im->angles == 1 && im->reals == 3 && im->steps < SAMPLES_MOST);
         for (int i = 0; i < w.count; i++) {
             const unsigned where = dice_one_of(&die, c % 4 == 0 ? 2 : 3); /* without outputs, too */
-            list[i] = (measured){.kind = (measure_kind)dice_one_of(&die, MEASURE_MEAN + 1),
-                                 .name = "m",
-                                 .from = {.where = FROM_ANGLE}};
+            list[i] = (gauged){.kind = (measure_kind)dice_one_of(&die, MEASURE_MEAN + 1),
+                               .name = "m",
+                               .from = {.where = FROM_ANGLE}};
             if (where == 1) {
                 list[i].from.where = FROM_REAL;
                 list[i].from.index = (int)dice_one_of(&die, 3);
@@ -179,9 +179,9 @@ static void test_period(void) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         double omega_radps;
         derived s = drawn_swing(&omega_radps);
-        const measured list[] = {{MEASURE_FINAL, "f", {FROM_OUTPUT, 0}},
-                                 {MEASURE_PERIOD, "p", {FROM_OUTPUT, 1}},
-                                 {MEASURE_PERIOD, "q", {FROM_REAL, 0}}};
+        const gauged list[] = {{MEASURE_FINAL, "f", {FROM_OUTPUT, 0}},
+                               {MEASURE_PERIOD, "p", {FROM_OUTPUT, 1}},
+                               {MEASURE_PERIOD, "q", {FROM_REAL, 0}}};
         const measuring w = {.kind = drawn_kind(), .from_s = 0.1, .list = list, .count = 3};
         measured_point p = measure_stepping(&w, s.image);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
@@ -194,7 +194,7 @@ static void test_period(void) {
     /* a small swing has a period if its numbers resolve it */
     double omega_radps;
     derived little = drawn_swing(&omega_radps);
-    const measured period = {MEASURE_PERIOD, "l", {FROM_OUTPUT, 2}};
+    const gauged period = {MEASURE_PERIOD, "l", {FROM_OUTPUT, 2}};
     const engine_kind *const kinds[] = {&engine_float, &engine_double};
     for (int i = 0; i < 2; i++) {
         const measuring w = {.kind = kinds[i], .list = &period, .count = 1};
@@ -207,7 +207,7 @@ static void test_period(void) {
     derived_free(&little);
     derived slow = scene_of("mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                             "scene s { start a' = 1e-7 [rad/s]; step 1 [ms]; until 1 [s] }\n");
-    const measured end = {MEASURE_FINAL, "a", {FROM_ANGLE, 0}};
+    const gauged end = {MEASURE_FINAL, "a", {FROM_ANGLE, 0}};
     for (int i = 0; i < 2; i++) {
         const measuring w = {.kind = kinds[i], .list = &end, .count = 1};
         measured_point p = measure_stepping(&w, slow.image);
@@ -225,7 +225,7 @@ static void test_period(void) {
 static void test_given_up(void) {
     derived longest =
         scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
-    const measured most = {MEASURE_MAX, "x", {FROM_REAL, 0}};
+    const gauged most = {MEASURE_MAX, "x", {FROM_REAL, 0}};
     const measuring w = {.kind = &engine_double, .list = &most, .count = 1};
     interrupted = 1;
     measured_point p = measure_stepping(&w, longest.image);
@@ -249,7 +249,7 @@ static void expect_failed(const char *text, const measuring *w, const char *reas
 }
 
 static void test_failed(void) {
-    measured list = {MEASURE_MEAN, "mean(x)", {FROM_REAL, 0}};
+    gauged list = {MEASURE_MEAN, "mean(x)", {FROM_REAL, 0}};
     measuring w = {.kind = &engine_double, .list = &list, .count = 1};
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
@@ -270,12 +270,12 @@ static void test_failed(void) {
     expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
                   "period() takes at most 1e+08 samples: a later --from or a larger step", "");
     /* 1/x of x = 1 - t: the step to 0 is the last good one, and the output is undefined there */
-    list = (measured){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
+    list = (gauged){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
                   "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
                   &w, "what the measure '1/x' takes is not a finite number throughout", "");
     /* each is finite, their sum is not */
-    list = (measured){MEASURE_MEAN, "large", {FROM_OUTPUT, 0}};
+    list = (gauged){MEASURE_MEAN, "large", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
                   "scene s { step 1 [ms]; until 0.1 [s] }\n",
                   &w, "the measure 'large' is not a finite number: what it takes is too large", "");
@@ -284,7 +284,7 @@ static void test_failed(void) {
 /* x' = x^2 from 1/t1 is 1/(t1 - t): it ends in the step of t1 or the next. Also a root undefined from t1 on, reported
  * with its place. */
 static void test_diverged(void) {
-    const measured list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
+    const gauged list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
     for (int c = 0; c < 6; c++) {
         char text[400];
         const measuring w = {
@@ -323,7 +323,7 @@ static void test_diverged(void) {
 
 /* An energy becomes undefined while the motion goes on: reported with place and time. */
 static void test_energies(void) {
-    const measured list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
+    const gauged list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
     for (int c = 0; c < 2; c++) {
         const measuring w = {
             .kind = c == 0 ? &engine_float : &engine_double, .list = &list, .count = 1};
@@ -338,8 +338,7 @@ static void test_contacts(void) {
     derived s = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9.81 [N]*x\n"
                          "stop x >= 0 [m] restitution 0.5\n"
                          "scene s { start x = 1 [m]; step 1 [ms]; until 2 [s] }\n");
-    const measured list[] = {{MEASURE_MIN, "x", {FROM_REAL, 0}},
-                             {MEASURE_MAX, "x'", {FROM_REAL, 1}}};
+    const gauged list[] = {{MEASURE_MIN, "x", {FROM_REAL, 0}}, {MEASURE_MAX, "x'", {FROM_REAL, 1}}};
     const measuring w = {.kind = &engine_double, .list = list, .count = 2};
     measured_point p = measure_stepping(&w, s.image);
     TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);

@@ -8,7 +8,7 @@
 
 #include "command.h"
 #include "host/study/grid.h"
-#include "host/study/measures.h"
+#include "host/study/point.h"
 #include "unity.h"
 
 void suite_sweep(void);
