@@ -1,12 +1,416 @@
 /* lagrange.c: Lagrange's equations, and systems given by their equations. */
-#include "lagrange.h"
+#include "host/derive/lagrange.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "singular.h"
+#include "host/number/functions.h"
+#include "host/number/gauss.h"
+
+/* Passes over rows and columns; each halves the error of the logarithms of the scales. */
+#define PASSES 16
+/* Part of the scaled size below which a pivot is round-off, even with exact entries: about four times the
+ * algebra's threshold of zero in a sum. */
+#define NO_PIVOT 4e-14
+
+/* The power of two next to 1/sqrt(x); 1 for zero. */
+static double scale_for(double x) {
+    int exponent;
+    if (!(x > 0.0) || !isfinite(x)) {
+        return 1.0;
+    }
+    (void)number_split(x, &exponent);
+    return number_scaled(1.0, -(exponent / 2));
+}
+
+static void scale_row(double *m, int n, int i, double by) {
+    for (int j = 0; j < n; j++) {
+        m[i * n + j] *= by;
+    }
+}
+
+static void scale_column(double *m, int n, int j, double by) {
+    for (int i = 0; i < n; i++) {
+        m[i * n + j] *= by;
+    }
+}
+
+static bool has_positive_diagonal(const double *m, int n) {
+    for (int i = 0; i < n; i++) {
+        if (!(m[i * n + i] > 0.0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static double largest_of_row(const double *m, int n, int i) {
+    double largest = 0.0;
+    for (int j = 0; j < n; j++) {
+        largest = number_most(largest, fabs(m[i * n + j]));
+    }
+    return largest;
+}
+
+static double largest_of_column(const double *m, int n, int j) {
+    double largest = 0.0;
+    for (int i = 0; i < n; i++) {
+        largest = number_most(largest, fabs(m[i * n + j]));
+    }
+    return largest;
+}
+
+/* Rows are scaled by one pass, columns by the next: roots of the largest, so that neither side decides. */
+static void scale_general(double *m, double *error, int n) {
+    for (int pass = 0; pass < 2 * PASSES; pass++) {
+        for (int i = 0; i < n; i++) {
+            const double by =
+                scale_for(pass % 2 == 0 ? largest_of_row(m, n, i) : largest_of_column(m, n, i));
+            void (*const scale)(double *, int, int, double) =
+                pass % 2 == 0 ? scale_row : scale_column;
+            scale(m, n, i, by);
+            scale(error, n, i, by);
+        }
+    }
+}
+
+static void scale_symmetric(double *m, double *error, int n) {
+    for (int i = 0; i < n; i++) {
+        const double by = scale_for(m[i * n + i]);
+        scale_row(m, n, i, by);
+        scale_column(m, n, i, by);
+        scale_row(error, n, i, by);
+        scale_column(error, n, i, by);
+    }
+}
+
+int rank_of(double *m, double *error, int n, bool symmetric) {
+    if (symmetric && has_positive_diagonal(m, n)) {
+        scale_symmetric(m, error, n);
+    } else {
+        scale_general(m, error, n);
+    }
+    double blur = NO_PIVOT;
+    for (int i = 0; i < n * n; i++) {
+        blur = number_most(blur, (double)n * error[i]);
+    }
+    int *lead = alloc(n, sizeof *lead);
+    const int rank = gauss_reduce(m, n, n, n, true, blur, lead);
+    free(lead);
+    return rank;
+}
+
+bool rank_is_positive(double *m, int n) {
+    gauss_pivots(m, n);
+    return has_positive_diagonal(m, n);
+}
+
+/* === can the equations be solved for the highest derivatives? ================================= */
+/* Can the equations be solved for the highest derivatives at all?
+ *
+ * trying the mass matrix at generic states, and at the start. */
+
+#define TRIES 24
+/* The last try: the state at which a run starts. A mass matrix with a narrow domain may be
+ * undefined at all the others. */
+#define TRY_START TRIES
+/* Rounding of an entry, as part of the sizes of its terms. */
+#define ENTRY_ROUNDING 4e-16
+/* A relative accuracy of the mass matrix that suffices: no better state is searched for. */
+#define MASS_BLUR_FINE 1e-10
+
+enum { HINT_SIZE = 320 };
+
+typedef struct generic_state {
+    const instance *instance;
+    uint64_t seed;
+} generic_state;
+
+/* The same symbol always gets the same number within one try: a hash of its place. */
+static double generic_value(void *context, const symbol *s, int primes) {
+    const generic_state *state = context;
+    if (s->kind == SYM_PARAMETER) {
+        return state->instance->parameter[s->index];
+    }
+    if (s->kind == SYM_INPUT) {
+        return state->instance->input[s->index];
+    }
+    if (state->seed == TRY_START) {
+        const int i = s->index;
+        return primes < state->instance->start_count[i] ? state->instance->start[i][primes] : 0.0;
+    }
+    uint64_t x = state->seed * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)s->index * 8191U +
+                 (uint64_t)primes * 131071U;
+    x = (x ^ (x >> 31)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 29)) * UINT64_C(0x94d049bb133111eb);
+    const double part = (double)(x >> 11) * 0x1p-53;
+    return (state->seed % 2 == 0 ? 0.1 : -0.9) + 1.7 * part;
+}
+
+/* Four n by n matrices. */
+static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
+
+/* The values of the mass matrix at one try, and how well they are known; false when one is not finite. */
+static bool mass_at(const equations *e, int try, double *m, double *error) {
+    generic_state state = {e->instance, (uint64_t)try};
+    bool finite = true;
+    for (int i = 0; i < e->count * e->count; i++) {
+        m[i] = poly_evaluate(e->mass[i], generic_value, &state);
+        error[i] = ENTRY_ROUNDING * poly_magnitude(e->mass[i], generic_value, &state);
+        finite = finite && isfinite(m[i]) && isfinite(error[i]);
+    }
+    return finite;
+}
+
+/* The first row with highest derivatives that depend on those of the rows above, at the first
+ * finite try; -1: all are independent. */
+static int dependent_row(const equations *e) {
+    const int n = e->count;
+    double *m = room_for(n);
+    double *error = m + n * n;
+    double *part = error + n * n;
+    double *part_error = part + n * n;
+    int found = -1;
+    bool finite = false;
+    for (int try = 0; try < TRIES && !finite; try++) {
+        finite = mass_at(e, try, m, error);
+    }
+    for (int rows = 1; rows <= n && finite && found < 0; rows++) {
+        for (int i = 0; i < n * n; i++) {
+            part[i] = i < rows * n ? m[i] : 0.0;
+            part_error[i] = i < rows * n ? error[i] : 0.0;
+        }
+        if (rank_of(part, part_error, n, false) < rows) {
+            found = rows - 1;
+        }
+    }
+    free(m);
+    return found;
+}
+
+static place place_of_equation(const equations *e, int row) {
+    const mechanism *m = e->instance->mechanism;
+    for (int t = 0, at = 0; t < m->term_count; t++) {
+        if (m->terms[t].kind == TERM_EQUATION && instance_has_term(e->instance, &m->terms[t]) &&
+            at++ == row) {
+            return m->terms[t].at;
+        }
+    }
+    return m->at;
+}
+
+/* No highest derivative at all in the row: it binds the states, it does not move them. */
+static bool row_is_empty(const equations *e, int row) {
+    bool empty = true;
+    for (int j = 0; j < e->count; j++) {
+        empty = empty && poly_is_zero(e->mass[row * e->count + j]);
+    }
+    return empty;
+}
+
+static void report_singular_system(const equations *e, diags *errors) {
+    const int row = dependent_row(e);
+    if (row >= 0 && row_is_empty(e, row)) {
+        diag_error(
+            errors, place_of_equation(e, row),
+            "a constraint between states: differentiate it until a highest derivative appears",
+            "the equations of '%s' cannot be solved for the highest derivatives: "
+            "this one contains none",
+            e->instance->mechanism->name);
+    } else {
+        diag_error(errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
+                   "two equations may say the same, or one may lack its highest derivative",
+                   "the equations of '%s' cannot be solved for the highest derivatives: "
+                   "this one has the same combination of them as those above it",
+                   e->instance->mechanism->name);
+    }
+}
+
+/* An inactive effect with the rate of `s` in its T; NULL: there is no such effect. */
+static const char *effect_with_inertia(const equations *e, const symbol *s) {
+    const mechanism *m = e->instance->mechanism;
+    for (int i = 0; i < m->term_count; i++) {
+        const term *t = &m->terms[i];
+        if (t->kind == TERM_T && !instance_has_term(e->instance, t) &&
+            poly_contains(poly_from_expr(e->algebra, t->value), s, 1)) {
+            return m->effects[t->effect].name;
+        }
+    }
+    return NULL;
+}
+
+/* At how many of the states tried this part of the kinetic energy is negative. */
+static int times_negative(const equations *e, const term *t) {
+    const poly *value = poly_from_expr(e->algebra, t->value);
+    int negative = 0;
+    for (int try = 0; try < TRY_START; try++) {
+        generic_state state = {e->instance, (uint64_t)try};
+        negative += poly_evaluate(value, generic_value, &state) < 0.0 ? 1 : 0;
+    }
+    return negative;
+}
+
+/* The part of the kinetic energy that is negative most often, and the count in *most; NULL: it never is. */
+static const term *negative_part(const equations *e, int *most) {
+    const mechanism *of = e->instance->mechanism;
+    const term *found = NULL;
+    *most = 0;
+    for (int i = 0; i < of->term_count; i++) {
+        const term *t = &of->terms[i];
+        const bool takes_part = t->kind == TERM_T && instance_has_term(e->instance, t);
+        const int negative = takes_part ? times_negative(e, t) : 0;
+        if (negative > *most) {
+            found = t;
+            *most = negative;
+        }
+    }
+    return found;
+}
+
+static void report_singular(const equations *e, diags *errors) {
+    char hint[HINT_SIZE] = "give it a mass or an inertia, or remove the coordinate";
+    const int n = e->count;
+    if (e->instance->mechanism->is_system) {
+        report_singular_system(e, errors);
+        return;
+    }
+    int negative;
+    const term *taken = negative_part(e, &negative);
+    if (negative == TRY_START) {
+        diag_error(errors, taken->at, "take less away, or name an effect that gives more",
+                   "singular mass matrix: this takes all inertia of '%s' away for some motion",
+                   e->instance->mechanism->name);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        bool empty = true;
+        for (int j = 0; j < n; j++) {
+            empty = empty && poly_is_zero(e->mass[i * n + j]);
+        }
+        if (empty) {
+            const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
+            if (giver != NULL) {
+                snprintf(
+                    hint, sizeof hint,
+                    "the effect '%.60s' gives it one: name it in the scene: with %.60s, or add "
+                    "--with %.60s",
+                    giver, giver, giver);
+            }
+            diag_error(errors, e->unknowns[i].symbol->at, hint,
+                       "singular mass matrix: the kinetic energy does not contain %s'",
+                       e->unknowns[i].symbol->name);
+            return;
+        }
+    }
+    snprintf(hint, sizeof hint,
+             "two coordinates may describe the same motion, or a mass may be zero");
+    for (int i = 0; i < n; i++) {
+        const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
+        if (giver != NULL) {
+            snprintf(
+                hint, sizeof hint,
+                "the effect '%.60s', which adds to the kinetic energy, takes no part here: name "
+                "it in the scene: with %.60s, or add --with %.60s",
+                giver, giver, giver);
+            break;
+        }
+    }
+    diag_error(
+        errors, e->instance->mechanism->at, hint,
+        "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
+        e->instance->mechanism->name);
+}
+
+/* An energy's constant part vanishes from the equations, but 1/0 in it is a mistake all the same. */
+static bool energies_finite(const equations *e, generic_state *state) {
+    return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
+                                  isfinite(poly_evaluate(e->stored, generic_value, state)));
+}
+
+/* The best result of the tried states. */
+typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } run_checks;
+
+/* The largest error of a regular matrix after rank_of(), relative to its least pivot. */
+static double blur_of(const double *m, const double *error, int n) {
+    double least = (double)INFINITY;
+    double most = 0.0;
+    for (int i = 0; i < n * n; i++) {
+        least = m[i] != 0.0 ? number_least(least, fabs(m[i])) : least;
+        most = number_most(most, error[i]);
+    }
+    return most / least;
+}
+
+/* At one try, and of one that is solvable *blur; m is of room_for(n). */
+static run_checks verdict_at(const equations *e, int try, double *m, double *blur) {
+    const int n = e->count;
+    generic_state state = {e->instance, (uint64_t)try};
+    double *error = m + n * n;
+    bool finite = mass_at(e, try, m, error) && energies_finite(e, &state);
+    for (int i = 0; i < n && finite; i++) {
+        finite = isfinite(poly_evaluate(equations_force(e, i), generic_value, &state));
+    }
+    if (!finite) {
+        return NOWHERE_FINITE;
+    }
+    double *kept = error + n * n;
+    for (int i = 0; i < n * n; i++) {
+        kept[i] = m[i];
+    }
+    const bool is_system = e->instance->mechanism->is_system;
+    if (rank_of(m, error, n, !is_system) < n) {
+        return SINGULAR;
+    }
+    *blur = blur_of(m, error, n);
+    /* The elimination of a mechanism relies on it; a system's equations are in any order and sign. */
+    return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
+}
+
+/* Tries the mass matrix at a number of generic states and at the start. False, with an error that
+ * names the cause, if it is singular at all of them or undefined at all of them. The mass matrix of
+ * a mechanism given by energies must also be positive definite at one (otherwise: a negative mass).
+ * A matrix that is singular only at some states (a pole of spherical coordinates) passes: such
+ * states are found while running. e->mass_blur is set. */
+static bool equations_check_solvable(equations *e, diags *errors) {
+    const int n = e->count;
+    double *m = room_for(n);
+    run_checks best = NOWHERE_FINITE;
+    e->mass_blur = (double)INFINITY;
+    for (int try = 0; try <= TRY_START && e->mass_blur > MASS_BLUR_FINE; try++) {
+        double blur = (double)INFINITY;
+        const run_checks found = verdict_at(e, try, m, &blur);
+        best = found > best ? found : best;
+        e->mass_blur = found == SOLVABLE ? number_least(e->mass_blur, blur) : e->mass_blur;
+    }
+    free(m);
+    const mechanism *of = e->instance->mechanism;
+    const term *taken;
+    int negative;
+    switch (best) {
+    case NOWHERE_FINITE:
+        diag_error(errors, of->at,
+                   "look for a division by zero, or a root or logarithm of a negative number",
+                   "the equations of '%s' have no finite value at any state tried", of->name);
+        break;
+    case SINGULAR: report_singular(e, errors); break;
+    case NOT_POSITIVE:
+        taken = negative_part(e, &negative);
+        diag_error(errors, taken != NULL ? taken->at : equations_kinetic_place(e->instance),
+                   "a mass below zero? products of different rates alone, as x'*y'? equations "
+                   "that are meant so can be given outright",
+                   "the kinetic energy of '%s' is negative for some motion at every state tried",
+                   of->name);
+        break;
+    case SOLVABLE: break;
+    }
+    return best == SOLVABLE;
+}
+
+/* === the equations of motion ================================================================== */
 
 /* --- energies ------------------------------------------------------------------------------------*/
 

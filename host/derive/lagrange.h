@@ -2,7 +2,24 @@
 #ifndef DERIVE_LAGRANGE_H
 #define DERIVE_LAGRANGE_H
 
+#include <stdbool.h>
+
 #include "host/derive/equations.h"
+
+/* === the rank of a matrix of numbers, independent of its units ================================ */
+
+/* The rank of m[n * n], by rows, with entries known to within error[n * n] >= 0. Both are overwritten: a
+ * regular matrix leaves its pivots, one in each row, and zeros.
+ *
+ * Rows and columns are first scaled by powers of two. With a positive diagonal and `symmetric`, the diagonal
+ * becomes about one (van der Sluis, "Condition numbers and equilibration of matrices", 1969: no scaling of a
+ * positive definite matrix does much better). Otherwise the largest entries become about one (Ruiz, 2001). So
+ * the units of coordinates and the ratios of masses do not matter, only the independence of the directions. A
+ * pivot counts as zero if it is within the error bound of its elimination. */
+int rank_of(double *m, double *error, int n, bool symmetric);
+
+/* Is a regular symmetric matrix positive definite? Destroys m. */
+bool rank_is_positive(double *m, int n);
 
 /* Derive the equations. Returns NULL after an error, reported to `diags`. Errors are a coordinate without kinetic
  * energy, a singular mass matrix, an equation that is nonlinear in the highest derivative, and an expression above the

@@ -3,14 +3,350 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/derive/affine.h"
-#include "host/derive/not_linear.h"
-#include "host/number/double_double.h"
+#include "host/base/statement.h"
+#include "host/number/folding.h"
 #include "host/number/functions.h"
+
+/* A sum below this part of its addends counts as zero, as in host/algebra. Decimal parameters must leave no spurious
+ * spring between two masses that move together. */
+#define GHOST 1e-14
+
+int affine_states(const image *im) { return im->angles + im->reals; }
+int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
+
+/* The column of a leaf, or -1 if it is neither state nor input. */
+static int column_of(const image *im, const op *o) {
+    if (o->code == OP_LINEAR) {
+        return im->angles + o->a;
+    }
+    if (o->code == OP_RATE) { /* after all positions, those of angles included */
+        return im->coordinates + o->a;
+    }
+    return o->code == OP_INPUT ? affine_states(im) + o->a : -1;
+}
+
+static bool is_constant(const twofold *c, int columns) {
+    bool constant = true;
+    for (int i = 0; i < columns - 1; i++) {
+        constant = constant && double_double_is_zero(c[i]);
+    }
+    return constant;
+}
+
+static twofold sum(twofold a, twofold b) {
+    const twofold both = double_double_add(a, b);
+    return folding_cancels(both.high, fabs(a.high) + fabs(b.high), GHOST) ? double_double_of(0.0)
+                                                                          : both;
+}
+
+static void add(const twofold *a, const twofold *b, double sign, int columns, twofold *to) {
+    for (int i = 0; i < columns; i++) {
+        to[i] = sum(a[i], double_double_scale(b[i], sign));
+    }
+}
+
+static void multiply(const twofold *a, twofold factor, int columns, twofold *to) {
+    for (int i = 0; i < columns; i++) {
+        to[i] = double_double_mul(a[i], factor);
+    }
+}
+
+/* The coefficients of operation o, from those of all earlier ones. False if it is not affine. */
+static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
+    const int columns = affine_columns(im);
+    const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
+    const twofold *b = all + (ptrdiff_t)(o->b >= 0 ? o->b : 0) * columns;
+    const int last = columns - 1;
+    switch (o->code) {
+    case OP_CONSTANT: to[last] = double_double_of(o->value); return true;
+    case OP_LINEAR:
+    case OP_RATE:
+    case OP_INPUT: to[column_of(im, o)] = double_double_of(1.0); return true;
+    case OP_ADD: add(a, b, 1.0, columns, to); return true;
+    case OP_SUB: add(a, b, -1.0, columns, to); return true;
+    case OP_NEG: multiply(a, double_double_of(-1.0), columns, to); return true;
+    case OP_MUL:
+        if (is_constant(a, columns)) {
+            multiply(b, a[last], columns, to);
+        } else if (is_constant(b, columns)) {
+            multiply(a, b[last], columns, to);
+        } else {
+            return false;
+        }
+        return true;
+    case OP_DIV:
+        if (!is_constant(b, columns)) {
+            return false;
+        }
+        for (int i = 0; i < columns; i++) {
+            to[i] = double_double_div(a[i], b[last]);
+        }
+        return true;
+    case OP_PHASE:
+    case OP_CELL: return true; /* operations on them are not affine */
+    case OP_SIN:
+    case OP_COS:
+    case OP_LINE:
+    case OP_CUBIC:
+    case OP_SQRT:
+    case OP_ABS:
+    case OP_SIGN:
+    case OP_MIN:
+    case OP_MAX:
+    case OP_CALL:
+    case OP_POW:
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE: return false;
+    }
+    return false;
+}
+
+int affine_rates(const image *im, twofold *rates) {
+    const op_list *t = im->list[IMAGE_STEP];
+    const int columns = affine_columns(im);
+    const size_t row = (size_t)columns * sizeof *rates;
+    twofold *all = alloc((int64_t)t->count * columns, sizeof *all);
+    int bad = -1;
+    for (int i = 0; i < t->count && bad < 0; i++) {
+        bad = step(im, &t->ops[i], all, all + (ptrdiff_t)i * columns) ? -1 : i;
+    }
+    if (bad < 0) {
+        const int positions = im->form == WH_SECOND_ORDER ? im->coordinates : 0;
+        memset(rates, 0, (size_t)affine_states(im) * row);
+        for (int i = 0; i < positions; i++) {
+            rates[i * columns + im->coordinates + i] = double_double_of(1.0);
+        }
+        for (int i = 0; i < t->results; i++) {
+            memcpy(rates + (ptrdiff_t)(positions + i) * columns,
+                   all + (ptrdiff_t)t->result[i] * columns, row);
+        }
+    }
+    free(all);
+    return bad;
+}
+
+void affine_takes(const image *im, int number, bool *taking) {
+    const op_list *t = im->list[IMAGE_STEP];
+    bool *needed = alloc(number + 1, sizeof *needed);
+    int operand[2];
+    needed[number] = true;
+    for (int i = number; i >= 0; i--) {
+        const op *o = &t->ops[i];
+        if (!needed[i]) {
+            continue;
+        }
+        for (int k = op_list_operands(o, operand); k > 0; k--) {
+            needed[operand[k - 1]] = true;
+        }
+        const int column = column_of(im, o);
+        if (column >= 0) {
+            taking[column] = true;
+        }
+        for (int k = 0; k < t->angles && o->turns != NULL; k++) {
+            taking[k] = taking[k] || o->turns[k] != 0;
+        }
+    }
+    free(needed);
+}
+
+/* === the report of the nonlinear term of a mechanism, with its place ========================== */
+/* The innermost subexpression, in the spelling of the file, whose degree in the state is too high. */
+
+/* The degree of an expression that is not a polynomial. Sums of degrees stay within an int. */
+enum { NO_POWER = 1000 };
+
+/* The dependencies of a node of the blame list. */
+typedef struct made_of {
+    int degree;      /* in states, rates and inputs together */
+    uint64_t states; /* unknowns it depends on, a bit each: above 64 they share bits */
+    uint64_t inputs; /* inputs, in the same way */
+} made_of;
+
+static uint64_t bit(int number) { return UINT64_C(1) << (number % 64); }
+
+static int capped(int degree) { return degree > NO_POWER ? NO_POWER : degree; }
+
+static int power(const image_blame *b, const made_of *of, const diagnostics_node *n) {
+    const diagnostics_node *exponent = &b->node[n->b];
+    const double e = exponent->code == DIAGNOSTICS_NUMBER ? exponent->number : -1.0;
+    if (of[n->a].degree == 0 && of[n->b].degree == 0) {
+        return 0;
+    }
+    for (int whole = 0; whole <= 8; whole++) {
+        if (e == (double)whole) {
+            return whole * of[n->a].degree;
+        }
+    }
+    return NO_POWER;
+}
+
+static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
+    const diagnostics_node *n = &b->node[i];
+    const bool has_a = n->code != DIAGNOSTICS_NUMBER && n->code != DIAGNOSTICS_STATE &&
+                       n->code != DIAGNOSTICS_INPUT;
+    const made_of none = {0, 0, 0};
+    const made_of x = has_a ? of[n->a] : none;
+    const made_of y =
+        has_a && n->code != DIAGNOSTICS_SAME && n->code != DIAGNOSTICS_NEG && n->b >= 0 ? of[n->b]
+                                                                                        : none;
+    made_of both = {0, x.states | y.states, x.inputs | y.inputs};
+    switch (n->code) {
+    case DIAGNOSTICS_NUMBER: break;
+    case DIAGNOSTICS_STATE: both = (made_of){1, bit(n->a), 0}; break;
+    case DIAGNOSTICS_INPUT: both = (made_of){1, 0, bit(n->a)}; break;
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_NEG: both.degree = x.degree; break;
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB: both.degree = x.degree > y.degree ? x.degree : y.degree; break;
+    case DIAGNOSTICS_MUL: both.degree = capped(x.degree + y.degree); break;
+    case DIAGNOSTICS_DIV: both.degree = y.degree == 0 ? x.degree : NO_POWER; break;
+    case DIAGNOSTICS_POW: both.degree = capped(power(b, of, n)); break;
+    case DIAGNOSTICS_CALL: both.degree = x.degree == 0 && y.degree == 0 ? 0 : NO_POWER; break;
+    }
+    return both;
+}
+
+/* Has the operand next to one of degree `other` the same limit as the whole? If both operands are within their limits,
+ * only their combination exceeds it. */
+static bool passes_on(diagnostics_code code, int other) {
+    switch (code) {
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_NEG:
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB: return true;
+    case DIAGNOSTICS_MUL:
+    case DIAGNOSTICS_DIV: return other == 0;
+    case DIAGNOSTICS_POW:
+    case DIAGNOSTICS_CALL:
+    case DIAGNOSTICS_NUMBER:
+    case DIAGNOSTICS_STATE:
+    case DIAGNOSTICS_INPUT: return false;
+    }
+    return false;
+}
+
+/* The innermost part of `node` whose degree exceeds `most` while no operand's does. */
+static int innermost(const image_blame *b, const made_of *of, int node, int most) {
+    for (;;) {
+        const diagnostics_node *n = &b->node[node];
+        const bool has_b = n->code != DIAGNOSTICS_SAME && n->code != DIAGNOSTICS_NEG && n->b >= 0;
+        const int degree_a = of[n->a].degree;
+        const int degree_b = has_b ? of[n->b].degree : 0;
+        if (degree_a > (passes_on(n->code, degree_b) ? most : NO_POWER - 1)) {
+            node = n->a;
+        } else if (degree_b > (passes_on(n->code, degree_a) ? most : NO_POWER - 1)) {
+            node = n->b;
+        } else {
+            return node;
+        }
+    }
+}
+
+/* The names of the dependencies: "theta", "x and y", "x, y and M". */
+static char *names(const image *im, made_of of) {
+    char *text = NULL;
+    size_t length = 0;
+    const char *name[128];
+    int count = 0;
+    for (int i = 0; i < im->count && count < 64; i++) {
+        if ((of.states & bit(i)) != 0) {
+            name[count++] = im->unknown[i].name;
+        }
+    }
+    for (int i = 0; i < im->inputs && count < 128; i++) {
+        if ((of.inputs & bit(i)) != 0) {
+            name[count++] = im->input[i].name;
+        }
+    }
+    FILE *out = alloc_text(&text, &length);
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " and ", name[i]);
+    }
+    alloc_text_end(out);
+    return text;
+}
+
+static void report(const image *im, const made_of *of, int node, place where, diags *errors) {
+    const diagnostics_node *n = &im->blame.node[node];
+    const place at = n->at.source != NULL ? n->at : where;
+    char *of_what = names(im, of[node]);
+    char line[STATEMENT_SIZE];
+    char what[64];
+    statement_text(at, line, sizeof line);
+    switch (n->code) {
+    case DIAGNOSTICS_CALL:
+        snprintf(what, sizeof what, "%s() of", function_name(n->function));
+        break;
+    case DIAGNOSTICS_DIV: snprintf(what, sizeof what, "a division by an expression of"); break;
+    case DIAGNOSTICS_POW: snprintf(what, sizeof what, "a power of"); break;
+    case DIAGNOSTICS_NUMBER:
+    case DIAGNOSTICS_STATE:
+    case DIAGNOSTICS_INPUT:
+    case DIAGNOSTICS_SAME:
+    case DIAGNOSTICS_ADD:
+    case DIAGNOSTICS_SUB:
+    case DIAGNOSTICS_MUL:
+    case DIAGNOSTICS_NEG:
+        snprintf(what, sizeof what, "a %s of", strchr(of_what, ' ') != NULL ? "product" : "power");
+        break;
+    }
+    diag_error(errors, at, "leave out --matrix: stages step what is not linear",
+               "%s %s in line %d makes '%s' not linear, so no matrix is a step of it: %s", what,
+               of_what, at.line, im->name, line);
+    free(of_what);
+}
+
+/* Report it for an image with a blame list. `operation` of the step's list is not linear (host/derive/matrix_make.h). */
+static void not_linear_report(const image *im, int operation, diags *errors) {
+    const image_blame *b = &im->blame;
+    const int states = affine_states(im);
+    made_of *of = alloc(b->nodes, sizeof *of);
+    bool *taking = alloc(affine_columns(im), sizeof *taking);
+    made_of wanted = {0, 0, 0};
+    bool found = false;
+    affine_takes(im, operation, taking);
+    for (int i = 0; i < states + im->inputs; i++) {
+        if (!taking[i]) {
+            continue;
+        }
+        if (i < states) {
+            wanted.states |= bit(image_component(im, i).unknown);
+        } else {
+            wanted.inputs |= bit(i - states);
+        }
+    }
+    for (int i = 0; i < b->nodes; i++) {
+        of[i] = node_made_of(b, of, i);
+    }
+    for (int k = 0; k < b->terms && !found; k++) {
+        const diagnostics_question *q = &b->question[k];
+        const int node =
+            q->derived || of[q->node].degree <= q->power ? -1 : innermost(b, of, q->node, q->power);
+        if (node >= 0 && ((of[node].states & wanted.states) | (of[node].inputs & wanted.inputs))) {
+            report(im, of, node, q->where, errors);
+            found = true;
+        }
+    }
+    if (!found) {
+        wanted.degree = NO_POWER;
+        char *of_what = names(im, wanted);
+        diag_error(errors, im->mechanism_at, "leave out --matrix: stages step what is not linear",
+                   "the equations of '%s' are not linear in %s, so no matrix is a step of them",
+                   im->mechanism, of_what);
+        free(of_what);
+    }
+    free(of);
+    free(taking);
+}
+
+/* === the matrix of a step ===================================================================== */
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 /* Scaling, a series, squaring. */

@@ -1,13 +1,533 @@
 /* program.c: entry of the lists. */
-#include "program.h"
+#include "host/derive/program.h"
 
 #include <stdlib.h>
 
+#include "core/contact.h"
+#include "core/hash.h"
+#include "core/step/ledger_step.h"
 #include "host/base/alloc.h"
 #include "host/derive/equations.h"
 #include "host/derive/tables.h"
-#include "noise_records.h"
-#include "stabilizing.h"
+
+#define SAME_KIND(id, ...) \
+    _Static_assert((int)CONTACT_##id == (int)WH_##id, "the core handles contacts in this order");
+CONTACT_KIND_ROWS(SAME_KIND)
+#undef SAME_KIND
+
+_Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
+               "the core has room for what a run may have");
+
+/* Folded, and without conserved coordinates. */
+static const poly *ready(const equations *e, const conservation *c, const poly *p) {
+    return conservation_settle(e, c, equations_fold(e, p));
+}
+
+int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
+    const contact_laws *laws = e->contacts;
+    int count = 0;
+    for (int k = 0; k < (laws != NULL ? laws->count : 0); k++) {
+        const contact_law *law = &laws->law[k];
+        const poly *const fixed[] = {law->value, law->speed, law->first, law->second, law->bias};
+        const int sets = law->row == NULL ? law->from->set_count : 0;
+        for (int i = 0; i < 5 + sets + (law->row != NULL ? e->count : 0); i++) {
+            const poly *each = i < 5          ? fixed[i]
+                               : i < 5 + sets ? laws->sets[k].value[i - 5]
+                                              : law->row[i - 5 - sets];
+            if (p != NULL) {
+                p[count] = ready(e, c, each);
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
+/* A list that computes `wanted` [count]. */
+static op_list *enter(layout *map, const poly *const *wanted, int count) {
+    op_list *t = op_list_new(map->angles, count);
+    lowering l = layout_lowering(map, t);
+    const poly **p = alloc(count, sizeof(const poly *));
+    for (int i = 0; i < count; i++) {
+        p[i] = layout_ready(map, wanted[i]);
+    }
+    lower_plan(&l, p, count);
+    for (int i = 0; i < count; i++) {
+        t->result[i] = lower(&l, p[i]);
+    }
+    lower_done(&l);
+    free(p);
+    op_list_prune(t);
+    return t;
+}
+
+static op_list *make_signals(layout *map) {
+    const contact_laws *laws = map->equations->contacts;
+    const poly **wanted = alloc(2 * laws->count, sizeof(const poly *));
+    for (int k = 0; k < laws->count; k++) {
+        wanted[2 * k] = laws->law[k].value;
+        wanted[2 * k + 1] = laws->law[k].speed;
+    }
+    op_list *t = enter(map, wanted, 2 * laws->count);
+    free(wanted);
+    return t;
+}
+
+static op_list *make_sets(layout *map) {
+    const contact_laws *laws = map->equations->contacts;
+    if (laws->set_count == 0) {
+        return NULL;
+    }
+    const poly **wanted = alloc(laws->set_count, sizeof(const poly *));
+    int count = 0;
+    for (int k = laws->forced; k < laws->count; k++) {
+        for (int i = 0; i < laws->law[k].from->set_count; i++) {
+            wanted[count++] = laws->sets[k].value[i];
+        }
+    }
+    op_list *t = enter(map, wanted, count);
+    free(wanted);
+    return t;
+}
+
+/* The rows and their responses M^-1 J^T, by the same elimination as the accelerations. */
+static op_list *make_forces(layout *map, const linear_system *s) {
+    const contact_laws *laws = map->equations->contacts;
+    const int n = map->equations->count;
+    const int stride = WH_LAW_ROWS + 2 * map->coordinates;
+    op_list *t = op_list_new(map->angles, laws->forced * stride);
+    int *pushed = alloc(n, sizeof *pushed);
+    const poly **row = alloc(n + 3, sizeof(const poly *));
+    linear_system load = *s;
+    load.force = row;
+    for (int k = 0; k < laws->forced; k++) {
+        const contact_law *law = &laws->law[k];
+        int *result = t->result + k * stride;
+        lowering l = layout_lowering(map, t);
+        for (int i = 0; i < n; i++) {
+            const bool driven = map->equations->unknowns[i].symbol->driven != NULL;
+            row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
+        }
+        solve_highest(&l, &load, pushed);
+        for (int i = 0; i < n; i++) { /* a driven coordinate moves the contact but is not pushed */
+            row[i] = layout_ready(map, law->row[i]);
+        }
+        row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
+        row[n + WH_LAW_SECOND] = layout_ready(map, law->second);
+        row[n + WH_LAW_BIAS] = layout_ready(map, law->bias);
+        lower_plan(&l, row, n + 3);
+        for (int i = 0; i < WH_LAW_ROWS; i++) {
+            result[i] = lower(&l, row[n + i]);
+        }
+        for (int i = 0; i < n; i++) {
+            if (map->place[i] >= 0) {
+                result[WH_LAW_ROWS + map->place[i]] = lower(&l, row[i]);
+                result[WH_LAW_ROWS + map->coordinates + map->place[i]] = pushed[i];
+            }
+        }
+        lower_done(&l);
+    }
+    free(pushed);
+    free(row);
+    op_list_prune(t);
+    return t;
+}
+
+/* The only scene coordinate with an entry in the row, if the entry is a number; else -1. */
+static int pin_of(const layout *map, const contact_law *law) {
+    int pin = -1;
+    for (int i = 0; i < map->equations->count; i++) {
+        const poly *entry = layout_ready(map, law->row[i]);
+        double number;
+        if (poly_is_zero(entry)) {
+            continue;
+        }
+        if (pin >= 0 || !poly_is_number(entry, &number)) {
+            return -1;
+        }
+        pin = map->place[i];
+    }
+    return pin;
+}
+
+/* The state component of an assignment, or -1: a conserved coordinate has none. */
+static int component_of(const layout *map, const assignment *set) {
+    const component *const lists[] = {map->angle, map->real};
+    const int counts[] = {map->angles, map->reals};
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < counts[k]; i++) {
+            if (lists[k][i].unknown == set->symbol->index && lists[k][i].primes == set->primes) {
+                return i + (k == 0 ? 0 : map->angles);
+            }
+        }
+    }
+    return -1;
+}
+
+/* 2: an input with a rate moves the stop; 1: another input moves it between steps; 0: it is fixed. */
+static int stop_moves(const equations *e, const contact_law *law) {
+    const mechanism *m = e->instance->mechanism;
+    int moves = law->driven ? 2 : 0;
+    for (int i = 0; i < m->input_count && moves == 0; i++) {
+        moves = !poly_is_zero(poly_derivative(e->algebra, law->value, m->inputs[i], 0));
+    }
+    return moves;
+}
+
+static contact_row make_row(contact_lists *c, const layout *map, const contact_law *law) {
+    const contact_statement *from = law->from;
+    contact_row row = {.from = from, .kind = (int)from->kind, .pin = -1};
+    row.direction = from->kind == CONTACT_WHEN ? from->direction : 0;
+    row.first_set = c->set_count;
+    if (from->kind != CONTACT_WHEN) {
+        row.pin = pin_of(map, law);
+        row.direction = from->kind == CONTACT_STOP   ? stop_moves(map->equations, law)
+                        : from->kind != CONTACT_HOLD ? 0
+                        : law->straight              ? 1
+                                                     : -law->driven;
+        row.first_set = from->kind == CONTACT_HOLD && row.pin < 0 ? c->held++ : 0;
+        return row;
+    }
+    row.sets = from->set_count;
+    for (int i = 0; i < from->set_count; i++) {
+        c->target[c->set_count++] = component_of(map, &from->sets[i]);
+    }
+    return row;
+}
+
+/* Are all numbers in these expressions finite, with the parameters' values? `max` may hide an infinite one, so each
+ * expression is checked in its original form. */
+static bool are_finite(const equations *e, const expr *const *each, int count) {
+    for (int i = 0; i < count; i++) {
+        if (each[i] != NULL &&
+            !poly_is_finite(equations_fold(e, poly_from_expr(e->algebra, each[i])))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Parameter values may produce 1/0: a contact would then have no defined side. */
+static bool have_finite_laws(const equations *e, diags *errors) {
+    static const char hint[] =
+        "look for a division by zero, a root or logarithm of what is below it, "
+        "or values that are too large";
+    bool finite = true;
+    for (int k = 0; k < e->contacts->count; k++) {
+        const contact_statement *h = e->contacts->law[k].from;
+        const expr *const each[] = {h->value,           h->restitution,      h->condition,
+                                    h->static_friction, h->kinetic_friction, h->normal};
+        if (!are_finite(e, each, (int)(sizeof each / sizeof each[0]))) {
+            diag_error(errors, h->at, hint, "there is a number here that is not finite");
+            finite = false;
+        }
+        for (int i = 0; i < h->set_count; i++) {
+            if (!are_finite(e, &h->sets[i].value, 1)) {
+                diag_error(errors, h->sets[i].at, hint,
+                           "there is a number here that is not finite");
+                finite = false;
+            }
+        }
+    }
+    return finite;
+}
+
+/* An impulse uses the mass matrix before it, so the matrix must not change during it. */
+static bool have_impulses(const equations *e, diags *errors) {
+    for (int k = 0; k < e->contacts->count; k++) {
+        const contact_statement *h = e->contacts->law[k].from;
+        if ((h->kind == CONTACT_STOP || h->kind == CONTACT_HOLD) && energy_mass_has_rates(e)) {
+            diag_error(errors, h->at, "leave it out, or make T quadratic in the rates",
+                       "what an impact does cannot be told: the inertia of '%s' depends on rates",
+                       e->instance->mechanism->name);
+            return false;
+        }
+    }
+    return true;
+}
+
+contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors) {
+    const equations *e = map->equations;
+    const contact_laws *laws = e->contacts;
+    if (map->form != WH_SECOND_ORDER) {
+        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
+                   "a coordinate that must be integrated from its momentum cannot be conserved "
+                   "beside stops, friction, holds or crossings");
+        return NULL;
+    }
+    if (!have_impulses(e, errors) || !have_finite_laws(e, errors)) {
+        return NULL;
+    }
+    contact_lists *c = alloc(1, sizeof *c);
+    c->row = alloc(laws->count, sizeof *c->row);
+    c->target = alloc(laws->set_count, sizeof *c->target);
+    c->count = laws->count;
+    c->forced = laws->forced;
+    for (int k = 0; k < laws->count; k++) {
+        c->row[k] = make_row(c, map, &laws->law[k]);
+    }
+    c->signals = make_signals(map);
+    c->forces = make_forces(map, s);
+    c->sets = make_sets(map);
+    return c;
+}
+
+uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
+    hash = wh_hash_u64(hash, op_list_hash(c->signals));
+    hash = wh_hash_u64(hash, op_list_hash(c->forces));
+    hash = c->sets != NULL ? wh_hash_u64(hash, op_list_hash(c->sets)) : hash;
+    for (int k = 0; k < c->count; k++) {
+        hash = wh_hash_u64(hash, (uint64_t)c->row[k].kind);
+        hash = wh_hash_u64(hash, (uint64_t)(c->row[k].direction + 1));
+    }
+    for (int i = 0; i < c->set_count; i++) {
+        hash = wh_hash_u64(hash, (uint64_t)c->target[i]);
+    }
+    return hash;
+}
+
+void contact_lists_free(contact_lists *c) {
+    if (c == NULL) {
+        return;
+    }
+    op_list_free(c->signals);
+    op_list_free(c->forces);
+    op_list_free(c->sets);
+    free(c->row);
+    free(c->target);
+    free(c);
+}
+
+/* === the ledger =============================================================================== */
+/* Entry of the ledger's lists. */
+
+static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const place *at,
+                      int account, const poly *what) {
+    if (!poly_is_zero(what)) {
+        l->entry[l->smooth] = (ledger_entry){kind, at, account};
+        power[l->smooth++] = what;
+    }
+}
+
+/* An input with a rate has no momentum, so its account has no entries. */
+static bool is_driven(const layout *map, int i) {
+    return map->equations->unknowns[i].symbol->driven != NULL;
+}
+
+/* The entries of one statement. */
+static void add_statement(ledger_lists *l, const layout *map, const statement_force *of,
+                          const poly **power) {
+    const bool drives = of->from->kind == TERM_Q;
+    for (int account = 1; account < l->accounts; account++) {
+        if (!is_driven(map, l->unknown[account])) {
+            add_entry(l, power, drives ? LEDGER_DRIVE : LEDGER_DAMPING, &of->from->at, account,
+                      layout_ready(map, of->force[l->unknown[account]]));
+        }
+    }
+    add_entry(l, power, drives ? LEDGER_WORK : LEDGER_LOSS, &of->from->at, 0,
+              layout_ready(map, of->power));
+}
+
+static void order_accounts(ledger_lists *l, const layout *map) {
+    int conserved = 1 + map->coordinates;
+    l->unknown[0] = -1;
+    for (int i = 0; i < map->equations->count; i++) {
+        l->unknown[map->place[i] >= 0 ? 1 + map->place[i] : conserved++] = i;
+    }
+}
+
+/* The continuous entries, between events. */
+static const poly **smooth_entries(ledger_lists *l, const layout *map) {
+    const equations *e = map->equations;
+    algebra *a = e->algebra;
+    const int most = e->count + e->forces * (1 + e->count);
+    const poly **power = alloc(most, sizeof(const poly *));
+    const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
+    l->entry = alloc(most, sizeof *l->entry);
+    for (int account = 1; account < l->accounts; account++) {
+        const symbol *q = e->unknowns[l->unknown[account]].symbol;
+        if (q->driven != NULL) {
+            add_entry(l, power, LEDGER_WORK, &q->at, 0,
+                      layout_ready(map, energy_drive(e, l->unknown[account])));
+            continue;
+        }
+        const poly *force = poly_derivative(a, lagrangian, q, 0);
+        add_entry(l, power, LEDGER_ENERGIES, NULL, account, layout_ready(map, force));
+    }
+    for (int k = 0; k < e->forces; k++) {
+        add_statement(l, map, &e->force[k], power);
+    }
+    return power;
+}
+
+/* Inputs in the energies: their changes between steps are entries. */
+static void find_inputs(ledger_lists *l, const layout *map) {
+    const equations *e = map->equations;
+    const poly *kinetic = layout_ready(map, e->kinetic);
+    const poly *stored = layout_ready(map, e->stored);
+    l->input = alloc(map->inputs, sizeof *l->input);
+    for (int i = 0; i < map->inputs; i++) {
+        const symbol *s = e->instance->mechanism->inputs[map->input[i]];
+        if (poly_contains(kinetic, s, 0) || poly_contains(stored, s, 0)) {
+            l->input[l->inputs++] = i;
+        }
+    }
+}
+
+static op_list *enter_ledger(layout *map, const poly *const *wanted, int count) {
+    op_list *t = op_list_new(map->angles, count);
+    lowering l = layout_lowering(map, t);
+    lower_plan(&l, wanted, count);
+    for (int i = 0; i < count; i++) {
+        t->result[i] = lower(&l, wanted[i]);
+    }
+    lower_done(&l);
+    op_list_prune(t);
+    return t;
+}
+
+static op_list *make_levels(const ledger_lists *l, const poly *integral, layout *map) {
+    const equations *e = map->equations;
+    const poly **wanted = alloc(l->accounts, sizeof(const poly *));
+    wanted[0] = layout_ready(map, integral != NULL ? integral
+                                                   : poly_add(e->algebra, e->kinetic, e->stored));
+    for (int account = 1; account < l->accounts; account++) {
+        wanted[account] = layout_ready(map, e->momentum[l->unknown[account]]);
+    }
+    op_list *t = enter_ledger(map, wanted, l->accounts);
+    free(wanted);
+    return t;
+}
+
+/* Can this scene have a ledger? */
+static bool can_keep(const layout *map, diags *errors) {
+    const mechanism *m = map->equations->instance->mechanism;
+    if (m->is_system) {
+        diag_error(errors, m->at, "leave out the ledger",
+                   "'%s' is given by equations: there are no energies to keep books of", m->name);
+        return false;
+    }
+    if (map->form != WH_SECOND_ORDER) {
+        diag_error(errors, m->at, "integrate the coordinate: --without conserve",
+                   "a coordinate that must be integrated from its momentum cannot be conserved "
+                   "beside a ledger");
+        return false;
+    }
+    return true;
+}
+
+ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors) {
+    const equations *e = map->equations;
+    if (!can_keep(map, errors)) {
+        return NULL;
+    }
+    ledger_lists *l = alloc(1, sizeof *l);
+    l->accounts = 1 + e->count;
+    l->unknown = alloc(l->accounts, sizeof *l->unknown);
+    order_accounts(l, map);
+    const poly **power = smooth_entries(l, map);
+    l->entries = l->smooth + contacts * (1 + map->coordinates);
+    find_inputs(l, map);
+    l->entries += l->inputs;
+    const bool good = l->entries <= WH_LEDGER_MAX;
+    if (good) {
+        l->powers = enter_ledger(map, power, l->smooth);
+        l->levels = make_levels(l, integral, map);
+        /* an angle that the equations have only inside sines with whole factors, but a power has elsewhere */
+        l->turned = op_list_reads_turns(l->powers);
+    }
+    if (!good) {
+        diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
+                   "the books of '%s' cannot be kept: there are too many entries",
+                   e->instance->mechanism->name);
+        ledger_lists_free(l);
+        l = NULL;
+    }
+    free(power);
+    return l;
+}
+
+void ledger_lists_free(ledger_lists *l) {
+    if (l == NULL) {
+        return;
+    }
+    op_list_free(l->powers);
+    op_list_free(l->levels);
+    free(l->entry);
+    free(l->unknown);
+    free(l->input);
+    free(l);
+}
+
+/* === conditions of --stabilized =============================================================== */
+/* The conditions for correcting the energy drift of a scene (--stabilized; core/step/stabilize.h). */
+
+static const char no_stabilized[] = "leave out --stabilized";
+
+/* The check before the ledger exists. The scene needs an energy and a method of stages without events: contacts would
+ * not see a correction of the rates after a step. `contacts` may be NULL, and `integral` is NULL if the energy is T +
+ * V. False if impossible, reported with its place. */
+static bool stabilizing_possible(const layout *map, const contact_lists *contacts,
+                                 const poly *integral, const image_settings *settings,
+                                 diags *errors) {
+    const mechanism *m = map->equations->instance->mechanism;
+    if (m->is_system) {
+        diag_error(errors, m->at, no_stabilized,
+                   "--stabilized gives back what the energy drifts by: '%s' is given by equations "
+                   "and has none",
+                   m->name);
+    } else if (contacts != NULL) {
+        const contact_statement *first = contacts->row[0].from;
+        diag_error(errors, first->at, "leave it out, --without; or leave out --stabilized",
+                   "--stabilized: '%s' has events, and their energies are taken as they happen",
+                   m->name);
+    } else if (settings->matrix != MATRIX_NONE) {
+        diag_error(errors, m->at, "leave out --matrix, or --stabilized",
+                   "--stabilized wants the stages of a step, and a matrix has none");
+    } else if (wh_methods[settings->method].takes == WH_NO_RATES) {
+        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
+                   "--stabilized keeps books, and %s none: its kicks know no rates",
+                   wh_methods[settings->method].title);
+    } else if (settings->method == WH_SEMI_IMPLICIT_EULER) {
+        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
+                   "--stabilized gives back what the energy drifts by, and with %s it goes up and "
+                   "down about the right one instead",
+                   wh_methods[settings->method].title);
+    } else if (map->form != WH_SECOND_ORDER) {
+        diag_error(errors, m->at, "--without conserve, or leave out --stabilized",
+                   "--stabilized keeps books, which a coordinate that is integrated from its "
+                   "momentum has not");
+    } else if (integral != NULL) {
+        diag_error(errors, m->at, no_stabilized,
+                   "--stabilized: the kinetic energy of '%s' is no quadratic form of its rates",
+                   m->name);
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* The check of the ledger: nothing may add or remove energy. */
+static bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
+    for (int i = 0; i < books->smooth; i++) {
+        if (books->entry[i].account == 0) {
+            diag_error(errors, *books->entry[i].at,
+                       "leave it out, --without; or leave out --stabilized",
+                       "--stabilized is for what nothing drives or damps: this does");
+            return false;
+        }
+    }
+    if (books->inputs > 0) {
+        diag_error(errors, e->instance->mechanism->at, no_stabilized,
+                   "--stabilized is for what nothing drives or damps: the energies of '%s' name an "
+                   "input",
+                   e->instance->mechanism->name);
+        return false;
+    }
+    return true;
+}
+
+/* === the lists of an instance ================================================================= */
 
 /* --- the lists -----------------------------------------------------------------------------------*/
 

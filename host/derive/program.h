@@ -2,9 +2,73 @@
 #ifndef DERIVE_PROGRAM_H
 #define DERIVE_PROGRAM_H
 
-#include "contact_lists.h"
-#include "layout.h"
-#include "ledger_lists.h"
+#include "host/derive/layout.h"
+#include "host/derive/solve.h"
+
+/* === a scene's contacts as operation lists and a table for core/contact.h ===================== */
+
+typedef struct contact_row {
+    const contact_statement *from;
+    int kind; /* wh_contact_kind */
+    int pin;
+    int direction;
+    int first_set;
+    int sets;
+} contact_row;
+
+typedef struct contact_lists {
+    int count;
+    int forced;
+    int held; /* holds without a pin */
+    int set_count;
+    contact_row *row; /* [count] */
+    int *target;      /* [set_count] component of the state, angles first */
+    op_list *signals;
+    op_list *forces;
+    op_list *sets; /* NULL without sets */
+} contact_lists;
+
+/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their
+ * number. */
+int contact_lists_polys(const equations *e, const conservation *c, const poly **p);
+
+/* Enter the lists. `s` is the folded system. NULL after an error, reported. */
+contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors);
+/* `hash` with the lists and the table mixed in. */
+uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash);
+void contact_lists_free(contact_lists *c);
+
+/* === the ledger =============================================================================== */
+/* The ledger of a scene as operation lists for core/ledger.h, and the meaning of its entries.
+ *
+ * By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, the other coordinates'
+ * motion), each generalized force, each damper and each contact. The energy changes by the work of each generalized
+ * force, each damper's loss, each contact, and each change of an input in the energies. If the energy integral is not T
+ * + V, it takes the place of the energy (equations.h). */
+
+typedef struct ledger_entry {
+    ledger_kind kind;
+    const place *at; /* of the term or input that causes it; NULL for LEDGER_ENERGIES */
+    int account;
+} ledger_entry;
+
+typedef struct ledger_lists {
+    ledger_entry *entry; /* [smooth] */
+    int smooth;
+    int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
+    int accounts; /* 1 + unknowns: the energy, then the momenta */
+    int *unknown; /* [accounts] the unknown of a momentum; -1 for the energy */
+    int *input;   /* [inputs] inputs of the program in the energies */
+    int inputs;
+    bool turned; /* a power has a turn angle outside sines and cosines */
+    op_list *powers;
+    op_list *levels;
+} ledger_lists;
+
+/* Enter the lists of a scene with so many contacts and the energy integral `integral` (NULL: T + V, see equations.h).
+ * NULL after an error, reported. */
+ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors);
+void ledger_lists_free(ledger_lists *l);
 
 typedef struct program {
     layout layout;

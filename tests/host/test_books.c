@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/cli/commands.h"
-#include "host/derive/ledger_lists.h"
+#include "host/derive/program.h"
 
 #include "command.h"
 #include "derived.h"

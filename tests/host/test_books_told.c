@@ -11,7 +11,7 @@
 #include "host/check/books.h"
 #include "host/check/books_text.h"
 #include "host/cli/commands.h"
-#include "host/derive/ledger_lists.h"
+#include "host/derive/program.h"
 
 #include "command.h"
 #include "derived.h"

@@ -4,7 +4,7 @@
  * RANDOM_STEPS steps per scene; WHIRL_RANDOM_STEPS asks for more. */
 #include "command.h"
 #include "derived.h"
-#include "host/derive/ledger_lists.h"
+#include "host/derive/program.h"
 #include "host/engine/engine.h"
 #include "host/engine/start.h"
 

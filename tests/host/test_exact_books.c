@@ -8,7 +8,7 @@
 #include "host/base/alloc.h"
 #include "host/check/books.h"
 #include "host/check/energy_residual.h"
-#include "host/derive/ledger_lists.h"
+#include "host/derive/program.h"
 
 #include "command.h"
 #include "derived.h"

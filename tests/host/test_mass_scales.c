@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/rank.h"
+#include "host/derive/lagrange.h"
 #include "unity.h"
 
 void suite_mass_scales(void);

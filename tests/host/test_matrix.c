@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/derive/affine.h"
+#include "host/derive/matrix_make.h"
 #include "host/emit/matrix.h"
 #include "host/number/double_double.h"
 

@@ -10,8 +10,8 @@
 #include <time.h>
 
 #include "host/cli/commands.h"
+#include "host/derive/lagrange.h"
 #include "host/derive/lower.h"
-#include "host/derive/rank.h"
 
 #include "command.h"
 #include "derived.h"
