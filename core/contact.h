@@ -82,7 +82,7 @@ enum {
 
 /* The kinds, in the order in which contacts are numbered: name, traits. Each has its own events. For a new kind the
  * compiler reports only the switch of contact_locate.h. Some sixty lines of contact_*.h test for one kind, and all
- * skip a new one: CONTRIBUTING.md says how to find them. The language's row is in host/lang/kinds.h. */
+ * skip a new one: CONTRIBUTING.md says how to find them. The language's row is in host/lang/words.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \

@@ -9,7 +9,7 @@
 #include "core/number/arithmetic.h"
 #include "core/version.h"
 #include "host/base/atomic_file.h"
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 

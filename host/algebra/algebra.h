@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "host/base/arena.h"
+#include "host/base/alloc.h"
 #include "normal_form.h"
 
 typedef struct intern_slot {

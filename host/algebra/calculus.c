@@ -6,7 +6,7 @@
 #include "host/algebra/poly.h"
 
 /* === slopes =================================================================================== */
-/* Symbolic derivatives of the language's functions: slope_of_<word>() for each row of host/number/function_rows.h. The
+/* Symbolic derivatives of the language's functions: slope_of_<word>() for each row of host/number/functions.h. The
  * first argument is x; the second, if any, is y. */
 
 typedef struct call {

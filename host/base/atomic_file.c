@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "alloc.h"
 #include "exit.h"
+#include "host/base/alloc.h"
 
 static bool failed;
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "utf8.h"
+#include "host/base/spelling.h"
 
 static void put_text(FILE *out, const char *text) {
     const size_t length = strlen(text);

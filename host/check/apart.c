@@ -8,7 +8,7 @@
 
 #include "core/contact.h"
 #include "host/base/alloc.h"
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 #include "host/number/gauss.h"

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
+#include "host/number/functions.h"
 #include "host/number/gauss.h"
-#include "host/number/zero.h"
 
 books *books_open(const image *im) {
     if (!im->has_energies) {

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "host/base/statement.h"
-#include "host/number/zero.h"
+#include "host/base/diag.h"
+#include "host/number/functions.h"
 
 /* The columns that the text of a line gets. */
 #define ACCOUNT_WIDTH 44

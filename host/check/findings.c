@@ -10,7 +10,6 @@
 #include "core/step/refuse.h"
 #include "host/base/alloc.h"
 #include "host/base/diag.h"
-#include "host/base/statement.h"
 #include "host/check/nonfinite.h"
 #include "host/check/summary.h"
 #include "host/number/functions.h"

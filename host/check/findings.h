@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "run_checks.h"
 
 /* One line for each finding, "whirl run: warning: ... [word]", then hints. Remedies are tried. `fails`: the energy is an

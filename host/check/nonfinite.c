@@ -5,7 +5,7 @@
 
 #include "core/contact.h"
 #include "host/base/alloc.h"
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 
 blamed blamed_open(const image *im) {
     blamed b = {.image = im,

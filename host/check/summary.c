@@ -8,13 +8,12 @@
 #include "core/contact.h"
 #include "core/version.h"
 #include "host/base/alloc.h"
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "host/check/books_text.h"
 #include "host/check/horizon.h"
 #include "host/io/plot_run.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "host/number/zero.h"
 
 double step_nice_s(double most_s) {
     static const double steps[] = {5.0, 2.0, 1.0};

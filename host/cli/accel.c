@@ -9,7 +9,7 @@
 #include "host/check/nonfinite.h"
 #include "host/cli/load.h"
 #include "host/engine/engine.h"
-#include "host/number/zero.h"
+#include "host/number/functions.h"
 #include "options.h"
 
 static const command_usage usage = {

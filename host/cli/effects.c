@@ -6,10 +6,9 @@
 
 #include "commands.h"
 #include "host/base/alloc.h"
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 #include "host/lang/override.h"
 #include "host/number/functions.h"
-#include "host/number/zero.h"
 #include "host/study/subsets.h"
 #include "pricing.h"
 

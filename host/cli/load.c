@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "host/base/alloc.h"
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 #include "host/cli/files.h"
 #include "host/derive/lagrange.h"
 #include "host/lang/hints.h"

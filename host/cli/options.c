@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 #include "host/check/finding.h"
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 

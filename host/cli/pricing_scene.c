@@ -5,7 +5,7 @@
 
 #include "host/base/alloc.h"
 #include "host/derive/lagrange.h"
-#include "host/lang/shown.h"
+#include "host/lang/value.h"
 
 /* --- a place in words ------------------------------------------------------------------------------*/
 

@@ -8,7 +8,6 @@
 #include "commands.h"
 #include "files.h"
 #include "host/base/alloc.h"
-#include "host/base/arena.h"
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"
 #include "host/cli/load.h"

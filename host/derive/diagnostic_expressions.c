@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/arena.h"
 
 /* A poly or an atom entered before. */
 typedef struct known {

@@ -12,7 +12,7 @@
 #include "host/derive/program.h"
 #include "host/image/op_list_scaling.h"
 #include "host/lang/lexer.h"
-#include "host/lang/shown.h"
+#include "host/lang/value.h"
 #include "host/lang/words.h"
 #include "host/number/folding.h"
 #include "host/number/phase.h"

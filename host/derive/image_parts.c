@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/arena.h"
-#include "host/lang/shown.h"
+#include "host/lang/value.h"
 
 image_draft image_draft_new(void) {
     struct arena *memory = arena_new();

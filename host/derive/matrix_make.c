@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 

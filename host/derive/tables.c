@@ -8,7 +8,6 @@
 
 #include "core/step/table.h"
 #include "host/base/alloc.h"
-#include "host/base/arena.h"
 #include "host/number/ratio.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */

@@ -10,7 +10,6 @@
 #include "host/emit/emit.h"
 #include "host/image/core_rows.h"
 #include "host/image/image.h"
-#include "host/image/turned.h"
 #include "host/number/decimal.h"
 
 /* === c names ================================================================================== */

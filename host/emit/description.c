@@ -4,10 +4,9 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "host/image/core_rows.h"
-#include "host/image/memory.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "matrix.h"
 
 const char *const describe_roles[IMAGE_ROLES] = {

@@ -2,10 +2,9 @@
 #include <inttypes.h>
 
 #include "description.h"
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "host/image/core_rows.h"
-#include "host/image/memory.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 
 static void put_name(FILE *out, const char *kind, int index, const char *name, int primes,
                      const char *si) {

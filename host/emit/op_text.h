@@ -1,4 +1,4 @@
-/* op_text.h: the right-hand side of an operation from its row (host/image/op_rows.h). */
+/* op_text.h: the right-hand side of an operation from its row (host/image/op_list.h). */
 #ifndef EMIT_OP_TEXT_H
 #define EMIT_OP_TEXT_H
 

@@ -7,7 +7,7 @@
 #include "core/ledger.h"
 #include "core/step/driven.h"
 #include "core/version.h"
-#include "image.h"
+#include "host/image/image.h"
 
 static inline wh_contact core_contact_row(const image_contact *c) {
     return (wh_contact){.kind = (uint8_t)c->kind,

@@ -12,8 +12,8 @@
 
 #include "core/scene.h"
 #include "host/base/diag.h"
+#include "host/image/op_list.h"
 #include "host/number/ratio.h"
-#include "op_list.h"
 
 /* Most variants with other ways of folding numbers. */
 enum { IMAGE_WAYS = 6 };
@@ -372,5 +372,24 @@ bool image_calls(const image *im);
 /* The first constant of the equations, or the first input, that float can represent only with one or two digits or as
  * zero or infinity; 0 if all fit. */
 double image_out_of_float(const image *im);
+
+/* === memory =================================================================================== */
+/* The memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). It equals that of
+ * any board with eight-byte alignment of 64-bit integers if pointers do not matter. */
+
+size_t memory_float_bytes(const image *im);
+size_t memory_double_bytes(const image *im);
+
+/* === turned or looked up ====================================================================== */
+/* The choice between turning a scene's sines (core/step/stage_turn.h) and looking them up at each stage
+ * (core/step.h). */
+
+/* Most angles whose sines a step turns. */
+#define TURNED_WAVES_MAX 256
+
+/* Depends only on the image's step and settings, so the interpreter and generated code agree. False with --angles
+ * lookup, with tables in place of sines, with contacts, without a turn angle, and if the method or the list does not
+ * support it. */
+bool image_turns(const image *im);
 
 #endif

@@ -1,5 +1,5 @@
 /* op_list.c: entry of operations, with sharing, folding and signs moved outwards. */
-#include "op_list.h"
+#include "host/image/op_list.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +7,9 @@
 
 #include "core/step/table.h"
 #include "host/base/alloc.h"
-#include "host/base/arena.h"
 #include "host/number/folding.h"
+
+/* === the list ================================================================================= */
 
 op_list *op_list_new(int angles, int results) {
     op_list *t = alloc(1, sizeof *t);

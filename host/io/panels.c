@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 
 /* der(der(x)) as x''. Free it. */
 static char *shown_name(const char *name) {

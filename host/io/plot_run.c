@@ -12,7 +12,7 @@
 
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
-#include "host/base/utf8.h"
+#include "host/base/spelling.h"
 #include "host/number/decimal.h"
 
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns) {

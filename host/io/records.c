@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/number/zero.h"
+#include "host/number/functions.h"
 
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
 static int state_columns(const image *im) {

@@ -5,7 +5,7 @@
 
 #include "core/contact.h"
 #include "host/base/alloc.h"
-#include "host/base/statement.h"
+#include "host/base/diag.h"
 #include "host/io/vcd.h"
 
 /* Doubles know whole numbers to twice this. */

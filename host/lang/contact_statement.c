@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/lang/cursor.h"
 #include "host/lang/expression.h"
+#include "host/lang/parser.h"
 #include "host/lang/statements.h"
 
 /* === the condition of a hold ================================================================== */

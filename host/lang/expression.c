@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/lang/cursor.h"
+#include "host/lang/parser.h"
 
 static const char *skip_blanks(const char *text) {
     while (*text == ' ' || *text == '\t') {
@@ -40,7 +40,7 @@ int name_declared_later(const token *name) {
         if (word == WORD_MECHANISM) {
             return 0;
         }
-        if (word != WORDS && (word_row((word_id)word)->rules & DECLARES) != 0) {
+        if (word != WORD_COUNT && (word_row((word_id)word)->rules & DECLARES) != 0) {
             const char *declared = skip_blanks(text + length);
             if (strncmp(declared, name->text, name->length) == 0 &&
                 !continues_name(declared[name->length])) {

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "host/base/arena.h"
-#include "value.h"
+#include "host/base/alloc.h"
+#include "host/lang/value.h"
 
 /* A rate far below any rate of interest, SI. A force that vanishes with the rate is ten times smaller at a tenth of it.
  */

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/base/arena.h"
+#include "host/base/alloc.h"
 #include "host/lang/model.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/utf8.h"
+#include "host/base/spelling.h"
+#include "host/lang/words.h"
 #include "host/number/decimal.h"
-#include "words.h"
 
 enum { NUMBER_LENGTH_MAX = 100 };
 

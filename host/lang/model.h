@@ -11,11 +11,11 @@
 
 #include "host/base/diag.h"
 #include "host/lang/units.h"
+#include "host/lang/words.h"
 #include "host/number/enclosure.h"
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
-#include "kinds.h"
 
 /* --- symbols ----------------------------------------------------------------------------------- */
 
@@ -186,7 +186,7 @@ typedef struct mechanism {
     const effect *effects;
     int effect_count;
     bool is_system;            /* given by state/equation, not by T, V, F, Q */
-    const struct names *names; /* finds symbols by name (names.h) */
+    const struct names *names; /* finds symbols by name (parser.h) */
 } mechanism;
 
 /* Limits of one mechanism or file. */

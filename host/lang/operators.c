@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "host/lang/expression.h"
-#include "shown.h"
-#include "value.h"
+#include "host/lang/value.h"
 
 expr *expr_new(parser *in, expr_op op, place at) {
     expr *made = arena_alloc(in->arena, sizeof *made);

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cursor.h"
 #include "host/lang/expression.h"
-#include "value.h"
+#include "host/lang/parser.h"
+#include "host/lang/value.h"
 
 static parser begin(const mechanism *of, const char *text, struct arena *arena, diags *all) {
     source *typed = arena_alloc(arena, sizeof *typed);

@@ -2,7 +2,7 @@
 #ifndef LANG_OVERRIDE_H
 #define LANG_OVERRIDE_H
 
-#include "host/base/arena.h"
+#include "host/base/alloc.h"
 #include "model.h"
 
 typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } override_kind;

@@ -1,12 +1,34 @@
-/* parser.h: the state of the parser. The lowest layer is cursor.h (tokens), then come expressions (expression.h) and
+/* parser.h: the state of the parser. The lowest layer is parser.h (tokens), then come expressions (expression.h) and
  * statements (statements.h); statements.c is the top. */
 #ifndef LANG_PARSER_H
 #define LANG_PARSER_H
 
-#include "host/base/arena.h"
-#include "lexer.h"
-#include "model.h"
-#include "names.h"
+#include "host/base/alloc.h"
+#include "host/base/spelling.h"
+#include "host/lang/lexer.h"
+#include "host/lang/model.h"
+#include "host/lang/words.h"
+
+/* === the symbols of one mechanism, found by name ============================================== */
+
+typedef struct named {
+    symbol symbol;       /* first: a `const symbol *` of a mechanism is the address of a `named` */
+    bool is_placeholder; /* used but not declared; reported */
+    bool is_open;        /* the parser is reading its declaration */
+    int mark;            /* number of the last visit, for walks and duplicates */
+    place mark_at;
+    struct named *rate; /* let: its time derivative, if an expression has named it */
+    struct named *next; /* in its slot */
+} named;
+
+typedef struct names names;
+
+names *names_new(struct arena *arena);
+named *names_find(const names *all, const char *text, size_t length);
+/* Add an entry; the name must be new. */
+named *names_add(names *all, const char *text, size_t length);
+/* Offer the declared names of the allowed effects (`effect_index` -1: no effect's, -2: every effect's). */
+void names_offer(const names *all, int effect_index, nearest *search);
 
 enum { NESTING_MAX = 200 };
 
@@ -79,5 +101,39 @@ typedef struct parser {
     const scene **scenes;
     int scene_count;
 } parser;
+
+/* === the current token, tests on it, and recovery after errors ================================ */
+
+void parser_next(parser *in);
+bool parser_is_sign(const parser *in, int sign);
+bool parser_is_word(const parser *in, word_id word);
+bool parser_at_end_of_line(const parser *in); /* newline, `;`, end of text */
+bool token_is(const token *each, const char *word);
+bool token_is_word(const token *each, word_id word);
+/* The row of the statement that this token begins, or NULL. */
+const statement_word *token_statement(const token *each);
+bool parser_is_body_word(const parser *in); /* begins a statement of a file, mechanism or effect */
+/* Does the token begin a line with a word that ends a block by this rule (ENDS_EFFECT, ...)? */
+bool parser_leaves(const parser *in, unsigned rule);
+/* Expect this word. If it is missing, report an error with the statement's usual form as a hint. */
+bool parser_expect_word(parser *in, word_id word, word_id statement);
+/* Report an error at the current token, unless the lexer has already reported it. Returns false. */
+bool parser_fail(parser *in, const char *hint, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+bool parser_expect_sign(parser *in, int sign, const char *where);
+/* The name of the token in messages, such as "'x'" or "the end of the line". */
+const char *token_words(const token *each, char *buffer, size_t size);
+/* Skip to the end of a failed statement, including the braces it opened. */
+void parser_skip_statement(parser *in);
+void parser_skip_lines(parser *in); /* skip empty lines */
+/* The hint for a missing operator before the current name, number or '('; returns `hint`. */
+enum { OPERATOR_HINT = 200 };
+const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]);
+bool parser_end_statement(parser *in, const char *what);
+char *parser_copy_text(parser *in, const token *each);
+/* An optional text in quotes; "" without one. */
+const char *parser_title(parser *in);
+/* Report that the current token begins no statement allowed here (IN_ bits); returns false. */
+bool statement_unknown(parser *in, unsigned where);
 
 #endif

@@ -4,13 +4,13 @@
 #ifndef LANG_STATEMENTS_H
 #define LANG_STATEMENTS_H
 
-#include "host/lang/cursor.h"
 #include "host/lang/expression.h"
+#include "host/lang/parser.h"
 
 typedef bool statement_reader(parser *in, const statement_word *word);
 
 statement_reader read_unknown, read_constant, read_output; /* declare.c */
-statement_reader read_energy, read_force, read_equation;   /* terms.c */
+statement_reader read_energy, read_force, read_equation;   /* statements.c */
 statement_reader read_stop, read_friction, read_hold;      /* contact_statement.c */
 statement_reader read_when;                                /* contact_statement.c */
 statement_reader read_noise;                               /* declare.c */
@@ -23,7 +23,7 @@ void contact_on_system(parser *in, const contact_statement *each);
 /* Read the whole text except the scenes. These are noted and read last: they may name later effects. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_mechanism(parser *in, builder *made);                /* statements.c */
-void finish_inputs(parser *in, mechanism *made);                 /* input_rate.c */
+void finish_inputs(parser *in, mechanism *made);                 /* derivative.c */
 void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */
 
 #endif

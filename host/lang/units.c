@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 #include "host/number/functions.h"
+
+/* === units ==================================================================================== */
 
 #define PI 3.14159265358979323846
 

@@ -1,6 +1,144 @@
-#include "words.h"
+/* words.c: the kinds of symbols, terms and contacts, and their names in messages. */
+#include "host/lang/words.h"
 
 #include <string.h>
+
+const char *symbol_kind_words(symbol_kind kind) {
+#define WORDS_OF(id, words) [SYM_##id] = words,
+    static const char *const words_of[] = {SYMBOL_KIND_ROWS(WORDS_OF)};
+#undef WORDS_OF
+    return words_of[kind];
+}
+
+const char *term_meaning(term_kind kind) {
+#define MEANING(id, meaning, part, rule) [TERM_##id] = meaning,
+    static const char *const meanings[] = {TERM_KIND_ROWS(MEANING)};
+#undef MEANING
+    return meanings[kind];
+}
+
+const char *term_part(term_kind kind) {
+#define PART(id, meaning, part, rule) [TERM_##id] = part,
+    static const char *const parts[] = {TERM_KIND_ROWS(PART)};
+#undef PART
+    return parts[kind];
+}
+
+const char *term_rule(term_kind kind) {
+#define RULE(id, meaning, part, rule) [TERM_##id] = rule,
+    static const char *const rules[] = {TERM_KIND_ROWS(RULE)};
+#undef RULE
+    return rules[kind];
+}
+
+const char *contact_called(contact_kind kind) {
+#define CALLED(id, called, undefined) [CONTACT_##id] = called,
+    static const char *const names[] = {CONTACT_KIND_ROWS(CALLED)};
+#undef CALLED
+    return names[kind];
+}
+
+const char *contact_undefined(contact_kind kind) {
+#define UNDEFINED(id, called, undefined) [CONTACT_##id] = undefined,
+    static const char *const parts[] = {CONTACT_KIND_ROWS(UNDEFINED)};
+#undef UNDEFINED
+    return parts[kind];
+}
+
+/* === words of other languages, and their counterparts here ==================================== */
+
+#define CLOCK \
+    "there is no name for the time; in Q and in the condition of a hold a coordinate is a clock " \
+    "(docs/language.md, \"What is given over time\")"
+#define CHOICE "choose with max(a, b), min(a, b) or sign(x); at a moment, with when or hold"
+#define JUMP "write (1 + sign(x))/2; of a contact, stop, hold or when"
+#define COUNT "nothing counts in steps but: when x crosses 1 [m] rising { set x = 0 [m] }"
+#define PARAMETER "write: parameter m = 2 [kg]"
+#define RATE "a derivative in time is a prime: x', x''"
+#define NOISE "an output has noise: noise y deviation 0.01 [m] seed 7"
+#define BLOW "a blow changes a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
+#define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
+
+const char *energy_hint(const char *text, size_t length) {
+    static const char *const rows[][2] = {
+        {" t k K Ek Ekin kinetic ", "the kinetic energy is T = ..."},
+        {" v u U Ep Epot potential ", "the potential energy is V = ..."},
+        {" f D dissipation ", "the dissipation function is F = ..."},
+        {" L lagrangian Lagrangian ", "write its parts, L = T - V: T = ... and V = ..."}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (const char *at = rows[i][0]; at[1] != '\0'; at = strchr(at + 1, ' ')) {
+            if (strncmp(at + 1, text, length) == 0 && at[1 + length] == ' ') {
+                return rows[i][1];
+            }
+        }
+    }
+    return NULL;
+}
+
+const char *first_word_hint(const char *text, size_t length) {
+    static const struct {
+        const char *word;
+        const char *hint;
+    } rows[] = {
+        {"t", CLOCK},
+        {"time", CLOCK},
+        {"given",
+         "a given motion is the force that it makes felt: Q(x) = k*xe "
+         "(docs/language.md, \"What is given over time\"); a condition: hold x while x > 0 [m]"},
+        {"every", "what happens at intervals follows a clock: when phi crosses 2*pi rising "
+                  "{ set phi = 0 [rad] }"},
+        {"if", CHOICE},
+        {"else", CHOICE},
+        {"where", CHOICE},
+        {"piecewise", CHOICE},
+        {"?", CHOICE},
+        {">", CHOICE},
+        {"<", CHOICE},
+        {">=", CHOICE},
+        {"<=", CHOICE},
+        {"==", CHOICE},
+        {"&", "join two comparisons with and: x > a and x < b"},
+        {"|", "join two comparisons with or: x < a or x > b; for the size of x, write abs(x)"},
+        {"sgn", "write sign(x)"},
+        {"pow", "powers are written with ^: a^b"},
+        {"ln", "the natural logarithm is log(x)"},
+        {"log10", "log(x) is the natural logarithm: log(x)/log(10)"},
+        {"const", PARAMETER},
+        {"constant", PARAMETER},
+        {"param", PARAMETER},
+        {"parameters", PARAMETER},
+        {"Piecewise", CHOICE},
+        {"diff", RATE},
+        {"derivative", RATE},
+        {"Derivative", RATE},
+        {"rand", NOISE},
+        {"random", NOISE},
+        {"dirac", BLOW},
+        {"PI", "write pi"},
+        {"Pi", "write pi"},
+        {"e", "write exp(1)"},
+        {"heaviside", JUMP},
+        {"step", JUMP},
+        {"floor", COUNT},
+        {"ceil", COUNT},
+        {"round", COUNT},
+        {"mod", COUNT},
+        {"table", TABLE},
+        {"lookup", TABLE},
+        {"interp", TABLE},
+        {"constraint", "write: hold x - l*sin(a) while 1 > 0"},
+        {"duration", "write: until 2 [s]"},
+        {"for", "write: until 2 [s]"},
+        {"tunable", "what may change while running is an input: input k = 3 [N/m]"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (strlen(rows[i].word) == length && memcmp(rows[i].word, text, length) == 0) {
+            return rows[i].hint;
+        }
+    }
+    return NULL;
+}
+
+/* === the words of the language ================================================================ */
 
 static const statement_word rows[] = {
 #define WORD_ROW(id, text, stands, rules, reader, kind, form) \
@@ -11,7 +149,7 @@ static const statement_word rows[] = {
         INNER_WORD_ROWS(WORD_ROW)
 #undef WORD_ROW
 };
-_Static_assert(sizeof rows / sizeof rows[0] == WORDS, "a row for each word");
+_Static_assert(sizeof rows / sizeof rows[0] == WORD_COUNT, "a row for each word");
 
 const statement_word *word_row(word_id id) { return &rows[id]; }
 
@@ -27,11 +165,11 @@ int word_find(const char *text, size_t length) {
             return i;
         }
     }
-    return WORDS;
+    return WORD_COUNT;
 }
 
 bool word_is_reserved(const char *text, size_t length) {
-    for (int i = 0; i < WORDS && length > 0; i++) {
+    for (int i = 0; i < WORD_COUNT && length > 0; i++) {
         if (rows[i].text[0] == text[0] && (rows[i].rules & RESERVED) != 0 &&
             word_is((word_id)i, text, length)) {
             return true;

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "functions.h"
+#include "host/number/functions.h"
 
 /* --- quotients and sizes -----------------------------------------------------------------------------*/
 

@@ -12,7 +12,7 @@
 
 #include <stdbool.h>
 
-#include "functions.h"
+#include "host/number/functions.h"
 
 #include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/number/arithmetic.h) */
 

@@ -6,7 +6,7 @@
 
 #include "double_double.h"
 #include "enclosure.h"
-#include "functions.h"
+#include "host/number/functions.h"
 
 /* Unit round-off of double. */
 #define UNIT 0x1p-53

@@ -18,7 +18,7 @@
 
 #include <stdbool.h>
 
-#include "functions.h"
+#include "host/number/functions.h"
 
 /* To nearest, as on a board. Sums and functions to the other side. To nearest, without merging nearly equal numbers. Then all,
  * products and quotients too, up or down by their digits. */

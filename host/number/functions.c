@@ -1,7 +1,12 @@
 /* functions.c: the language's functions in double. The core's double build computes the rounded
  * ones. */
+#include "host/number/functions.h"
+
+/* === zero ===================================================================================== */
+
+/* === functions ================================================================================ */
+
 #define WH_DOUBLE 1
-#include "functions.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "functions.h"
+#include "host/number/functions.h"
 
 uint32_t phase_of_constant(double rad) { return (uint32_t)(uint64_t)phase_of_start(rad); }
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 
 enum { NAME_BYTES = 80 };
 

@@ -8,7 +8,7 @@
 #include "core/hash.h"
 #include "core/noise.h"
 #include "host/base/alloc.h"
-#include "host/base/nearest.h"
+#include "host/base/spelling.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 

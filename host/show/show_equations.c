@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/lang/shown.h"
-#include "host/number/zero.h"
+#include "host/lang/value.h"
+#include "host/number/functions.h"
 #include "host/show/show_events.h"
 
 /* === step by step ============================================================================= */

@@ -5,7 +5,7 @@
 
 #include "host/base/alloc.h"
 #include "host/lang/lexer.h"
-#include "host/lang/shown.h"
+#include "host/lang/value.h"
 #include "host/show/show.h"
 #include "host/show/show_equations.h"
 

@@ -8,7 +8,7 @@
 #include "host/engine/start.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/image/core_rows.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 
 #include "host/study/cost_rows.h"
 

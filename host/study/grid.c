@@ -8,10 +8,9 @@
 
 #include "host/base/alloc.h"
 #include "host/lang/override.h"
-#include "host/lang/shown.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
-#include "host/number/zero.h"
+#include "host/number/functions.h"
 
 overrides changes_at(const grid *g, const overrides *base, uint64_t point) {
     overrides changes = *base;

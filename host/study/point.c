@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/arena.h"
 #include "host/base/atomic_file.h"
 #include "host/check/energy_residual.h"
 #include "host/check/nonfinite.h"
@@ -18,12 +17,11 @@
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/engine/start.h"
-#include "host/lang/cursor.h"
 #include "host/lang/expression.h"
-#include "host/lang/shown.h"
+#include "host/lang/parser.h"
+#include "host/lang/value.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
-#include "host/number/zero.h"
 
 /* === a measure, sample by sample ============================================================== */
 

@@ -19,9 +19,9 @@
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
 #include "host/check/run_json.h"
-#include "host/image/turned.h"
-#include "host/lang/shown.h"
+#include "host/image/image.h"
 #include "host/lang/units.h"
+#include "host/lang/value.h"
 #include "host/number/decimal.h"
 #include "host/study/jobs.h"
 

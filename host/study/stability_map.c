@@ -11,7 +11,7 @@
 #include "host/check/run_json.h"
 #include "host/io/gnuplot.h"
 #include "host/io/palette.h"
-#include "host/lang/shown.h"
+#include "host/lang/value.h"
 #include "host/number/functions.h"
 #include "host/study/session.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/utf8.h"
+#include "host/base/spelling.h"
 
 enum { WHY_SIZE = 100, VALUE_SIZE = 100, KEYS_MOST = 200, DEPTH_MOST = 20 };
 

@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "host/base/statement.h"
-#include "host/base/utf8.h"
+#include "host/base/spelling.h"
 #include "unity.h"
 
 void suite_diag(void);

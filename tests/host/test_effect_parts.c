@@ -9,7 +9,7 @@
 #include "core/noise.h"
 #include "derived.h"
 #include "host/lang/builtin.h"
-#include "host/lang/shown.h"
+#include "host/lang/value.h"
 #include "motion.h"
 #include "unity.h"
 

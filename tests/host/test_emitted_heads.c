@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "emitted.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "unity.h"
 
 void suite_emitted_heads(void);

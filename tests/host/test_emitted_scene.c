@@ -6,7 +6,7 @@
 
 #include "core/contact.h"
 #include "emitted.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "unity.h"
 
 void suite_emitted_scene(void);

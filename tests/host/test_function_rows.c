@@ -1,4 +1,4 @@
-/* test_function_rows.c: every row of host/number/function_rows.h in all its uses. These are slopes in numbers and
+/* test_function_rows.c: every row of host/number/functions.h in all its uses. These are slopes in numbers and
  * symbols (against differences), the operation list, an energy's force, accepted dimensions, generated texts, the
  * fuzzers' words and the docs. A new function is tested through its row.
  *

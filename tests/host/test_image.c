@@ -18,7 +18,7 @@
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "host/engine/start.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "host/io/records.h"
 #include "host/number/functions.h"
 
@@ -592,7 +592,7 @@ void suite_described_drawn(void) {
 
 /* === generated texts ========================================================================== */
 /* Tests over any mechanism cover every function: the writers of random expressions and mechanisms know each row of
- * host/number/function_rows.h. */
+ * host/number/functions.h. */
 
 enum { SEED = 7 };
 

@@ -11,7 +11,6 @@
 #include "host/lang/units.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
-#include "host/number/uint128.h"
 #include "tests/scattered.h"
 #include "unity.h"
 

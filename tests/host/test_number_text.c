@@ -1,4 +1,4 @@
-/* test_number_text.c: decimals are read as the nearest double, and hexadecimal numbers are exact. The reference is
+/* test_number_text.c: decimals are read as the closest double, and hexadecimal numbers are exact. The reference is
  * strtod() and printf("%a") of glibc, which round correctly. WHIRL_NUMBERS sets the number of texts of each kind. */
 #include <fenv.h>
 #include <float.h>
@@ -12,7 +12,7 @@
 #include "bits.h"
 #include "command.h"
 #include "derived.h"
-#include "host/base/utf8.h"
+#include "host/base/spelling.h"
 #include "host/number/decimal.h"
 #include "unity.h"
 
@@ -30,14 +30,14 @@ static int count_of(int least) {
 
 static int draw(int bound) { return (int)(random_bits(&seed) % (unsigned)bound); }
 
-/* Side of the nearest double on which the number lies: strtod() rounding down and up gives its neighbours. */
-static int side_of(const char *text, double nearest) {
+/* Side of the closest double on which the number lies: strtod() rounding down and up gives its neighbours. */
+static int side_of(const char *text, double closest) {
     fesetround(FE_DOWNWARD);
     const double down = strtod(text, NULL);
     fesetround(FE_UPWARD);
     const double up = strtod(text, NULL);
     fesetround(FE_TONEAREST);
-    return down == up ? 0 : nearest == down ? 1 : -1;
+    return down == up ? 0 : closest == down ? 1 : -1;
 }
 
 static void agrees(const char *text) {

@@ -6,7 +6,7 @@
 #include "blocks.h"
 #include "drawn_scene.h"
 #include "evaluated.h"
-#include "host/base/arena.h"
+#include "host/base/alloc.h"
 #include "unity.h"
 
 void suite_tape_used(void);

@@ -7,7 +7,7 @@
 #include "derived.h"
 #include "drawn_scene.h"
 #include "host/emit/description.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "unity.h"
 
 void suite_told_drawn(void);

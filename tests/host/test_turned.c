@@ -11,7 +11,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/engine/engine.h"
-#include "host/image/turned.h"
+#include "host/image/image.h"
 #include "motion.h"
 
 #include "unity.h"

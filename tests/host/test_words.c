@@ -34,7 +34,7 @@ static void expect_in(const char *report, const char *wanted, const char *text) 
 
 static void test_reserved_words_name_nothing(void) {
     int reserved = 0;
-    for (int i = 0; i < WORDS; i++) {
+    for (int i = 0; i < WORD_COUNT; i++) {
         const statement_word *word = word_row((word_id)i);
         char declared[100];
         char wanted[100];
@@ -176,7 +176,7 @@ static void test_the_page_lists_every_word(void) {
     const char *const reserved = strstr(page, "These words are reserved");
     TEST_ASSERT_NOT_NULL(reserved);
     const char *const stop = strstr(reserved, "the names of the");
-    for (int i = 0; i < WORDS; i++) {
+    for (int i = 0; i < WORD_COUNT; i++) {
         const statement_word *word = word_row((word_id)i);
         const bool said =
             listed(word->text, page, end) || i >= STATEMENT_WORDS; /* those appear in examples */

@@ -1,10 +1,81 @@
-/* cursor.c: access to tokens, and recovery after errors. */
-#include "cursor.h"
+/* parser.c: the symbols of one mechanism, found by name. */
+#include "host/lang/parser.h"
 
 #include <ctype.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "host/base/hashing.h"
+
+struct names {
+    struct arena *arena;
+    named **slots;
+    size_t slot_count; /* a power of two */
+    named **entries;   /* in the order of declaration */
+    int count;
+};
+
+names *names_new(struct arena *arena) {
+    names *made = arena_alloc(arena, sizeof *made);
+    made->arena = arena;
+    made->slot_count = 64;
+    made->slots = arena_alloc(arena, made->slot_count * sizeof *made->slots);
+    return made;
+}
+
+static size_t slot_of(const names *all, const char *text, size_t length) {
+    const uint32_t hash = hash_text(text, length);
+    return (hash ^ (hash >> 15)) & (all->slot_count - 1);
+}
+
+named *names_find(const names *all, const char *text, size_t length) {
+    named *each = all->slots[slot_of(all, text, length)];
+    while (each != NULL &&
+           (strncmp(each->symbol.name, text, length) != 0 || each->symbol.name[length] != '\0')) {
+        each = each->next;
+    }
+    return each;
+}
+
+static void link_in(names *all, named *entry) {
+    const size_t slot = slot_of(all, entry->symbol.name, strlen(entry->symbol.name));
+    entry->next = all->slots[slot];
+    all->slots[slot] = entry;
+}
+
+named *names_add(names *all, const char *text, size_t length) {
+    if ((size_t)all->count >= all->slot_count) {
+        all->slot_count *= 4;
+        all->slots = arena_alloc(all->arena, all->slot_count * sizeof *all->slots);
+        for (int i = 0; i < all->count; i++) {
+            link_in(all, all->entries[i]);
+        }
+    }
+    named *entry = arena_alloc(all->arena, sizeof *entry);
+    entry->symbol.name = arena_copy(all->arena, text, length);
+    entry->symbol.text = "";
+    entry->symbol.unit = "";
+    entry->symbol.effect = -1;
+    all->entries = arena_room(all->arena, all->entries, all->count, sizeof *all->entries);
+    all->entries[all->count++] = entry;
+    link_in(all, entry);
+    return entry;
+}
+
+void names_offer(const names *all, int effect_index, nearest *search) {
+    for (int i = 0; i < all->count; i++) {
+        const named *each = all->entries[i];
+        const bool visible =
+            effect_index == -2 || each->symbol.effect == -1 || each->symbol.effect == effect_index;
+        if (visible && !each->is_placeholder) {
+            nearest_offer(search, each->symbol.name);
+        }
+    }
+}
+
+/* === access to tokens, and recovery after errors ============================================== */
 
 void parser_next(parser *in) {
     do {
@@ -26,9 +97,10 @@ bool token_is_word(const token *each, word_id word) {
 }
 
 const statement_word *token_statement(const token *each) {
-    const int found =
-        each->kind == TOKEN_NAME && each->primes == 0 ? word_find(each->text, each->length) : WORDS;
-    return found == WORDS ? NULL : word_row((word_id)found);
+    const int found = each->kind == TOKEN_NAME && each->primes == 0
+                          ? word_find(each->text, each->length)
+                          : WORD_COUNT;
+    return found == WORD_COUNT ? NULL : word_row((word_id)found);
 }
 
 bool parser_is_word(const parser *in, word_id word) { return token_is_word(&in->token, word); }
@@ -291,3 +363,5 @@ bool statement_unknown(parser *in, unsigned where) {
     diag_error(in->diags, word.at, hint[0] == '\0' ? NULL : hint, "unknown statement %s", name);
     return false;
 }
+
+/* === the state of the parser ================================================================== */

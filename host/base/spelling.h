@@ -1,0 +1,26 @@
+/* spelling.h: UTF-8 characters, and the known name closest to a misspelt one. */
+#ifndef BASE_SPELLING_H
+#define BASE_SPELLING_H
+
+#include <stddef.h>
+
+/* === well-formed, printable UTF-8 characters ================================================== */
+
+/* Length in bytes of the character at `text`, with `left` > 0 bytes remaining. Returns 0 if it is malformed, or a
+ * control character above ASCII: these could steer a terminal, as ASCII ones do. */
+size_t utf8_length(const char *text, size_t left);
+
+/* === the known name closest to a misspelt one ================================================= */
+
+typedef struct nearest {
+    const char *wanted;
+    size_t length;
+    const char *best; /* NULL: no similar name */
+    int cost;
+    int offers;
+} nearest;
+
+nearest nearest_start(const char *wanted, size_t length);
+void nearest_offer(nearest *search, const char *candidate);
+
+#endif
