@@ -163,7 +163,8 @@ const char *options_value(int count, char **words, int *at, const char *name, bo
         ++*at;
         return word + length + 1;
     }
-    if (*at + 1 >= count) {
+    if (*at + 1 >= count ||
+        strncmp(words[*at + 1], "--", 2) == 0) { /* the next option is no value */
         fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
                 name);
         *bad = true;

@@ -156,22 +156,25 @@ static bool find_board(pricing *p) {
 /* Operations that all trials may evaluate without --effort. */
 #define EFFORT 1e9
 
-/* --error, in the dimension of the value of --of. An unknown --of is reported later. */
+/* --error, in the dimension of its quantity or that of --of. An unknown one is reported later. */
 static bool read_error(pricing *p) {
-    const char *of = p->options->value[PRICING_OF];
     const char *text = p->options->value[PRICING_ERROR];
     const char *command = p->options->command;
     const char *equals = text != NULL ? strchr(text, '=') : NULL;
     p->asks_error = text != NULL;
-    if (equals != NULL) {
+    p->quantity = p->options->value[PRICING_OF];
+    if (equals != NULL && p->quantity != NULL) {
         fprintf(stderr,
-                "whirl %s: error: --error takes a value alone\n"
-                "hint: --of %.*s --error %s\n",
-                command, (int)(equals - text), text, equals + 1);
+                "whirl %s: error: --of and --error both name a quantity\nhint: --error %s\n",
+                command, equals + 1);
         return false;
     }
+    if (equals != NULL) {
+        p->quantity = p->named = alloc_copy(text, (size_t)(equals - text));
+        text = equals + 1;
+    }
     return text == NULL ||
-           pricing_quantity(command, p->of, of, "--error", text, dim_none(), &p->error_si);
+           pricing_quantity(command, p->of, p->quantity, "--error", text, dim_none(), &p->error_si);
 }
 
 static bool read_effort(pricing *p) {
@@ -324,6 +327,7 @@ void pricing_close(pricing *p) {
     grid_free(&p->grid);
     free(p->words);
     free(p->target);
+    free(p->named);
     source_close(&p->from);
 }
 
@@ -355,7 +359,7 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
     }
     const trial_wish wish = {.source = &p->scene->source,
                              .board = p->board,
-                             .of = p->options->value[PRICING_OF],
+                             .of = p->quantity,
                              .spacing = spacing,
                              .records = (int)wanted};
     p->has_trial = true;

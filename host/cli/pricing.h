@@ -19,7 +19,8 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_OF, BOTH, "--of", "X", \
       "the error of one output, coordinate or rate, in its own unit; without it each " \
       "coordinate and rate as a part of its largest value, the worst of them") \
-    X(PRICING_ERROR, BOTH, "--error", "0.1mm", "the error that is allowed; a bare number is SI") \
+    X(PRICING_ERROR, BOTH, "--error", "0.1mm", \
+      "the error that is allowed; a bare number is SI; X=0.1mm is --of X as well") \
     X(PRICING_HORIZON, BOTH, "--horizon", "T", \
       "look at errors until then (default: the scene's end)") \
     X(PRICING_VARY, BOTH, "--vary", "RANGE", \
@@ -96,6 +97,8 @@ struct pricing {
     grid grid;
     pricing_scene *scene;
     const cost_board *board;
+    const char *quantity; /* of --of, or of --error X=0.1mm; NULL: the worst */
+    char *named;          /* the second of these */
     bool asks_error;
     double error_si; /* the limit of --error */
     double until_s;  /* the horizon, or the scene's end */

@@ -267,7 +267,7 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
                        : alloc_words("%s", longest ? "; longer ones are not tried" : "");
     *step = alloc_words("%s", trial_time(trial_step(t, pace), text));
     *chosen = alloc_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
-                          *step, p->options->value[PRICING_OF], r.error, trial_unit(t),
+                          *step, p->quantity, r.error, trial_unit(t),
                           trial_horizon_s(t), longer);
     free(longer);
     return EXIT_DONE;
@@ -285,14 +285,12 @@ int rating_choose(const common_options *common, const char *target, const char *
               stderr);
         return EXIT_BAD_INPUT;
     }
-    char *of = alloc_copy(error, (size_t)(equals - error));
     pricing_options o = pricing_defaults("run", 1);
     pricing p;
     o.target = target;
     o.common.change = common->change;
     o.balance = true; /* the verdict on the run needs it */
-    o.value[PRICING_OF] = of;
-    o.value[PRICING_ERROR] = equals + 1;
+    o.value[PRICING_ERROR] = error;
     const setting s = {common->integration, common->number};
     int code = pricing_open(&p, &o);
     code = code == EXIT_DONE ? choose(&p, &s, step, chosen) : code;
@@ -300,6 +298,5 @@ int rating_choose(const common_options *common, const char *target, const char *
     p.from = (source_model){0};
     pricing_close(&p);
     free(o.vary);
-    free(of);
     return code;
 }

@@ -36,8 +36,9 @@ while read -r command; do
     while read -r word value; do
         "$whirl" "$command" $word >"$scratch/out" 2>"$scratch/err" </dev/null
         if [ -n "$value" ]; then
-            grep -q "error: $word needs a value" "$scratch/err"
-            verdict $? "whirl $command $word needs its $value"
+            grep -q "error: $word needs a value" "$scratch/err" &&
+                "$whirl" "$command" $word --quiet 2>&1 </dev/null | grep -q "error: $word needs a value"
+            verdict $? "whirl $command $word needs its $value, and takes no option as that"
         else
             ! grep -qE "unknown option|needs a value" "$scratch/err"
             verdict $? "whirl $command $word is taken"

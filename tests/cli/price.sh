@@ -154,6 +154,13 @@ done
 "$whirl" price "$scratch/spring.whirl" --effort 2e7 --error 1e-4 2>&1 | grep -A1 '^the cheapest within 1e-4' | tail -n 1 |
     grep -q '^  whirl run .* --step '
 verdict $? "the cheapest within an error"
+for way in '--of x --error 0.1mm' '--error x=0.1mm'; do
+    # shellcheck disable=SC2086 # words
+    "$whirl" price "$scratch/spring.whirl" --effort 2e7 $way >"$scratch/out" 2>&1
+    grep -A1 '^the cheapest within' "$scratch/out" | tail -n 1 >>"$scratch/ways"
+done
+[ "$(sort "$scratch/ways" | uniq -c | awk '{ print $1, $2 }')" = '2 whirl' ]
+verdict $? "--error x=0.1mm is --of x --error 0.1mm" "$scratch/ways"
 "$whirl" price "$scratch/spring.whirl" --effort 2e7 --error 1e-30 >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -q 'nothing that was tried errs by less' "$scratch/err"
 verdict $? "none within 1e-30: exit status 1"
