@@ -267,8 +267,7 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
                        : alloc_words("%s", longest ? "; longer ones are not tried" : "");
     *step = alloc_words("%s", trial_time(trial_step(t, pace), text));
     *chosen = alloc_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
-                          *step, p->quantity, r.error, trial_unit(t),
-                          trial_horizon_s(t), longer);
+                          *step, p->quantity, r.error, trial_unit(t), trial_horizon_s(t), longer);
     free(longer);
     return EXIT_DONE;
 }

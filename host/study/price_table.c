@@ -1,5 +1,6 @@
 #include "host/study/price_table.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -223,6 +224,7 @@ void table_free(table *made) {
 
 /* === three rows =============================================================================== */
 
+enum { FIGURE_TEXT = 64 };
 /* Most records of the run, and its steps per record. */
 enum { RECORDS_MOST = 20000, SPACING = 2 };
 /* Steps that a step of the run becomes, all rows together; and the reference's two runs together. */
@@ -307,26 +309,18 @@ void three_rows_print(FILE *out, const three_rows *t) {
 
 /* --- figures ---------------------------------------------------------------------------------------*/
 
-char figure_letter(cost_basis basis) {
-    switch (basis) {
-    case COST_NOT_KNOWN: return '-';
-    case COST_EXACT: return 'x';
-    case COST_PREDICTED: return 'p';
-    case COST_MEASURED: return 'm';
-    case COST_ESTIMATED: return 'e';
-    case COST_SIMULATED: return 's';
-    case COST_RANGE: return 'r';
-    }
-    return '-';
-}
+/* A letter for each basis. */
+static const char letters[] = "-xpmesr";
+static_assert(sizeof letters == COST_BASES + 1, "one each");
 
-const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]) {
+/* "1234 p", "-" if unknown. Returns text. */
+static const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]) {
     if (f->basis == COST_NOT_KNOWN) {
         snprintf(text, FIGURE_TEXT, "-");
     } else if (f->basis == COST_RANGE) {
         snprintf(text, FIGURE_TEXT, "%.3g to %.3g r", f->least, f->most);
     } else {
-        snprintf(text, FIGURE_TEXT, "%.0f %c", f->value, figure_letter(f->basis));
+        snprintf(text, FIGURE_TEXT, "%.0f %c", f->value, letters[f->basis]);
     }
     return text;
 }
@@ -342,7 +336,8 @@ const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]) {
     return text;
 }
 
-void figure_legend(FILE *out, const cost *c) {
+/* Explains the letters in `cost`, a line each: "p predicted: from the image, as a sum over its operations". */
+static void figure_legend(FILE *out, const cost *c) {
     static const char *const says[COST_BASES] = {
 #define COST_BASIS_SAYS(id, word, says) says,
         COST_BASIS_ROWS(COST_BASIS_SAYS)
@@ -357,8 +352,7 @@ void figure_legend(FILE *out, const cost *c) {
             there = there || (int)figures[i]->basis == basis;
         }
         if (there) {
-            fprintf(out, "  %c  %s: %s\n", figure_letter((cost_basis)basis),
-                    cost_basis_words[basis], says[basis]);
+            fprintf(out, "  %c  %s: %s\n", letters[basis], cost_basis_words[basis], says[basis]);
         }
     }
 }
@@ -459,7 +453,7 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
     char price[24];
     const cost *c = &row->cost;
     snprintf(error, sizeof error, "%s%.2e", row->result.bound ? "<" : "", row->result.error);
-    snprintf(price, sizeof price, "%.3g %c", row->price.value, figure_letter(row->price.basis));
+    snprintf(price, sizeof price, "%.3g %c", row->price.value, letters[row->price.basis]);
     fprintf(out, "%s %9s  %10s", row->on_front ? "*" : " ", error, price);
     fprintf(out, "  %8s", figure_text(&c->flash_bytes, text));
     fprintf(out, "  %7s", figure_text(&c->ram_bytes, text));

@@ -115,14 +115,6 @@ void three_rows_make(three_rows *t, const three_rows_wish *w);
 void three_rows_print(FILE *out, const three_rows *t);
 void three_rows_end(three_rows *t);
 
-enum { FIGURE_TEXT = 64 };
-
-/* "1234 p": a letter for the basis, "-" if unknown. Returns text. */
-const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]);
-/* The letter of a basis. */
-char figure_letter(cost_basis basis);
-/* Explains the letters in `cost`, a line each: "p predicted: from the image, within a bound". */
-void figure_legend(FILE *out, const cost *c);
 /* "predicted, of simulated figures, within 8 %". Returns text. */
 enum { FIGURE_WORDS = 120 };
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
