@@ -242,56 +242,25 @@ static void finish(progress *p) {
     free(shown);
 }
 
-static unsigned filled(const char *bar, size_t *width) {
-    *width = strcspn(bar, "]");
-    return (unsigned)strspn(bar, "#");
-}
-
 static void test_what_is_shown(void) {
-    dice d = dice_of("progress", 71);
-    for (unsigned i = 0; i < 200U; i++) {
-        const uint64_t end = 1U + dice_one_of(&d, 100000);
-        const uint64_t from = dice_one_of(&d, (unsigned)end);
-        const uint64_t done = from + dice_one_of(&d, (unsigned)(end - from) + 1U);
-        const double took_s = exp(dice_between(&d, -1.0, 6.0));
-        const double part = (double)done / (double)end;
-        progress p = begun(took_s, from, end);
-        progress_show(&p, done);
+    static const struct {
+        double ago_s;
+        uint64_t from, done, end;
+        const char *line;
+    } rows[] = {
+        {100.0, 0, 50, 100,
+         "\r 50.0 % [###############...............] 50/100  0.5 points/s  0:01:40 to go  "},
+        {1000.0, 40, 240, 3000,
+         "\r  8.0 % [###...........................] 240/3000  0.2 points/s  3:50:00 to go  "},
+        {5.0, 7, 7, 9, "\r 77.8 % [########################......] 7/9"},
+        {5.0, 0, 8, 8,
+         "\r100.0 % [##############################] 8/8  1.6 points/s  0:00:00 to go  "},
+        {5.0, 0, 0, 8, "\r  0.0 % [..............................] 0/8"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        progress p = begun(rows[i].ago_s, rows[i].from, rows[i].end);
+        progress_show(&p, rows[i].done);
         TEST_ASSERT_TRUE(p.drawn);
-        char counts[60];
-        size_t width;
-        double number;
-        const char *at = said_number(shown + 1, &number);
-        TEST_ASSERT_EQUAL_CHAR('\r', shown[0]);
-        TEST_ASSERT_DOUBLE_WITHIN(0.0501, 100.0 * part, number);
-        at = said_words(at, "% [");
-        const unsigned marks = filled(at, &width);
-        TEST_ASSERT_TRUE(fabs((double)marks - part * (double)width) <= 1.0);
-        TEST_ASSERT_TRUE(marks == width || done < end);
-        TEST_ASSERT_TRUE(marks > 0 || done == 0);
-        TEST_ASSERT_EQUAL_size_t(width - marks, strspn(at + marks, "."));
-        snprintf(counts, sizeof counts, " %llu/%llu", (unsigned long long)done,
-                 (unsigned long long)end);
-        at += width + 1;
-        TEST_ASSERT_EQUAL_STRING_LEN(counts, at, strlen(counts));
-        at += strlen(counts);
-        if (done == from) {
-            TEST_ASSERT_EQUAL_STRING("", at);
-        } else {
-            double rate;
-            double hours;
-            double minutes;
-            double seconds;
-            at = said_words(said_number(at, &rate), "points/s");
-            at = said_exactly(said_number(said_exactly(said_number(at, &hours), ":"), &minutes),
-                              ":");
-            at = said_words(said_number(at, &seconds), "to go");
-            const double left_s = took_s * (double)(end - done) / (double)(done - from);
-            TEST_ASSERT_DOUBLE_WITHIN(0.006 * rate, (double)(done - from) / took_s, rate);
-            TEST_ASSERT_TRUE(minutes < 60.0 && seconds < 60.0);
-            TEST_ASSERT_DOUBLE_WITHIN(1.01 + 1e-3 * left_s, left_s,
-                                      3600.0 * hours + 60.0 * minutes + seconds);
-        }
+        TEST_ASSERT_EQUAL_STRING(rows[i].line, shown);
         finish(&p);
     }
 }
