@@ -4,7 +4,7 @@
 # tests/host   suites of the program's own parts, on this machine
 # tests/chip   drivers of the STM32F405, on a chip that is played from its manual
 # tests/cli    scripts that drive build/whirl; each prints "ok - ..." or "not ok - ..." lines
-# Suites join by themselves: a file tests/*/test_*.c that defines `void suite_x(void)`. A test program takes
+# Suites join by themselves: tests/*/test_*.c with lines `TEST(x, name) {` (tests/suites.sh). A test program takes
 # names of suites (build/tests/host lang) and runs only those.
 
 CORE_TEST_C := tests/main.c $(sort $(wildcard tests/core/*.c))
@@ -35,7 +35,7 @@ $(UNITY_DIR)/unity.c:
 
 # --- programs -----------------------------------------------------------------------------------
 # suites_of FILES: their suites, a line "test_NAME.c" each: a file has one or several.
-suites_of = sed -n 's|^void suite_\([a-z0-9_]*\)(void) {.*|test_\1.c|p' $(1)
+suites_of = sh tests/suites.sh list $(1) | sed 's|\(.*\) .*|test_\1.c|'
 $(foreach t,core host chip,$(B)/tests/$(t)_suites.list): $(B)/tests/%_suites.list: FORCE
 	@mkdir -p $(@D)
 	@$(call suites_of,tests/$*/test_*.c) | sort >$@.new; cmp -s $@.new $@ || cp $@.new $@

@@ -11,4 +11,10 @@ struct suite {
 extern const struct suite suites[]; /* [suite_count] */
 extern const unsigned suite_count;
 
+/* A test of a suite; tests/suites.sh makes the table of these lines. What a suite needs first does its function, if it has one:
+ * `void suite_NAME(void) {`. */
+#define TEST(suite, name) \
+    void test_##suite##_##name(void); \
+    void test_##suite##_##name(void)
+
 #endif

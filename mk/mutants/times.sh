@@ -20,7 +20,7 @@ sum_of() { cat "$@" | cksum | tr -d ' '; }
 key() { # key KIND NAME
     case $1 in
     cli) echo "$common.$pages.$(sum_of "$2")" ;;
-    host) echo "$common.$(sum_of "$(grep -l "^void suite_$2(void)" tests/host/test_*.c)")" ;;
+    host) echo "$common.$(sum_of "$(grep -lE "^(void suite_|TEST\()$2[(,]" tests/host/test_*.c)")" ;;
     float | double) echo "$common.$(sum_of "tests/core/test_$2.c")" ;;
     *) echo "$common" ;;
     esac

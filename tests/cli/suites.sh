@@ -18,7 +18,7 @@ for name in host chip_netduinoplus2 core_double core_float; do
     *) sources=tests/core ;;
     esac
     listed=$(sed -n 's/^hint: one of //p' "$scratch/err" | tr -d ',' | tr ' ' '\n' | sort)
-    there=$(sed -n 's/^void suite_\([a-z0-9_]*\)(void) {.*/\1/p' "$sources"/test_*.c | sort -u)
+    there=$(sed -nE 's/^(void suite_|TEST\()([a-z0-9_]*)[(,].*\{.*/\2/p' "$sources"/test_*.c | sort -u)
     [ -n "$there" ] && [ "$listed" = "$there" ]
     verdict $? "$name lists the suites of $sources"
 
@@ -34,8 +34,8 @@ done
     printf 'tests/core/test_%s.c\n' lcp sine text | diff - "$scratch/files" >"$scratch/err"
 verdict $? "lines name the file of their suite"
 for kind in core host chip; do
-    sh tests/suites.sh tests/$kind/test_*.c | sed -n 's/^    {"\(suite_.*\)", "\(.*\)", .*/\2:void \1(void) {/p' >"$scratch/table"
-    grep -oH '^void suite_[a-z0-9_]*(void) {' tests/$kind/test_*.c | sort -u >"$scratch/there"
+    sh tests/suites.sh tests/$kind/test_*.c | sed -n 's/^    {"suite_\(.*\)", "\(.*\)", .*/\2:\1/p' >"$scratch/table"
+    grep -oHE '^(void suite_|TEST\()[a-z0-9_]*' tests/$kind/test_*.c | sed -E 's/(void suite_|TEST\()//' | sort -u >"$scratch/there"
     [ -s "$scratch/there" ] && sort "$scratch/table" | diff "$scratch/there" - >"$scratch/err"
     verdict $? "the suites of tests/$kind have their own files"
 done

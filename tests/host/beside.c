@@ -1,10 +1,6 @@
 #include "beside.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "derived.h"
-#include "unity.h"
 
 typedef struct seeing {
     beside *beside;

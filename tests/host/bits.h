@@ -2,8 +2,7 @@
 #ifndef TESTS_HOST_BITS_H
 #define TESTS_HOST_BITS_H
 
-#include <stdint.h>
-#include <string.h>
+#include "test.h"
 
 static inline double of_bits(uint64_t bits) {
     double value;

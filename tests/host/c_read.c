@@ -1,11 +1,5 @@
 #include "c_read.h"
-
-#include <ctype.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "unity.h"
+#include "test.h"
 
 static char *without_comments(const char *text) {
     const size_t length = strlen(text);

@@ -3,8 +3,7 @@
 #ifndef TESTS_HOST_C_READ_H
 #define TESTS_HOST_C_READ_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "test.h"
 
 typedef struct c_word {
     const char *at;

@@ -1,12 +1,6 @@
 /* c_run.c: evaluation of generated C (c_read.h). */
-#include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "c_read.h"
-#include "unity.h"
+#include "test.h"
 
 /* --- made-up values ---------------------------------------------------------------------------------------------- */
 

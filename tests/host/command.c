@@ -1,14 +1,7 @@
-#define _POSIX_C_SOURCE 200809L
 #include "command.h"
 
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "unity.h"
 
 enum { WORDS_MAX = 32 };
 

@@ -2,7 +2,7 @@
 #ifndef TESTS_HOST_COMMAND_H
 #define TESTS_HOST_COMMAND_H
 
-#include <stddef.h>
+#include "test.h"
 
 #define SAID_SIZE 8192
 

@@ -1,11 +1,5 @@
 #include "contacts.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "unity.h"
+#include "test.h"
 
 #define REFERENCE "tests/reference/contacts.txt"
 #define LINE_MAX_BYTES 1024

@@ -1,10 +1,6 @@
 /* curved.c: drawing of curved contacts. Coordinate a is an angle, b and c are lengths. */
 #include "curved.h"
 
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-
 #include "derived.h"
 
 typedef struct writing {

@@ -3,8 +3,7 @@
 #ifndef TESTS_CURVED_H
 #define TESTS_CURVED_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 
 /* Writes one to `text`, reproducible by its seed. Returns the scale of its energy balance: the energy at the start
  * without gravity and springs at rest, J. `step_s` and `until_s` go into its scene. */

@@ -1,18 +1,11 @@
-#define _POSIX_C_SOURCE 200809L
 
 #include "derived.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "host/emit/emit.h"
 #include "host/engine/engine.h"
 #include "host/lang/builtin.h"
 #include "host/show/show_equations.h"
 #include "host/show/show_events.h"
-#include "unity.h"
 
 const image_settings plainly = IMAGE_SETTINGS_DEFAULT;
 

@@ -3,6 +3,8 @@
 #ifndef TESTS_HOST_DERIVED_H
 #define TESTS_HOST_DERIVED_H
 
+#include "test.h"
+
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 

@@ -2,11 +2,6 @@
 
 #include "derived.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
-
 /* Solve a x = b by elimination with pivots; false where a is singular. */
 static bool solve(int n, double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1], double *x) {
     for (int p = 0; p < n; p++) {

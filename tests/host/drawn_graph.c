@@ -1,8 +1,5 @@
 #include "drawn_graph.h"
-
-#include <math.h>
-
-#include "unity.h"
+#include "test.h"
 
 typedef long double complex number;
 

@@ -1,7 +1,5 @@
 #include "drawn_scene.h"
-
-#include <math.h>
-#include <string.h>
+#include "test.h"
 
 #include "core/contact.h"
 #include "host/number/phase.h"

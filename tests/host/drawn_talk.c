@@ -1,13 +1,12 @@
-#define _POSIX_C_SOURCE 200809L
+
+#include "test.h"
 
 #include "drawn_talk.h"
 
-#include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include "core/hash.h"
-#include "unity.h"
 
 drawn_talk talk_drawn;
 stream talk_line;

@@ -1,12 +1,7 @@
 #include "emitted.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/emit/emit.h"
-#include "unity.h"
 
 enum { SCENES = 400, SCENES_MOST = 200, SCENES_FEW = 60 };
 

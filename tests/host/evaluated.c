@@ -1,8 +1,5 @@
 #include "evaluated.h"
-
-#include <math.h>
-
-#include "unity.h"
+#include "test.h"
 
 double evaluated_leaf(op_code code, int which) { return 0.6 + 0.3 * which + 0.11 * (int)code; }
 

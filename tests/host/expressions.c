@@ -1,10 +1,6 @@
 #include "expressions.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
 #include "derived.h"
-#include "unity.h"
 
 typedef struct writer {
     const expression_names *names;

@@ -2,8 +2,7 @@
 #ifndef TESTS_HOST_EXPRESSIONS_H
 #define TESTS_HOST_EXPRESSIONS_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 
 /* Names in expressions, all dimensionless. */
 typedef struct expression_names {

@@ -3,8 +3,7 @@
 #ifndef TESTS_HOST_FAKE_REGISTERS_H
 #define TESTS_HOST_FAKE_REGISTERS_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "test.h"
 
 #define FAKE_STORES 4096U
 

@@ -1,10 +1,7 @@
 /* faults_draw.c: random choice of a fault, its size, begin and duration. */
-#include <math.h>
-#include <stdarg.h>
-#include <string.h>
-
 #include "core/hash.h"
 #include "faults.h"
+#include "test.h"
 
 /* Noise of the cell in every run. */
 #define NOISE "cell-noise=0.07"

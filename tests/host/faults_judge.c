@@ -1,9 +1,7 @@
 /* faults_judge.c: verdict on a run from the plant's truth, not from the firmware's messages. */
-#include <math.h>
-#include <string.h>
-
 #include "faults.h"
 #include "host/pil/talk.h"
+#include "test.h"
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202

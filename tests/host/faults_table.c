@@ -1,9 +1,7 @@
 /* faults_table.c: a campaign in Markdown: the outcome by fault and state, and the worst runs with their commands. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "faults.h"
 #include "host/base/alloc.h"
+#include "test.h"
 
 #define OVERSPEED_SHARE 0.02 /* allowed share of all runs */
 #define CAUGHT_S 0.25        /* deadline for a drive that ignores the voltage, */

@@ -1,13 +1,5 @@
 #include "formula.h"
-
-#include <ctype.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "unity.h"
+#include "test.h"
 
 typedef struct reader {
     const char *at;

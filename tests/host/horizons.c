@@ -1,14 +1,8 @@
 #include "horizons.h"
-
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/lang/builtin.h"
 #include "host/study/reference_run.h"
-#include "unity.h"
 
 /* Most looks at the reference, and fewest steps between two. */
 enum { LOOKS = 10000 };

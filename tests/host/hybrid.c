@@ -4,11 +4,8 @@
  * M q'' = force - sum sign limit + J^T lambda, J q'' = -J' q' for each active contact. */
 #include "hybrid.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "drawn.h"
+#include "test.h"
 
 _Static_assert((int)LINKAGE_BODIES <= (int)DRAWN_MOST, "drawn.h tries the cases");
 

@@ -1,8 +1,4 @@
 /* hybrid_draw.c: random contacts for random linkages, and their text (hybrid.h). */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
 #include "hybrid.h"
 

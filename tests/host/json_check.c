@@ -1,8 +1,5 @@
 #include "json_check.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/base/spelling.h"
 

@@ -1,11 +1,8 @@
 #include "jumps.h"
-
-#include <stdio.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/check/pole_crossing.h"
 #include "host/cli/commands.h"
-#include "unity.h"
 
 said jumps_said;
 

@@ -1,11 +1,5 @@
 #include "latex.h"
-
-#include <ctype.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 /* TeX limits groups to 255; a few are for the page around. */
 enum { DEPTH_MAX = 240 };

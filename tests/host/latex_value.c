@@ -1,11 +1,5 @@
 #include "latex_value.h"
-
-#include <ctype.h>
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 /* Relative errors of a printed number, a sum, a product and a function value. */
 #define PRINTED 1e-13

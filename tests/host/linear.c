@@ -1,13 +1,6 @@
 /* linear.c: random linear mechanisms, and their steps by scaling and squaring in 113 bits. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "derived.h"
 #include "linear.h"
-#include "unity.h"
+#include "derived.h"
 
 quad quad_size(quad x) { return x < 0 ? -x : x; }
 

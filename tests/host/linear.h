@@ -2,8 +2,7 @@
 #ifndef TESTS_HOST_LINEAR_H
 #define TESTS_HOST_LINEAR_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 
 __extension__ typedef __float128 quad;
 

@@ -1,10 +1,5 @@
 #include "linkage.h"
-
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 static uint64_t next(uint64_t *seed) { /* splitmix64 */
     uint64_t z = *seed += 0x9e3779b97f4a7c15U;

@@ -3,8 +3,7 @@
 #ifndef TESTS_HOST_LINKAGE_H
 #define TESTS_HOST_LINKAGE_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "test.h"
 
 enum { LINKAGE_BODIES = 4, LINKAGE_SPRINGS = 2, LINKAGE_TEXT = 16384 };
 

@@ -4,10 +4,8 @@
  * sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
 #include "linkage.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "jet.h"
+#include "test.h"
 
 _Static_assert(2 * LINKAGE_BODIES <= JET_VARIABLES, "a variable for each value and rate");
 

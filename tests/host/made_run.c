@@ -1,10 +1,5 @@
 #include "made_run.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "unity.h"
+#include "test.h"
 
 made_up_run made_run;
 

@@ -1,13 +1,9 @@
-#define _POSIX_C_SOURCE 200809L
+
+#include "test.h"
 
 #include "made_sweep.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include "unity.h"
 
 const char made_sweep_floor[] =
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"

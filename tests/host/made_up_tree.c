@@ -1,13 +1,11 @@
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
+
 #include "made_up_tree.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "unity.h"
 
 static char root[] = "build/tests/tree-XXXXXX";
 static char before[4096]; /* the working directory */

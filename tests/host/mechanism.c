@@ -1,10 +1,5 @@
 #include "mechanism.h"
-
-#include <inttypes.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include "test.h"
 
 enum { COORDINATES_MAX = 4, PHRASE = 64, PHRASES = 3 * COORDINATES_MAX + 4 };
 

@@ -2,8 +2,7 @@
 #ifndef TESTS_HOST_MECHANISM_H
 #define TESTS_HOST_MECHANISM_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 
 enum { MECHANISM_SIZE = 16384 };
 

@@ -1,15 +1,8 @@
 /* motion.c: a built-in scene, stepped inside the test. */
 #include "motion.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/derive/lagrange.h"
 #include "host/lang/builtin.h"
-
-#include "unity.h"
 
 #define REFERENCE "tests/reference/trajectory.txt"
 #define LINE_MAX_BYTES 1024

@@ -4,6 +4,8 @@
 #ifndef TESTS_MOTION_H
 #define TESTS_MOTION_H
 
+#include "test.h"
+
 #include "host/derive/image_make.h"
 #include "host/engine/engine.h"
 

@@ -1,11 +1,6 @@
 #include "named_cures.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
-
-#include "unity.h"
 
 static void read_word(const char *from, const char *option, char word[CURE_WORD]) {
     const char *at = strstr(from, option);

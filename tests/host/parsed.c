@@ -1,12 +1,6 @@
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
+
 #include "parsed.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "unity.h"
 
 diags *said;
 whirl_model *parsed;

@@ -1,9 +1,5 @@
 #include "priced.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "unity.h"
+#include "test.h"
 
 const char *const priced_ball[1] = {
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"

@@ -1,15 +1,12 @@
-#define _POSIX_C_SOURCE 200809L
+
+#include "test.h"
 
 #include "printed.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "host/emit/emit.h"
 #include "host/show/show_equations.h"
-#include "unity.h"
 
 void each_mechanism(checker *check) {
     static const char *const own[] = {"spherical_particle",  "masses_relative", "masses_absolute",

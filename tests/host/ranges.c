@@ -1,9 +1,5 @@
 #include "ranges.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
+#include "test.h"
 
 static void look(const motion *m, range *r, unsigned count, bool first) {
     for (unsigned i = 0; i < count; i++) {

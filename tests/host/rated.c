@@ -1,12 +1,7 @@
 #include "rated.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/number/functions.h"
-#include "unity.h"
 
 /* The reference's step, s: a 32nd of the run's, but at least 0.1 ms and at most a quarter of the run's. */
 static double finer_s(double step_s) {

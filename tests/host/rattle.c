@@ -1,8 +1,5 @@
 #include "rattle.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "test.h"
 
 rattle rattle_drawn(dice *d, rattle_kind kind) {
     rattle r = {.kind = kind, .step_s = pow(10.0, dice_between(d, -4.0, -2.0))};

@@ -1,14 +1,9 @@
-#define _POSIX_C_SOURCE 200809L
-#include "reread.h"
+#include "test.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "reread.h"
 
 #include "host/lang/value.h"
 #include "latex.h"
-#include "unity.h"
 
 const char *const reread_coordinates[REREAD_COORDINATES] = {"theta1", "x", "phi_1_a", "_odd"};
 const char *const reread_constants[REREAD_CONSTANTS] = {"a1",     "n_1",  "mass_of_it",

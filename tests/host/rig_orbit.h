@@ -3,10 +3,8 @@
 #ifndef TESTS_RIG_ORBIT_H
 #define TESTS_RIG_ORBIT_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "core/rig/result.h"
+#include "test.h"
 
 /* The plant: eccentric_fixed with gravity of core/models/eccentric.whirl, written independently. */
 typedef struct rig_plant {

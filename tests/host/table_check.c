@@ -1,7 +1,5 @@
 #include "table_check.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "test.h"
 
 #include "core/step/table.h"
 #include "host/base/alloc.h"

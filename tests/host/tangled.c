@@ -1,10 +1,5 @@
 #include "tangled.h"
 
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
 
 enum { BODIES = 4, STATEMENTS = 16, LINE = 160 };

@@ -3,8 +3,7 @@
 #ifndef TESTS_TANGLED_H
 #define TESTS_TANGLED_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 
 typedef struct tangle {
     uint64_t seed;  /* same seed, same mechanism */

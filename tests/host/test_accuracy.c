@@ -3,19 +3,9 @@
  * A lower bound requires the method's own error to be visible. An error below Runge-Kutta's truncation would mean that
  * a run is compared with itself. "Printed" numbers were computed independently of Whirl with SymPy and high-order
  * integration and have 12 digits. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "horizons.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_accuracy(void);
-void suite_trust_drawn(void);
 
 /* === accuracy ================================================================================= */
 
@@ -39,7 +29,7 @@ static void expect_within(const char *what, double least, double most, double go
 
 /* --- the particle: free flight --------------------------------------------------------------------- */
 
-static void test_particle_flies_a_parabola(void) {
+TEST(accuracy, particle_flies_a_parabola) {
     /* The start of spherical_flight in Cartesian coordinates. */
     const double r = 5.0, theta = 1.25, phi = 0.5, r_ = 8.0, theta_ = -0.75, phi_ = 0.5, g = 9.81;
     const double s = sin(theta), c = cos(theta), sp = sin(phi), cp = cos(phi);
@@ -62,7 +52,7 @@ static void test_particle_flies_a_parabola(void) {
 
 /* --- two masses ------------------------------------------------------------------------------------ */
 
-static void test_two_masses_at_the_printed_times(void) {
+TEST(accuracy, two_masses_at_the_printed_times) {
     static const printed_value at_half_s[] = {{"x_1_in", 2.14780055387}, {"x_2_in", 4.30952721882}};
     static const printed_value at_2s[] = {{"x_1_in", 2.32102447395}, {"x_2_in", 4.37194168954}};
     static const char *const sets[] = {"two_mass_absolute", "two_mass_relative"};
@@ -77,7 +67,7 @@ static void test_two_masses_at_the_printed_times(void) {
     }
 }
 
-static void test_two_masses_move_alike_in_both_coordinate_sets(void) {
+TEST(accuracy, two_masses_move_alike_in_both_coordinate_sets) {
     motion absolute;
     motion relative;
     double apart = 0.0;
@@ -98,7 +88,7 @@ static void test_two_masses_move_alike_in_both_coordinate_sets(void) {
 
 /* --- epicyclic gear -------------------------------------------------------------------------------- */
 
-static void test_epicyclic_gear_at_9s(void) {
+TEST(accuracy, epicyclic_gear_at_9s) {
     static const printed_value at_9s[] = {{"theta", 89.6342558332},
                                           {"X", 0.329611268310},
                                           {"theta'", 22.2610447620},
@@ -133,7 +123,7 @@ static void test_epicyclic_gear_at_9s(void) {
 
 /* --- disc on a driven hinge ------------------------------------------------------------------------- */
 
-static void test_driven_hinge_at_5s(void) {
+TEST(accuracy, driven_hinge_at_5s) {
     static const printed_value at_5s[] = {{"theta1", -48.3378303236}, {"theta2", -47.1025341932}};
     motion m;
     motion_open(&m, "driven_hinge_from_rest", IN_DOUBLE);
@@ -143,7 +133,7 @@ static void test_driven_hinge_at_5s(void) {
 }
 
 /* Turning points define the swing: at exactly 6 s it is moving back from one at 5.997 s, and 1.287 rad out. */
-static void test_driven_hinge_goes_on_swinging(void) {
+TEST(accuracy, driven_hinge_goes_on_swinging) {
     motion m;
     double before = 0.0;
     double last = 0.0;
@@ -205,7 +195,7 @@ static thomson_error thomson_error_of(stepping how) {
 }
 
 /* 1 ms is fine enough for the dissertation's figures. */
-static void test_thomson_at_5s_and_8s_with_1_ms(void) {
+TEST(accuracy, thomson_at_5s_and_8s_with_1_ms) {
     const thomson_error e = thomson_error_of(IN_DOUBLE_STEP(1e-3));
     expect_within("S8 error at 5 s, 1 ms, three positions", 1e-8, 5e-6, e.positions_at_5s);
     expect_within("S8 error at 5 s, 1 ms, six states", 1e-7, 5e-6, e.states_at_5s);
@@ -216,7 +206,7 @@ static void test_thomson_at_5s_and_8s_with_1_ms(void) {
 
 /* A fifth of that step reduces the error by 5^4 = 625, and the bounds with it. The printed positions have ten
  * decimals. */
-static void test_thomson_at_5s_and_8s(void) {
+TEST(accuracy, thomson_at_5s_and_8s) {
     const thomson_error e = thomson_error_of(IN_DOUBLE);
     expect_within("S8 error at 5 s, three positions", 1e-10, 5e-6 / 625.0, e.positions_at_5s);
     expect_within("S8 error at 5 s, six states", 1e-10, 5e-6 / 625.0, e.states_at_5s);
@@ -254,13 +244,13 @@ static void thomson_stays(const char *name, double centre, double middle, double
 
 /* X = centre - r/3 (4 cos theta1 + cos 2 theta1 + cos theta2) lies between centre - 0.6 and centre + 0.4 m. The runs
  * come within 1.4 mm of both limits. Printed for set A: 0.9987 m. */
-static void test_thomson_stays_where_it_is(void) {
+TEST(accuracy, thomson_stays_where_it_is) {
     thomson_stays("thomson_a", 0.6, 0.5, 0.5, 0.4986);
     thomson_stays("thomson_b", 0.5, 0.4, 0.5, 0.4986);
 }
 
 /* With X recovered from its momentum, the other coordinates move as before. Only round-off moves the centre of mass. */
-static void test_thomson_with_the_carriage_from_its_momentum(void) {
+TEST(accuracy, thomson_with_the_carriage_from_its_momentum) {
     motion m;
     double off = 0.0;
     motion_open(&m, "thomson_a_conserved", IN_DOUBLE);
@@ -277,7 +267,7 @@ static void test_thomson_with_the_carriage_from_its_momentum(void) {
 }
 
 /* Growth of an initial change of 1e-9 rad. Printed: 6e3 by 5 s, 2e4 by 9 s, 1e9 by 10 s. */
-static void test_thomson_is_chaotic(void) {
+TEST(accuracy, thomson_is_chaotic) {
     static const char *const names[] = {"theta1", "theta2", "X", "theta1'", "theta2'", "X'"};
     static const struct {
         double time_s;
@@ -306,28 +296,13 @@ static void test_thomson_is_chaotic(void) {
 }
 
 /* The dissertation has theta1' = -8.5 and X' = 0 at 9.4 s; its equations give -5.24 and 2.66. */
-static void test_thomson_at_9_4s(void) {
+TEST(accuracy, thomson_at_9_4s) {
     motion m;
     motion_open(&m, "thomson_a", IN_DOUBLE_STEP(0.125e-3));
     motion_to(&m, 9.4);
     TEST_ASSERT_DOUBLE_WITHIN(0.005, -5.24, motion_value(&m, "theta1'"));
     TEST_ASSERT_DOUBLE_WITHIN(0.005, 2.66, motion_value(&m, "X'"));
     motion_close(&m);
-}
-
-void suite_accuracy(void) {
-    RUN_TEST(test_particle_flies_a_parabola);
-    RUN_TEST(test_two_masses_at_the_printed_times);
-    RUN_TEST(test_two_masses_move_alike_in_both_coordinate_sets);
-    RUN_TEST(test_epicyclic_gear_at_9s);
-    RUN_TEST(test_driven_hinge_at_5s);
-    RUN_TEST(test_driven_hinge_goes_on_swinging);
-    RUN_TEST(test_thomson_at_5s_and_8s_with_1_ms);
-    RUN_TEST(test_thomson_at_5s_and_8s);
-    RUN_TEST(test_thomson_stays_where_it_is);
-    RUN_TEST(test_thomson_with_the_carriage_from_its_momentum);
-    RUN_TEST(test_thomson_is_chaotic);
-    RUN_TEST(test_thomson_at_9_4s);
 }
 
 /* === trust drawn ============================================================================== */
@@ -541,7 +516,7 @@ static void spread_of(const char *what, double *ratio, unsigned count) {
 
 enum { MOST_CASES = 400 };
 
-static void test_drawn_mechanisms(void) {
+TEST(trust_drawn, drawn_mechanisms) {
     static double ratio[MOST_CASES];
     static double twin[TWINS][MOST_CASES];
     dice d = dice_of("trust_drawn", 14);
@@ -589,5 +564,3 @@ static void test_drawn_mechanisms(void) {
         spread_of(twin_names[k], twin[k], count);
     }
 }
-
-void suite_trust_drawn(void) { RUN_TEST(test_drawn_mechanisms); }

@@ -1,21 +1,9 @@
 /* test_algebra.c: the normal form: equal expressions become one object and different ones do not. Values, derivatives
  * and substitutions of random expressions are right. */
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/algebra/algebra.h"
 
 #include "derived.h"
 #include "forms.h"
-
-#include "unity.h"
-
-void suite_algebra(void);
-void suite_algebra_limits(void);
-void suite_normal_form(void);
 
 /* === algebra ================================================================================== */
 
@@ -59,7 +47,7 @@ typedef struct pair {
     const char *right;
 } pair;
 
-static void test_equal_expressions_are_one_object(void) {
+TEST(algebra, equal_expressions_are_one_object) {
     static const pair equal[] = {
         {"sin(a)^2 + cos(a)^2", "1"},
         {"sin(a)*sin(b)", "cos(a - b)/2 - cos(a + b)/2"},
@@ -115,7 +103,7 @@ static void test_equal_expressions_are_one_object(void) {
     }
 }
 
-static void test_what_differs_somewhere_stays_apart(void) {
+TEST(algebra, what_differs_somewhere_stays_apart) {
     static const pair different[] = {
         {"sqrt(x^2)", "x"},           {"sqrt(x^2)", "-x"},      {"abs(x)", "x"},
         {"(x^4)^0.25", "x"},          {"sqrt(x^4)", "-x^2"},    {"asin(sin(a))", "a"},
@@ -131,7 +119,7 @@ static void test_what_differs_somewhere_stays_apart(void) {
 }
 
 /* A cube of a sum is kept. poly_expanded() finds equality that needs expansion. */
-static void test_kept_powers_are_equal_when_expanded(void) {
+TEST(algebra, kept_powers_are_equal_when_expanded) {
     static const pair equal[] = {
         {"(x - y)^3", "x^3 - 3*x^2*y + 3*x*y^2 - y^3"},
         {"(x + y)^4", "((x + y)^2)^2"},
@@ -362,7 +350,7 @@ static void check_random(uint64_t *seed, int depth, tally *score) {
     algebra_free(a);
 }
 
-static void test_random_expressions_their_derivatives_and_substitutions(void) {
+TEST(algebra, random_expressions_their_derivatives_and_substitutions) {
     uint64_t seed = 20060412;
     tally score = {0};
     for (int i = 0; i < 6000; i++) {
@@ -376,13 +364,6 @@ static void test_random_expressions_their_derivatives_and_substitutions(void) {
     for (int f = 0; f < FUNCTIONS; f++) {
         TEST_ASSERT_GREATER_THAN_INT(100, score.functions[f]);
     }
-}
-
-void suite_algebra(void) {
-    RUN_TEST(test_equal_expressions_are_one_object);
-    RUN_TEST(test_what_differs_somewhere_stays_apart);
-    RUN_TEST(test_kept_powers_are_equal_when_expanded);
-    RUN_TEST(test_random_expressions_their_derivatives_and_substitutions);
 }
 
 /* === algebra limits =========================================================================== */
@@ -423,7 +404,7 @@ static double expected_magnitude(const poly *p, double *at) {
     return sum;
 }
 
-static void test_magnitudes_are_sums_of_sizes(void) {
+TEST(algebra_limits, magnitudes_are_sums_of_sizes) {
     uint64_t seed = 97;
     int differing = 0;
     for (int i = 0; i < 1500; i++) {
@@ -445,7 +426,7 @@ static void test_magnitudes_are_sums_of_sizes(void) {
 }
 
 /* x^y and similar: other random expressions have powers of numbers only. */
-static void test_powers_of_expressions_and_their_slopes(void) {
+TEST(algebra_limits, powers_of_expressions_and_their_slopes) {
     uint64_t seed = 5;
     int slopes = 0;
     for (int i = 0; i < 600; i++) {
@@ -484,7 +465,7 @@ static void test_powers_of_expressions_and_their_slopes(void) {
     TEST_ASSERT_GREATER_THAN_INT(200, slopes);
 }
 
-static void test_a_number_that_is_none_is_seen_wherever_it_is(void) {
+TEST(algebra_limits, a_number_that_is_none_is_seen_wherever_it_is) {
     algebra *a = algebra_new();
     const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     const poly *q = poly_symbol(a, &form_symbols[0], 0);
@@ -513,7 +494,7 @@ static void test_a_number_that_is_none_is_seen_wherever_it_is(void) {
 
 static double grown(double number, double by) { return number + by; }
 
-static void test_each_number_is_changed_and_those_that_vanish_go(void) {
+TEST(algebra_limits, each_number_is_changed_and_those_that_vanish_go) {
     uint64_t seed = 11;
     for (int i = 0; i < 200; i++) {
         algebra *a = algebra_new();
@@ -548,7 +529,7 @@ static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
 }
 
 /* Powers of a sum are expanded up to 64 products; for positions, only squares. */
-static void test_powers_are_multiplied_out_up_to_a_size(void) {
+TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     symbol rates[12];
     for (int count = 2; count <= 12; count++) {
         for (int exponent = 2; exponent <= 7; exponent++) {
@@ -584,7 +565,7 @@ static void test_powers_are_multiplied_out_up_to_a_size(void) {
 }
 
 /* A product of sums with more than 400000 terms stays a product, with the same value. */
-static void test_large_products_stay_products(void) {
+TEST(algebra_limits, large_products_stay_products) {
     enum { MOST = 633 };
     static symbol rates[MOST];
     for (int count = MOST - 1; count <= MOST; count++) {
@@ -600,7 +581,7 @@ static void test_large_products_stay_products(void) {
 }
 
 /* An expression beyond 10^6 leaves reports overflow. */
-static void test_what_grows_without_end_overflows(void) {
+TEST(algebra_limits, what_grows_without_end_overflows) {
     algebra *a = algebra_new();
     const poly *p = poly_symbol(a, &form_symbols[0], 0);
     double last = 0.0;
@@ -616,7 +597,7 @@ static void test_what_grows_without_end_overflows(void) {
 }
 
 /* The limit must not depend on the host: objects count with fixed sizes, 48 bytes per table entry. */
-static void test_work_is_counted_alike_on_every_host(void) {
+TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     algebra *a = algebra_new();
     enum { ATOM = 72 + 48, MONO = 48 + 48, POLY = 32 + 48, PART = 16, PAIR = 24 + 48, TERM = 2 };
     size_t before = a->work;
@@ -641,7 +622,7 @@ static void test_work_is_counted_alike_on_every_host(void) {
 
 /* A chain of lets, each using the previous one twice, is evaluated once per let. Otherwise 2^60 evaluations would never
  * end. */
-static void test_lets_are_worked_out_once(void) {
+TEST(algebra_limits, lets_are_worked_out_once) {
     enum { LETS = 60 };
     char text[8192];
     size_t length = (size_t)snprintf(text, sizeof text,
@@ -664,7 +645,7 @@ static void test_lets_are_worked_out_once(void) {
 }
 
 /* 0.1 + 0.2 - 0.3 is zero; a ten times larger difference is not. */
-static void test_what_cancels_to_a_rounding_error_is_zero(void) {
+TEST(algebra_limits, what_cancels_to_a_rounding_error_is_zero) {
     algebra *a = algebra_new();
     const poly *q = poly_symbol(a, &form_symbols[0], 0);
     const double sizes[] = {1e-30, 1.0, 3e20};
@@ -715,7 +696,7 @@ static double leibniz(const double *m, int n, const int *rows, const int *column
     return sum;
 }
 
-static void test_determinants_of_any_rows_and_columns(void) {
+TEST(algebra_limits, determinants_of_any_rows_and_columns) {
     uint64_t seed = 3;
     for (int i = 0; i < 120; i++) {
         const int n = 1 + i % 5;
@@ -748,20 +729,6 @@ static void test_determinants_of_any_rows_and_columns(void) {
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, leibniz(numbers, n, row, column, size), value);
         algebra_free(a);
     }
-}
-
-void suite_algebra_limits(void) {
-    RUN_TEST(test_magnitudes_are_sums_of_sizes);
-    RUN_TEST(test_powers_of_expressions_and_their_slopes);
-    RUN_TEST(test_a_number_that_is_none_is_seen_wherever_it_is);
-    RUN_TEST(test_each_number_is_changed_and_those_that_vanish_go);
-    RUN_TEST(test_powers_are_multiplied_out_up_to_a_size);
-    RUN_TEST(test_large_products_stay_products);
-    RUN_TEST(test_what_grows_without_end_overflows);
-    RUN_TEST(test_work_is_counted_alike_on_every_host);
-    RUN_TEST(test_lets_are_worked_out_once);
-    RUN_TEST(test_what_cancels_to_a_rounding_error_is_zero);
-    RUN_TEST(test_determinants_of_any_rows_and_columns);
 }
 
 /* === normal form ============================================================================== */
@@ -937,7 +904,7 @@ static int forms(void) {
     return wanted != NULL ? (int)strtol(wanted, NULL, 10) : 3000;
 }
 
-static void test_every_expression_keeps_the_form(void) {
+TEST(normal_form, every_expression_keeps_the_form) {
     uint64_t seed = 20061122;
     printf("  %d expressions, seed %" PRIu64 "\n", forms(), seed);
     int seen[4] = {0};
@@ -971,7 +938,7 @@ static void test_every_expression_keeps_the_form(void) {
 }
 
 /* Sums, products and the order of two do not depend on the order of arguments. */
-static void test_the_order_of_arguments_does_not_matter(void) {
+TEST(normal_form, the_order_of_arguments_does_not_matter) {
     uint64_t seed = 31;
     for (int i = 0; i < 400; i++) {
         algebra *a = algebra_new();
@@ -1028,7 +995,7 @@ static char *written(const poly *p) {
     return text;
 }
 
-static void test_the_form_does_not_hang_on_what_was_made_before(void) {
+TEST(normal_form, the_form_does_not_hang_on_what_was_made_before) {
     for (uint64_t number = 1; number <= 300; number++) {
         algebra *fresh = algebra_new();
         algebra *used = algebra_new();
@@ -1049,10 +1016,4 @@ static void test_the_form_does_not_hang_on_what_was_made_before(void) {
         algebra_free(fresh);
         algebra_free(used);
     }
-}
-
-void suite_normal_form(void) {
-    RUN_TEST(test_every_expression_keeps_the_form);
-    RUN_TEST(test_the_order_of_arguments_does_not_matter);
-    RUN_TEST(test_the_form_does_not_hang_on_what_was_made_before);
 }

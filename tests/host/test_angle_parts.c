@@ -3,20 +3,10 @@
  *
  * WHIRL_RANDOM_OUTPUTS=N takes N random outputs instead of 2000. WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms, for
  * tests/cli/angle_parts.sh to compile. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "host/study/point.h"
-#include "unity.h"
 #include "wave_exprs.h"
-
-void suite_angle_parts(void);
 
 enum { OUTPUTS = 25, STEPS = 40, TEXT_ROOM = 64 + OUTPUTS * (WAVE_TEXT + 32) };
 static const uint64_t first_seed = UINT64_C(20261121);
@@ -219,7 +209,7 @@ static void keep(const sample *s, int number) {
 
 static sample drawn;
 
-static void test_made_up_outputs(void) {
+TEST(angle_parts, made_up_outputs) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     const char *wanted = getenv("WHIRL_RANDOM_OUTPUTS");
     const int total = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 2000;
@@ -259,7 +249,7 @@ static void test_made_up_outputs(void) {
 
 /* A sine or cosine of one multiple of one angle, up to ten thousand turns from zero. In float it has the error of any
  * sine (6.3e-8; docs/dev/numerics.md) plus one phase unit (1.5e-9 rad) for the multiple. */
-static void test_float_sines_of_parts(void) {
+TEST(angle_parts, float_sines_of_parts) {
     uint64_t seed = first_seed;
     double worst = 0.0;
     int parts = 0;
@@ -285,9 +275,4 @@ static void test_float_sines_of_parts(void) {
     printf("  %d sines of parts of angles in float, to 1e4 turns: worst error %.3g\n", parts,
            worst);
     TEST_ASSERT_TRUE(parts > 500 && worst < 6.6e-8 && worst > 3e-8);
-}
-
-void suite_angle_parts(void) {
-    RUN_TEST(test_made_up_outputs);
-    RUN_TEST(test_float_sines_of_parts);
 }

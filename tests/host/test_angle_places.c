@@ -1,16 +1,9 @@
 /* test_angle_places.c: every place of the language that can contain a fraction of an angle. Those that act on the
  * motion make the coordinate a real. The others leave the run and the other outputs unchanged. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "motion.h"
 #include "parsed.h"
-#include "unity.h"
-
-void suite_angle_places(void);
 
 static const struct {
     const char *text;
@@ -68,7 +61,7 @@ static void check_place(const derived *d, size_t which, double times, const char
 }
 
 /* A coordinate is kept as a turn angle only if all places that act on the motion use integer multiples. */
-static void test_all_that_acts_takes_part(void) {
+TEST(angle_places, all_that_acts_takes_part) {
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         for (int i = 0; i < MULTIPLES; i++) {
             char text[512];
@@ -122,7 +115,7 @@ static uint64_t run_to(const char *more, const engine_kind *kind, double *output
     return hash;
 }
 
-static void test_outputs_leave_all_else_alone(void) {
+TEST(angle_places, outputs_leave_all_else_alone) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     static const char *const outputs[] = {
         "output h = cos(th/2)\n",
@@ -147,7 +140,7 @@ static void test_outputs_leave_all_else_alone(void) {
 }
 
 /* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), for any outputs. */
-static void test_recovered_angle(void) {
+TEST(angle_places, recovered_angle) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     parse(
         "mechanism m\ncoordinate th [rad]\ncoordinate ph [rad]\n"
@@ -182,7 +175,7 @@ static void test_recovered_angle(void) {
 }
 
 /* A system's state is kept as a turn angle, too. Multiples too large for a phase factor are not. */
-static void test_systems_and_large_multiples(void) {
+TEST(angle_places, systems_and_large_multiples) {
     parse(
         "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
         "equation th' = w*(2 + sin(th))\nequation q' = w*cos(2*th)\n"
@@ -226,7 +219,7 @@ static const char gauge[] =
     "mechanism m\ncoordinate th [rad]\n"
     "T = 0.5 [kg*m^2]*th'^2 + 0.7 [kg*m^2/s]*th'*cos(th/2)\nV = -2 [J]*cos(th)\n";
 
-static void test_books_of_a_part(void) {
+TEST(angle_places, books_of_a_part) {
     derived d = derived_text(gauge);
     derived_expect(&d, gauge);
     TEST_ASSERT_EQUAL_INT(1, d.image->angles);
@@ -242,7 +235,7 @@ static void test_books_of_a_part(void) {
 }
 
 /* No equation contains the fraction, but the momentum changes with it: the ledger's powers use the whole angle. */
-static void test_ledger_takes_a_part(void) {
+TEST(angle_places, ledger_takes_a_part) {
     char text[1024];
     snprintf(text, sizeof text, "%sscene s { start th = 1000, th' = 3 [rad/s]; until 5 [s] }\n",
              gauge);
@@ -260,13 +253,4 @@ static void test_ledger_takes_a_part(void) {
         TEST_ASSERT_TRUE(fabs(left[0]) < bound && fabs(left[1]) < bound);
         motion_close(&m);
     }
-}
-
-void suite_angle_places(void) {
-    RUN_TEST(test_all_that_acts_takes_part);
-    RUN_TEST(test_outputs_leave_all_else_alone);
-    RUN_TEST(test_recovered_angle);
-    RUN_TEST(test_systems_and_large_multiples);
-    RUN_TEST(test_books_of_a_part);
-    RUN_TEST(test_ledger_takes_a_part);
 }

@@ -1,13 +1,6 @@
 /* test_arm.c: arms of six joints: the derived equations against the recursion of Newton and Euler (Luh, Walker and Paul
  * 1980) in world coordinates, which uses no energies. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/base/alloc.h"
 #include "host/cli/commands.h"
@@ -16,14 +9,6 @@
 #include "derived.h"
 #include "linkage.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_arm(void);
-void suite_hinged(void);
-void suite_leans(void);
-void suite_linkages(void);
-void suite_never_singular(void);
 
 /* === arm ====================================================================================== */
 
@@ -184,7 +169,7 @@ static void torques(const arm_arm *a, const state_values *s, double *torque, dou
     }
 }
 
-static void test_arms_of_six_joints_move_as_newton_and_euler_say(void) {
+TEST(arm, arms_of_six_joints_move_as_newton_and_euler_say) {
     dice d = dice_of("arm", 4701);
     double worst = 0.0;
     for (unsigned c = 0; c < few_or_all(1, 4); c++) {
@@ -222,8 +207,6 @@ static void test_arms_of_six_joints_move_as_newton_and_euler_say(void) {
     printf("  off by at most %.2g of the terms\n", worst);
     TEST_ASSERT_TRUE(worst < 1e-13);
 }
-
-void suite_arm(void) { RUN_TEST(test_arms_of_six_joints_move_as_newton_and_euler_say); }
 
 /* === hinged =================================================================================== */
 /* Bodies on hinges, which derivation eliminates (host/derive/solve.c): random carriages, arms and hinged bodies. The
@@ -334,7 +317,7 @@ static double left_over(const derived *d, uint64_t *seed) {
     return worst;
 }
 
-static void test_accelerations_fulfil_their_equations(void) {
+TEST(hinged, accelerations_fulfil_their_equations) {
     uint64_t seed = 20261122;
     double worst = 0.0;
     const unsigned mechanisms = usual_or(MECHANISMS, 40);
@@ -354,8 +337,6 @@ static void test_accelerations_fulfil_their_equations(void) {
     TEST_MESSAGE(words);
     TEST_ASSERT_TRUE(worst > 0.0);
 }
-
-void suite_hinged(void) { RUN_TEST(test_accelerations_fulfil_their_equations); }
 
 /* === leans ==================================================================================== */
 /* The energy residual (host/check/energy_residual.h) must not depend on choices without effect on the motion. These are
@@ -398,7 +379,7 @@ static double left_over_leans(const charge *c, const char *potential, double x0,
     return strtod(at + strlen("\nenergy left over "), NULL);
 }
 
-static void test_origins_and_potentials(void) {
+TEST(leans, origins_and_potentials) {
     static const char *const methods[] = {"nystroem5", "rk4", "heun", "semi-implicit-euler"};
     dice d = dice_of("leans", 61);
     unsigned told = 0;
@@ -425,8 +406,6 @@ static void test_origins_and_potentials(void) {
     printf("  %u of %u charges told\n", told, runs);
     TEST_ASSERT_TRUE(told > 0 && told < runs);
 }
-
-void suite_leans(void) { RUN_TEST(test_origins_and_potentials); }
 
 /* === linkages ================================================================================= */
 /* Random planar linkages: equations derived from their text against the same energies differentiated numerically
@@ -512,7 +491,7 @@ static double worst_acceleration(const linkage *of, linkage_writing how, uint64_
     return worst;
 }
 
-static void test_accelerations_are_those_of_the_energies(void) {
+TEST(linkages, accelerations_are_those_of_the_energies) {
     dice d = dice_of("linkages", 14);
     uint64_t seed = d.state;
     double worst = 0.0;
@@ -574,7 +553,7 @@ static moved integrated(const linkage *of, double step_s, int steps) {
 
 /* With sines evaluated at each stage, the error is round-off. With rotated sines it is below a hundredth of the
  * method's own error (docs/dev/numerics.md). */
-static void test_motions_are_those_of_the_energies(void) {
+TEST(linkages, motions_are_those_of_the_energies) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
     double share = 0.0;
@@ -602,7 +581,7 @@ static void test_motions_are_those_of_the_energies(void) {
 
 /* --- invariances --------------------------------------------------------------------------------------------- */
 
-static void test_a_mirror_image_moves_as_the_mirror_image(void) {
+TEST(linkages, a_mirror_image_moves_as_the_mirror_image) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
     for (unsigned k = 0; k < cases(); k += ONE_IN) {
@@ -622,7 +601,7 @@ static void test_a_mirror_image_moves_as_the_mirror_image(void) {
     printf("  the mirror image is off by at most %.1e\n", worst);
 }
 
-static void test_the_order_of_the_file_does_not_matter(void) {
+TEST(linkages, the_order_of_the_file_does_not_matter) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
     for (unsigned k = 1; k < cases(); k += ONE_IN) {
@@ -638,7 +617,7 @@ static void test_the_order_of_the_file_does_not_matter(void) {
 
 /* A disabled effect leaves every bit unchanged. An enabled one changes the order of the sum, and so the last bits of
  * its coefficients. */
-static void test_forces_may_stand_in_effects(void) {
+TEST(linkages, forces_may_stand_in_effects) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
     for (unsigned k = 2; k < cases(); k += ONE_IN) {
@@ -682,7 +661,7 @@ static double left_over_linkages(const linkage *of, double step_s, double *turno
     return fabs(left[0]);
 }
 
-static void test_the_energy_is_accounted_for(void) {
+TEST(linkages, the_energy_is_accounted_for) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
     unsigned fell = 0;
@@ -713,15 +692,6 @@ static void test_the_energy_is_accounted_for(void) {
            "more with a quarter of the step\n",
            worst, known, fell);
     TEST_ASSERT_TRUE(fell * 10 >= known * 9 && fast * 300 <= cases());
-}
-
-void suite_linkages(void) {
-    RUN_TEST(test_accelerations_are_those_of_the_energies);
-    RUN_TEST(test_motions_are_those_of_the_energies);
-    RUN_TEST(test_a_mirror_image_moves_as_the_mirror_image);
-    RUN_TEST(test_the_order_of_the_file_does_not_matter);
-    RUN_TEST(test_forces_may_stand_in_effects);
-    RUN_TEST(test_the_energy_is_accounted_for);
 }
 
 /* === never singular =========================================================================== */
@@ -765,7 +735,7 @@ static void write_bodies(dice *d, char *text, size_t size) {
              fastest * dice_between(d, -1.0, 1.0), step_s, 50.0 * step_s);
 }
 
-static void test_of_the_same_mass_everywhere(void) {
+TEST(never_singular, of_the_same_mass_everywhere) {
     static const char *const methods[] = {"rk4", "heun", "euler", "semi-implicit-euler", "rk38"};
     dice d = dice_of("never singular", 20261129);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 400));
@@ -791,5 +761,3 @@ static void test_of_the_same_mass_everywhere(void) {
     printf("  %u rows of bodies, something is said of %u\n", cases, told);
     TEST_ASSERT_TRUE(told > cases / 4);
 }
-
-void suite_never_singular(void) { RUN_TEST(test_of_the_same_mass_everywhere); }

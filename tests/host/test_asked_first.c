@@ -1,19 +1,11 @@
 /* test_asked_first.c: derivation does not depend on history: other expressions in the same algebra, earlier output, or
  * other mechanisms derived in the same program. Tests every built-in scene and generated mechanisms (WHIRL_CASES). The
  * generated C, or the Octave form where the core lacks a function, must be byte-identical. */
-#define _POSIX_C_SOURCE 200809L /* open_memstream() */
-
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
 #include "host/show/show_equations.h"
 #include "mechanism.h"
-#include "unity.h"
 
 void suite_asked_first(void);
 
@@ -171,9 +163,9 @@ static int compare_scene(const scene *in) {
     return 1;
 }
 
-static void test_built_in_scenes(void) { expect_none(each_builtin_scene(compare_scene)); }
+TEST(asked_first, built_in_scenes) { expect_none(each_builtin_scene(compare_scene)); }
 
-static void test_generated_mechanisms(void) {
+TEST(asked_first, generated_mechanisms) {
     const int wanted = (int)dice_cases(few_or_all(usual_or(4, 2), MECHANISMS));
     int done = 0;
     for (uint64_t number = 0; done < wanted; number++) {
@@ -194,7 +186,7 @@ static void test_generated_mechanisms(void) {
 }
 
 /* One scene, while all others of the program are derived and alive. */
-static void test_among_others(void) {
+TEST(asked_first, among_others) {
     static derived others[3];
     char *text = NULL;
     size_t size = 0;
@@ -225,9 +217,4 @@ static void test_among_others(void) {
     }
 }
 
-void suite_asked_first(void) {
-    printf("asked_first: seed %" PRIu64 "\n", seed);
-    RUN_TEST(test_among_others);
-    RUN_TEST(test_built_in_scenes);
-    RUN_TEST(test_generated_mechanisms);
-}
+void suite_asked_first(void) { printf("asked_first: seed %" PRIu64 "\n", seed); }

@@ -2,20 +2,14 @@
  *
  * Lines `# expect: LINE:COLUMN: TEXT` at the top of every text in tests/bad list all its errors in order. Run from the
  * root of the project. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/lang/model.h"
-#include "unity.h"
-
-void suite_bad_input(void);
 
 #define FOLDER "tests/bad"
 enum { TEXTS_MIN = 141, LINE_SIZE = 512 };
@@ -162,7 +156,7 @@ static int try_archive(const char *path, int *failed) {
     return texts;
 }
 
-static void test_every_bad_text_has_the_errors_it_announces(void) {
+TEST(bad_input, every_bad_text_has_the_errors_it_announces) {
     struct dirent **entries = NULL;
     const int count = scandir(FOLDER, &entries, NULL, alphasort);
     TEST_ASSERT_GREATER_THAN_INT_MESSAGE(0, count, "run the tests from the root of the project");
@@ -181,7 +175,7 @@ static void test_every_bad_text_has_the_errors_it_announces(void) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(TEXTS_MIN, texts);
 }
 
-static void test_nothing_and_next_to_nothing(void) {
+TEST(bad_input, nothing_and_next_to_nothing) {
     expect_text("", "x.whirl:1:1: error: no mechanism here");
     expect_text("\n\n# only a comment", "x.whirl:1:1: error: no mechanism here");
     expect_text("\xef\xbb\xbf", "x.whirl:1:1: error: no mechanism here");
@@ -190,7 +184,7 @@ static void test_nothing_and_next_to_nothing(void) {
     expect_text("\"", "x.whirl:1:1: error: this text is not closed");
 }
 
-static void test_binary_is_no_text(void) {
+TEST(bad_input, binary_is_no_text) {
     static const char elf[] = "mechanism m\n\x7f"
                               "ELF\0\0\1\2";
     expect(elf, sizeof elf - 1, "x.whirl:2:1: error: control character 127");
@@ -198,7 +192,7 @@ static void test_binary_is_no_text(void) {
     expect("# x\0", 4, "x.whirl:1:4: error: a zero byte");
 }
 
-static void test_columns_count_characters(void) {
+TEST(bad_input, columns_count_characters) {
     expect_text("mechanism m \"\xc3\xa4\xe2\x82\xac\" ?",
                 "x.whirl:1:18: error: unexpected character '?'");
     expect_text("\xef\xbb\xbfparamter", "x.whirl:1:1: error: unknown statement 'paramter'");
@@ -207,7 +201,7 @@ static void test_columns_count_characters(void) {
 
 /* A carriage return before a line feed or at the end of the file is part of the line's end. Anywhere else it is an
  * error at its place. */
-static void test_lines_end_in_one_way(void) {
+TEST(bad_input, lines_end_in_one_way) {
     static const char text[] = "mechanism m \"a \xce\xb1 title\" # a remark \"\xce\xb1\"\n"
                                "coordinate X [m/s*s] \"where\"\n"
                                "\n"
@@ -242,13 +236,13 @@ static void test_lines_end_in_one_way(void) {
     }
 }
 
-static void test_the_caret_stands_under_the_place(void) {
+TEST(bad_input, the_caret_stands_under_the_place) {
     expect_text("mechanism m\ncoordinate \xce\xb1 [m]\n",
                 "  coordinate \xce\xb1 [m]\n             ^\n");
     expect_text("mechanism m\n\tcoordinate X [q]\n", "   coordinate X [q]\n                 ^\n");
 }
 
-static void test_values_that_are_no_numbers(void) {
+TEST(bad_input, values_that_are_no_numbers) {
     static const char start[] = "mechanism m\ncoordinate X [m]\nT = 1 [kg]*X'^2\n";
     char text[LINE_SIZE];
     snprintf(text, sizeof text, "%sparameter z = log(0)\n", start);
@@ -298,7 +292,7 @@ static void expect_repeated(const char *piece, size_t times, const char *tail, c
     TEST_ASSERT_TRUE_MESSAGE(seconds < 2.0, wanted);
 }
 
-static void test_ten_thousand_deep(void) {
+TEST(bad_input, ten_thousand_deep) {
     expect_repeated("(", 10000, "1\n", "x.whirl:3:209: error: nested more than 200 deep");
     expect_repeated("-", 10000, "1\n", "x.whirl:3:209: error: nested more than 200 deep");
     expect_repeated("2^", 10000, "1\n", "nested more than 200 deep");
@@ -309,7 +303,7 @@ static void test_ten_thousand_deep(void) {
     expect_repeated("1 [", 1, "((((((((((((((((((((((((((((m]\n", "too many parentheses in a unit");
 }
 
-static void test_lets_upon_lets_are_bounded(void) {
+TEST(bad_input, lets_upon_lets_are_bounded) {
     size_t used = 0;
     char *text = malloc(200000);
     TEST_ASSERT_NOT_NULL(text);
@@ -321,7 +315,7 @@ static void test_lets_upon_lets_are_bounded(void) {
     free(text);
 }
 
-static void test_ten_megabytes_of_garbage(void) {
+TEST(bad_input, ten_megabytes_of_garbage) {
     expect_repeated("@", 10000000, "", "unexpected character '@'");
     expect_repeated("\xff", 10000000, "", "written in ASCII");
     expect_repeated("\x01\n", 5000000, "", "too many errors: only the first 20 are shown");
@@ -333,7 +327,7 @@ static void test_ten_megabytes_of_garbage(void) {
     expect_repeated("X+", 5000000, "", "more than 1000 operators deep");
 }
 
-static void test_very_long_texts(void) {
+TEST(bad_input, very_long_texts) {
     size_t length = 0;
     char *text = repeat("mechanism m\n", "# 0123456789012345678901234567890123456789\n",
                         (17U << 20) / 43, "", &length);
@@ -341,7 +335,7 @@ static void test_very_long_texts(void) {
     free(text);
 }
 
-static void test_a_thousand_errors_are_told_as_twenty(void) {
+TEST(bad_input, a_thousand_errors_are_told_as_twenty) {
     size_t length = 0;
     char *text = repeat("mechanism m\n", "what = 3\n", 1000, "", &length);
     int errors = 0;
@@ -358,7 +352,7 @@ static void test_a_thousand_errors_are_told_as_twenty(void) {
 }
 
 /* A hundred thousand names must not take quadratic time. */
-static void test_many_names_are_quick(void) {
+TEST(bad_input, many_names_are_quick) {
     const int count = 100000;
     char *text = malloc((size_t)count * 40);
     TEST_ASSERT_NOT_NULL(text);
@@ -374,7 +368,7 @@ static void test_many_names_are_quick(void) {
 }
 
 /* No prefix of a good file, and no good file with one byte changed, crashes the language. */
-static void test_every_beginning_and_every_changed_byte(void) {
+TEST(bad_input, every_beginning_and_every_changed_byte) {
     size_t length = 0;
     char *text = read_whole("core/models/epicyclic.whirl", &length);
     int refused = 0;
@@ -390,21 +384,4 @@ static void test_every_beginning_and_every_changed_byte(void) {
     }
     free(text);
     TEST_ASSERT_GREATER_THAN_INT((int)length / 3, refused);
-}
-
-void suite_bad_input(void) {
-    RUN_TEST(test_every_bad_text_has_the_errors_it_announces);
-    RUN_TEST(test_nothing_and_next_to_nothing);
-    RUN_TEST(test_binary_is_no_text);
-    RUN_TEST(test_columns_count_characters);
-    RUN_TEST(test_lines_end_in_one_way);
-    RUN_TEST(test_the_caret_stands_under_the_place);
-    RUN_TEST(test_values_that_are_no_numbers);
-    RUN_TEST(test_ten_thousand_deep);
-    RUN_TEST(test_lets_upon_lets_are_bounded);
-    RUN_TEST(test_ten_megabytes_of_garbage);
-    RUN_TEST(test_very_long_texts);
-    RUN_TEST(test_a_thousand_errors_are_told_as_twenty);
-    RUN_TEST(test_many_names_are_quick);
-    RUN_TEST(test_every_beginning_and_every_changed_byte);
 }

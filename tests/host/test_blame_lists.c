@@ -2,13 +2,7 @@
  * it, and slopes of differentiated ones that may be undefined while the expression is not. Sums, products, integer
  * powers and waves always have slopes. By definition, an expression has one slope per coordinate that it depends on,
  * and per rate for energies and losses. */
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
-#include "unity.h"
-
-void suite_blame_lists(void);
 
 /* An expression of a (a length over one metre), b (an angle) and their rates v and w. Counts of a and b, and of v and
  * w, that it depends on; 0 if its slopes always exist. */
@@ -59,7 +53,7 @@ static derived with_statement(const char *statement) {
 enum { OF_T = 1 };
 
 /* Losses act only through their slopes by the rates. */
-static void test_slopes_of_energies_and_losses(void) {
+TEST(blame_lists, slopes_of_energies_and_losses) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
         char text[200];
@@ -78,7 +72,7 @@ static void test_slopes_of_energies_and_losses(void) {
 }
 
 /* Forces act directly, without slopes. */
-static void test_forces_have_no_slopes(void) {
+TEST(blame_lists, forces_have_no_slopes) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         char text[200];
         snprintf(text, sizeof text, "Q(x) = 1 [N]*(%s)", samples[i].text);
@@ -92,7 +86,7 @@ static void test_forces_have_no_slopes(void) {
 
 /* Gaps and held expressions have slopes by the coordinates. A crossing's value, a hold's condition and friction's
  * expressions have no slopes. Contacts follow the terms; a stop's restitution comes last. */
-static void test_slopes_of_contacts(void) {
+TEST(blame_lists, slopes_of_contacts) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
         const struct {
@@ -128,10 +122,4 @@ static void test_slopes_of_contacts(void) {
             derived_free(&d);
         }
     }
-}
-
-void suite_blame_lists(void) {
-    RUN_TEST(test_slopes_of_energies_and_losses);
-    RUN_TEST(test_forces_have_no_slopes);
-    RUN_TEST(test_slopes_of_contacts);
 }

@@ -2,19 +2,11 @@
  * warn exactly if the run is wrong for that reason. The proposed remedy is applied: the warning and the error must
  * vanish. If no step helps, the scene is changed as proposed. Random balls between two stops, holds that end their own
  * condition and stick-slip have closed forms; random hybrids in coarse steps have another program as reference. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
 #include "hybrid.h"
 #include "motion.h"
 #include "rattle.h"
-#include "unity.h"
-
-void suite_busy(void);
 
 /* A busy run must be reported if its error exceeds this part of its range, and not below that. */
 #define OFF 0.02
@@ -84,7 +76,7 @@ static double bounces_of(const rattle *r) {
     return r->kind == BALL ? fabs(r->speed_mps) * r->step_s * r->steps / r->number[0] : 0.0;
 }
 
-static void test_busy_contacts_are_told_and_cured(void) {
+TEST(busy, busy_contacts_are_told_and_cured) {
     dice d = dice_of("busy", 15005);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 10), 120));
     unsigned off = 0;
@@ -136,7 +128,7 @@ static void test_busy_contacts_are_told_and_cured(void) {
 }
 
 /* A million events per step and more; the hint's change of the scene is applied. */
-static void test_where_no_step_helps_the_scene_is_changed(void) {
+TEST(busy, where_no_step_helps_the_scene_is_changed) {
     dice d = dice_of("busy_scenes", 15002);
     const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
     for (unsigned i = 0; i < cases; i++) {
@@ -204,7 +196,7 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
     return most;
 }
 
-static void test_hybrids_in_coarse_steps(void) {
+TEST(busy, hybrids_in_coarse_steps) {
     dice d = dice_of("busy_hybrids", 15003);
     const unsigned cases = dice_cases(few_or_all(usual_or(6, 4), 60));
     uint64_t seed = d.state;
@@ -249,10 +241,4 @@ static void test_hybrids_in_coarse_steps(void) {
     printf("  %u hybrids in coarse steps: %u busy, %u told, cured to %.1e\n", tried, busy_ones,
            told, worst);
     TEST_ASSERT_TRUE(tried > cases / 2);
-}
-
-void suite_busy(void) {
-    RUN_TEST(test_busy_contacts_are_told_and_cured);
-    RUN_TEST(test_where_no_step_helps_the_scene_is_changed);
-    RUN_TEST(test_hybrids_in_coarse_steps);
 }

@@ -1,14 +1,9 @@
 /* test_c_names.c: names that generated code may give to a scene: no name known to C or C++ compilers and no word of
  * Octave. The compilers themselves judge (tests/embed/known_names.sh). */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "host/emit/emit.h"
-#include "unity.h"
-
-void suite_c_names(void);
+#include "test.h"
 
 enum { LINE = 256 };
 
@@ -54,7 +49,7 @@ static void sort_out(const char *name) {
 
 static void complain(const char *line) { printf("  not refused: %s\n", line); }
 
-static void compilers_have_nothing_to_say_of_what_is_free(void) {
+TEST(c_names, compilers_have_nothing_to_say_of_what_is_free) {
     char command[LINE];
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(for_c, sizeof for_c, "%s/c", folder);
@@ -76,7 +71,7 @@ static void compilers_have_nothing_to_say_of_what_is_free(void) {
 }
 
 /* Natural names of mechanisms, close to names of the library. */
-static void ordinary_names_are_free(void) {
+TEST(c_names, ordinary_names_are_free) {
     static const char *const names[] = {"spring",
                                         "strut",
                                         "string_pendulum",
@@ -120,7 +115,7 @@ static void ordinary_names_are_free(void) {
 }
 
 /* From C23, coming compilers and other targets. */
-static void names_to_come_are_refused(void) {
+TEST(c_names, names_to_come_are_refused) {
     static const char *const names[] = {
         "sinpi",     "acospif",         "fmaximum_numf64x", "exp10m1l",
         "nullptr",   "typeof_unqual",   "constexpr",        "stdc_bit_ceil",
@@ -133,7 +128,7 @@ static void names_to_come_are_refused(void) {
 }
 
 /* All names of <stdint.h> and <inttypes.h> by their parts. A name with a part missing or doubled is free. */
-static void names_of_integers_are_refused(void) {
+TEST(c_names, names_of_integers_are_refused) {
     static const char *const kinds[] = {"", "_least", "_fast"};
     static const char *const kinds_of_macros[] = {"", "_LEAST", "_FAST"};
     static const char *const of_formats[] = {"", "LEAST", "FAST"};
@@ -184,7 +179,7 @@ static void names_of_integers_are_refused(void) {
 }
 
 /* A function variant for another type ends with that type's letters; only a few may have _r after them. */
-static void variants_of_functions_are_refused(void) {
+TEST(c_names, variants_of_functions_are_refused) {
     static const char *const of[] = {"sin", "lgamma", "exp10", "nextafter", "fmaximum_mag_num"};
     static const char *const types[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",
                                         "f32x", "f64x", "f128x", "bf16", "d32", "d64", "d128"};
@@ -210,7 +205,7 @@ static void variants_of_functions_are_refused(void) {
     TEST_ASSERT_TRUE(emit_c_name_is_free("r"));
 }
 
-static void words_of_octave_are_refused(void) {
+TEST(c_names, words_of_octave_are_refused) {
     static const char *const names[] = {
         "end", "endfunction", "function", "i",     "j",   "e",         "Inf",   "NaN",
         "NA",  "ans",         "nargin",   "pi",    "eps", "varargout", "zeros", "sin",
@@ -218,13 +213,4 @@ static void words_of_octave_are_refused(void) {
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         TEST_ASSERT_FALSE_MESSAGE(emit_octave_name_is_free(names[i]), names[i]);
     }
-}
-
-void suite_c_names(void) {
-    RUN_TEST(compilers_have_nothing_to_say_of_what_is_free);
-    RUN_TEST(ordinary_names_are_free);
-    RUN_TEST(names_to_come_are_refused);
-    RUN_TEST(names_of_integers_are_refused);
-    RUN_TEST(variants_of_functions_are_refused);
-    RUN_TEST(words_of_octave_are_refused);
 }

@@ -1,11 +1,5 @@
 /* test_cli.c: the number and times of a run's steps in integer arithmetic: steps from nanoseconds to hours, runs from
  * one step to 50 years. WH_COUNTS=N sets the number of random pairs. */
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "core/frame.h"
 #include "host/cli/commands.h"
 #include "host/emit/emit.h"
@@ -14,9 +8,6 @@
 #include "command.h"
 #include "derived.h"
 
-#include "unity.h"
-
-void suite_counts(void);
 void suite_firstlight(void);
 
 /* === counts =================================================================================== */
@@ -103,7 +94,7 @@ static void expect_count(const duration *step, const duration *until) {
     diags_free(errors);
 }
 
-static void test_counts_are_exact(void) {
+TEST(counts, counts_are_exact) {
     static const struct {
         const char *name;
         uint64_t per;
@@ -161,7 +152,7 @@ static void test_counts_are_exact(void) {
 /* --- fractions and times ----------------------------------------------------------------------------- */
 
 /* Round-off from units and sums does not change the step. */
-static void test_steps_are_what_was_written(void) {
+TEST(counts, steps_are_what_was_written) {
     const struct {
         double value;
         uint64_t numerator, denominator;
@@ -183,7 +174,7 @@ static void test_steps_are_what_was_written(void) {
 }
 
 /* Any double has a fraction within 2^-51 that fits the core's 64 bits. */
-static void test_every_double_has_a_fraction(void) {
+TEST(counts, every_double_has_a_fraction) {
     seed_now = UINT64_C(0x5eed0011);
     for (int i = 0; i < 30000; i++) {
         /* every second one near a simple number, where fractions are sparse */
@@ -202,7 +193,7 @@ static void test_every_double_has_a_fraction(void) {
     }
 }
 
-static void test_times_are_rounded_once(void) {
+TEST(counts, times_are_rounded_once) {
     seed_now = UINT64_C(0x5eed0012);
     for (int i = 0; i < 30000; i++) {
         const whole_ratio r = {1 + random_below(1000000), 1 + random_below(UINT64_C(1) << 40)};
@@ -227,7 +218,7 @@ static void test_times_are_rounded_once(void) {
 }
 
 /* --every and --from, as values computed in double: within round-off of a step's end, they mean that end. */
-static void test_spacings_and_begins_are_counted_in_steps(void) {
+TEST(counts, spacings_and_begins_are_counted_in_steps) {
     for (int i = 0; i < 20000; i++) {
         const whole_ratio step =
             ratio_of((double)(1 + random_below(999)) / (double)(1 + random_below(99999)));
@@ -251,14 +242,6 @@ static void test_spacings_and_begins_are_counted_in_steps(void) {
     TEST_ASSERT_TRUE(!ratio_count_each(1e19, ratio_of(1e-3), &count));
     TEST_ASSERT_TRUE(ratio_count_from(0.0, ratio_of(1e-3), &count) && count == 0);
     TEST_ASSERT_TRUE(!ratio_count_from(1e18, ratio_of(1e-18), &count));
-}
-
-void suite_counts(void) {
-    RUN_TEST(test_counts_are_exact);
-    RUN_TEST(test_steps_are_what_was_written);
-    RUN_TEST(test_every_double_has_a_fraction);
-    RUN_TEST(test_times_are_rounded_once);
-    RUN_TEST(test_spacings_and_begins_are_counted_in_steps);
 }
 
 /* === firstlight =============================================================================== */
@@ -308,7 +291,7 @@ static void taken(const char *bytes, size_t count) {
     TEST_ASSERT_EQUAL_STRING(record, read_one.text);
 }
 
-static void test_whole_records(void) {
+TEST(firstlight, whole_records) {
     static char other[ROOM];
     for (unsigned i = 0; i < dice_cases(100); i++) {
         const size_t length = draw(record);
@@ -338,7 +321,7 @@ static size_t lines_of(const char *text, size_t *from) {
     return lines;
 }
 
-static void test_broken_records(void) {
+TEST(firstlight, broken_records) {
     static char other[2 * ROOM];
     size_t from[LIGHT_FIELDS + 3];
     for (unsigned i = 0; i < dice_cases(1); i++) {
@@ -384,7 +367,7 @@ static void test_broken_records(void) {
 }
 
 /* A valid CRC does not make a valid record: other lines, control bytes, too long a text. */
-static void test_sealed_nonsense(void) {
+TEST(firstlight, sealed_nonsense) {
     static char before[ROOM];
     size_t from[LIGHT_FIELDS + 3];
     for (unsigned i = 0; i < dice_cases(200); i++) {
@@ -417,7 +400,7 @@ static void test_sealed_nonsense(void) {
     }
 }
 
-static void test_any_bytes(void) {
+TEST(firstlight, any_bytes) {
     static const char begin_line[] = WH_LIGHT_BEGIN "\n";
     static char bytes[1024];
     for (unsigned i = 0; i < dice_cases(usual_or(3000, 600)); i++) {
@@ -509,7 +492,7 @@ static void ask(said *what) {
     command_say(command_firstlight, words, what);
 }
 
-static void test_command(void) {
+TEST(firstlight, command) {
     static said hashes;
     static said what;
     char line[200];
@@ -584,11 +567,4 @@ static void test_command(void) {
     model_drop();
 }
 
-void suite_firstlight(void) {
-    drawn = dice_of("firstlight", 1);
-    RUN_TEST(test_whole_records);
-    RUN_TEST(test_broken_records);
-    RUN_TEST(test_sealed_nonsense);
-    RUN_TEST(test_any_bytes);
-    RUN_TEST(test_command);
-}
+void suite_firstlight(void) { drawn = dice_of("firstlight", 1); }

@@ -1,15 +1,8 @@
 /* test_coarse_tables.c: random slider-cranks whose coarse tables lose energy. The warning names the tables; more cells
  * cure it and no step does. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
 #include "host/image/image.h"
-#include "unity.h"
-
-void suite_coarse_tables(void);
 
 static void run(const char *text, const char *form, int cells, const char *step, said *what) {
     char count[20];
@@ -19,7 +12,7 @@ static void run(const char *text, const char *form, int cells, const char *step,
     command_say(command_run, words, what);
 }
 
-static void test_tables_are_named_and_more_cells_cure(void) {
+TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
     dice d = dice_of("coarse tables", 14006);
     const unsigned cases = dice_cases(few_or_all(usual_or(2, 1), 40));
     unsigned told = 0;
@@ -63,5 +56,3 @@ static void test_tables_are_named_and_more_cells_cure(void) {
     printf("  %u of %u told\n", told, cases);
     TEST_ASSERT_TRUE(told > 0);
 }
-
-void suite_coarse_tables(void) { RUN_TEST(test_tables_are_named_and_more_cells_cure); }

@@ -2,15 +2,7 @@
  * refused, and so is a name given twice. A sweep's measure that overflows is a failure. */
 #include "command.h"
 
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
-
-#include "unity.h"
-
-void suite_command_changes(void);
 
 static const char model[] =
     "mechanism m\ncoordinate th [deg]\ncoordinate x [mm]\nparameter b = 2 [kg]\n"
@@ -48,7 +40,7 @@ static void tell(const way *w, const char *const *changes, int count, said *what
     command_say(w->command, words, what);
 }
 
-static void test_bare_numbers_are_refused_where_the_unit_is_not_SI(void) {
+TEST(command_changes, bare_numbers_are_refused_where_the_unit_is_not_SI) {
     static const char *const bare[] = {"th=20", "th'=-1", "x=1e-3", "x'=2"};
     static const char *const with_unit[] = {"th=20 [deg]", "th'=1 [rpm]", "x=1 mm",
                                             "th=0",        "b=3",         "M=1"};
@@ -68,7 +60,7 @@ static void test_bare_numbers_are_refused_where_the_unit_is_not_SI(void) {
     model_drop();
 }
 
-static void test_a_name_given_twice_is_refused_by_every_command(void) {
+TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
     static const char *const names[] = {"th", "th'", "x", "x'", "b", "M"};
     static const char *const units[] = {"rad", "rad/s", "m", "m/s", "kg", "N*m"};
     enum { NAMES = sizeof names / sizeof names[0] };
@@ -102,7 +94,7 @@ static void test_a_name_given_twice_is_refused_by_every_command(void) {
 }
 
 /* Finite samples whose measure overflows, and the same ones small enough. */
-static void test_measures_that_overflow_fail_their_points(void) {
+TEST(command_changes, measures_that_overflow_fail_their_points) {
     static const struct {
         const char *measure; /* of x swinging over +-1 */
         double most;         /* of the factor, in 1e308, with a finite measure */
@@ -143,10 +135,4 @@ static void test_measures_that_overflow_fail_their_points(void) {
                                  what.err);
     }
     model_drop();
-}
-
-void suite_command_changes(void) {
-    RUN_TEST(test_bare_numbers_are_refused_where_the_unit_is_not_SI);
-    RUN_TEST(test_a_name_given_twice_is_refused_by_every_command);
-    RUN_TEST(test_measures_that_overflow_fail_their_points);
 }

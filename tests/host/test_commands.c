@@ -1,20 +1,13 @@
 /* test_commands.c: parts of the command line without a process: lists of effects, built-in names, and file identity on
  * file systems without inodes. */
 #define _XOPEN_SOURCE 700 /* symlink(), mkdtemp() */
-
 #include "derived.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "host/cli/files.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
-#include "unity.h"
-
-void suite_commands(void);
 
 /* Captures standard error until said() returns it. */
 static FILE *listening;
@@ -69,7 +62,7 @@ static bool take(common_options *o, bool with, const char *text, bool joined) {
     return !bad;
 }
 
-static void test_lists_of_effects(void) {
+TEST(commands, lists_of_effects) {
     uint64_t seed = 5050;
     for (int i = 0; i < 400; i++) {
         static const char *const names[] = {"a", "c", "rail_drag", "ledger", "b2"};
@@ -138,7 +131,7 @@ static const struct builtin_model made_up[] = {
     MODEL("two.whirl", "mechanism lever" BODY "scene rest { }\nscene only { }\n"),
     MODEL("three.whirl", "mechanism gear" BODY "scene slow { }\n")};
 
-static void test_built_in_names(void) {
+TEST(commands, built_in_names) {
     static const struct {
         const char *target;
         const char *file; /* NULL: refused */
@@ -189,7 +182,7 @@ static int check_both_names(const scene *s) {
     return 1;
 }
 
-static void test_every_built_in_scene_by_both_names(void) {
+TEST(commands, every_built_in_scene_by_both_names) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_both_names) > 40);
 }
 
@@ -201,7 +194,7 @@ static void write_file(const char *path, const char *text) {
 }
 
 /* With and without inodes, for every pair of names. Network file systems and WASI have no inodes. */
-static void test_one_file_or_two(void) {
+TEST(commands, one_file_or_two) {
     char folder[] = "/tmp/whirl_files_XXXXXX";
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     enum { NAMES = 6 };
@@ -245,11 +238,4 @@ static void test_one_file_or_two(void) {
         }
     }
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
-}
-
-void suite_commands(void) {
-    RUN_TEST(test_lists_of_effects);
-    RUN_TEST(test_built_in_names);
-    RUN_TEST(test_every_built_in_scene_by_both_names);
-    RUN_TEST(test_one_file_or_two);
 }

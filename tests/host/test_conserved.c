@@ -2,15 +2,8 @@
  *
  * T = M x'^2/2 + x' dG/dt + terms of the others, with a random G(q, r). So p = M x' + dG/dt is constant, and x = (p t +
  * G(start) - G)/M. G has powers, waves and their products, some of which conserve.c can integrate. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/derive/conserve.h"
-#include "unity.h"
-
-void suite_conserved(void);
 
 enum { TERMS = 3 };
 
@@ -128,7 +121,7 @@ static void check_law(const conservation *c, const wave_term *terms, const momen
     }
 }
 
-static void test_a_coordinate_follows_from_its_momentum(void) {
+TEST(conserved, a_coordinate_follows_from_its_momentum) {
     uint64_t seed = 53;
     int closed = 0;
     int open = 0;
@@ -185,5 +178,3 @@ static void test_a_coordinate_follows_from_its_momentum(void) {
     TEST_ASSERT_GREATER_THAN_INT(200, closed);
     TEST_ASSERT_GREATER_THAN_INT(3, open);
 }
-
-void suite_conserved(void) { RUN_TEST(test_a_coordinate_follows_from_its_momentum); }

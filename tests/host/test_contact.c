@@ -1,10 +1,5 @@
 /* test_contact.c: contacts too busy for a step that is also too coarse for a spring or a damper. The remedy in a
  * warning must cure all reported problems. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -13,13 +8,6 @@
 #include "derived.h"
 #include "drawn.h"
 #include "rattle.h"
-
-#include "unity.h"
-
-void suite_busy_beside(void);
-void suite_contact_curved(void);
-void suite_contact_devices(void);
-void suite_contact_law(void);
 
 /* === busy beside ============================================================================== */
 
@@ -35,7 +23,7 @@ static void say(const char *text, const char *step, said *what) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, text);
 }
 
-static void test_a_cure_is_one_of_all(void) {
+TEST(busy_beside, a_cure_is_one_of_all) {
     dice d = dice_of("busy beside", 15005);
     const unsigned cases = dice_cases(few_or_all(usual_or(80, 12), 300));
     unsigned energies = 0;
@@ -79,7 +67,7 @@ static void test_a_cure_is_one_of_all(void) {
 
 /* A heavy round body hits another head-on, without a force that presses them together. The restitution in the hint ends
  * the events. */
-static void test_head_on(void) {
+TEST(busy_beside, head_on) {
     dice d = dice_of("head on", 15006);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 300));
     unsigned told = 0;
@@ -110,7 +98,7 @@ static void test_head_on(void) {
 }
 
 /* A clock in a stop with far less inertia than the body: its run ends, and the hint names the stop. */
-static void test_light_clocks(void) {
+TEST(busy_beside, light_clocks) {
     dice d = dice_of("light clocks", 15007);
     const unsigned cases = dice_cases(usual_or(20, 8));
     unsigned failed = 0;
@@ -131,12 +119,6 @@ static void test_light_clocks(void) {
     }
     model_drop();
     TEST_ASSERT_TRUE(failed * 2 > cases);
-}
-
-void suite_busy_beside(void) {
-    RUN_TEST(test_a_cure_is_one_of_all);
-    RUN_TEST(test_head_on);
-    RUN_TEST(test_light_clocks);
 }
 
 /* === contact curved =========================================================================== */
@@ -178,7 +160,7 @@ static bool is_the_methods(uint64_t seed, double share) {
     return fine.overruns == 0 && fine.share < share / 60.0;
 }
 
-static void test_energy_is_accounted_for(void) {
+TEST(contact_curved, energy_is_accounted_for) {
     const long runs = wanted_runs((long)few_or_all(100, 300));
     double worst = 0.0;
     int beyond = 0;
@@ -208,7 +190,7 @@ static void test_energy_is_accounted_for(void) {
 }
 
 /* In float, a motion with contacts may differ from double, but must not lose energy. */
-static void test_energy_is_accounted_for_in_float(void) {
+TEST(contact_curved, energy_is_accounted_for_in_float) {
     const long runs = wanted_runs((long)few_or_all(100, 300));
     int beyond = 0;
     double worst = 0.0;
@@ -227,11 +209,6 @@ static void test_energy_is_accounted_for_in_float(void) {
              beyond, worst);
     puts(line);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, beyond, line);
-}
-
-void suite_contact_curved(void) {
-    RUN_TEST(test_energy_is_accounted_for);
-    RUN_TEST(test_energy_is_accounted_for_in_float);
 }
 
 /* === contact devices ========================================================================== */
@@ -301,14 +278,14 @@ static void check_walk(stepping how, double swing_bound, double speed_most) {
     expect_between("  mean velocity at last, m/s", -speed_most, speed_most, speed);
 }
 
-static void test_carriage_walks_away_from_the_stop_and_then_only_swings(void) {
+TEST(contact_devices, carriage_walks_away_from_the_stop_and_then_only_swings) {
     /* see swing(); the closed form's speed is constant, the motor's ripples by 1e-5 */
     check_walk(IN_DOUBLE, 2e-5, 1e-5);
     /* X near 6 m in 24 bits: 2^-22 m in each of half a turn's 90 sums, of 0.064 m, as a random walk */
     check_walk(IN_FLOAT, 1e-4, 1e-4);
 }
 
-static void test_without_friction_it_walks_on(void) {
+TEST(contact_devices, without_friction_it_walks_on) {
     motion m;
     motion_open(&m, "carriage_stop_smooth", IN_DOUBLE);
     motion_to(&m, 5.0);
@@ -326,7 +303,7 @@ static void test_without_friction_it_walks_on(void) {
     motion_close(&m);
 }
 
-static void test_started_at_the_stop_it_walks_away_too(void) {
+TEST(contact_devices, started_at_the_stop_it_walks_away_too) {
     motion m;
     double least;
     double most;
@@ -406,7 +383,7 @@ static void check_magnet(const char *which, double drift_most, double gain_most,
     motion_close(&m);
 }
 
-static void test_magnet_moves_no_centre_of_mass(void) {
+TEST(contact_devices, magnet_moves_no_centre_of_mass) {
     check_magnet("thomson_magnet", DRIFT_MOST, 1e-9, IN_DOUBLE);
     check_magnet("thomson_magnet_conserved", 1e-14, 1e-9, IN_DOUBLE);
     /* 40000 sums of X rounded by 2^-24 of a metre, as a random walk: 1.2e-5 m. Energy, 30 J: 2^-22 of it, and of the
@@ -428,7 +405,7 @@ static double creep(double h) {
     return speed;
 }
 
-static void test_vehicle_creeps_on_the_ground(void) {
+TEST(contact_devices, vehicle_creeps_on_the_ground) {
     const double reference = (contacts_reference("halvorson_ground", "10.0", "X") -
                               contacts_reference("halvorson_ground", "5.0", "X")) /
                              5.0;
@@ -458,7 +435,7 @@ static void check_creep_in_float(void) {
     motion_close(&m);
 }
 
-static void test_ground_pushes_and_nothing_else(void) {
+TEST(contact_devices, ground_pushes_and_nothing_else) {
     motion m;
     motion_open(&m, "halvorson_smooth", IN_DOUBLE);
     const double start = motion_value(&m, "x_cm");
@@ -482,7 +459,7 @@ static void test_ground_pushes_and_nothing_else(void) {
 }
 
 /* The normal force oscillates around the weight, and the vehicle never leaves the ground. */
-static void test_normal_force_pulsates_round_the_weight(void) {
+TEST(contact_devices, normal_force_pulsates_round_the_weight) {
     range r = {.name = "normal"};
     motion m;
     double sum = 0.0;
@@ -506,16 +483,6 @@ static void test_normal_force_pulsates_round_the_weight(void) {
     /* no net vertical motion: its mean is the weight, 1.33 kg; a hundred turns, cut at a step */
     expect_between("S12: mean normal force over the weight", 1.0 - 1e-4, 1.0 + 1e-4,
                    sum / looks / (1.33 * 9.81));
-}
-
-void suite_contact_devices(void) {
-    RUN_TEST(test_carriage_walks_away_from_the_stop_and_then_only_swings);
-    RUN_TEST(test_without_friction_it_walks_on);
-    RUN_TEST(test_started_at_the_stop_it_walks_away_too);
-    RUN_TEST(test_magnet_moves_no_centre_of_mass);
-    RUN_TEST(test_vehicle_creeps_on_the_ground);
-    RUN_TEST(test_ground_pushes_and_nothing_else);
-    RUN_TEST(test_normal_force_pulsates_round_the_weight);
 }
 
 /* === contact law ============================================================================== */
@@ -666,14 +633,12 @@ static void check_impacts(draw_moment *draw, const engine_kind *kind, double bou
     TEST_ASSERT_TRUE(unsolved <= runs / 20 && booked >= runs / 6);
 }
 
-static void test_impacts_follow_newtons_law(void) {
-    check_impacts(draw_impact, &engine_double, 1e-11);
-}
-static void test_impacts_follow_newtons_law_in_float(void) {
+TEST(contact_law, impacts_follow_newtons_law) { check_impacts(draw_impact, &engine_double, 1e-11); }
+TEST(contact_law, impacts_follow_newtons_law_in_float) {
     check_impacts(draw_impact, &engine_float, 1e-4);
 }
 
-static void test_holds_capture_by_their_law(void) {
+TEST(contact_law, holds_capture_by_their_law) {
     check_impacts(draw_capture, &engine_double, 1e-11);
 }
 
@@ -749,10 +714,8 @@ static void check_forces(const engine_kind *kind, double bound) {
     TEST_ASSERT_TRUE(unsolved <= runs / 20 && booked >= runs / 6);
 }
 
-static void test_forces_share_a_load_by_their_law(void) { check_forces(&engine_double, 1e-11); }
-static void test_forces_share_a_load_by_their_law_in_float(void) {
-    check_forces(&engine_float, 1e-4);
-}
+TEST(contact_law, forces_share_a_load_by_their_law) { check_forces(&engine_double, 1e-11); }
+TEST(contact_law, forces_share_a_load_by_their_law_in_float) { check_forces(&engine_float, 1e-4); }
 
 /* --- impacts and forces ---------------------------------------------------------------------------------------- */
 
@@ -803,7 +766,7 @@ static double broken(const motion *m, const drawn *b, int k, double time_s) {
     return fmax(fmax(gave_J, fabs(gap)), fabs(rate));
 }
 
-static void test_no_contact_does_more_than_it_can(void) {
+TEST(contact_law, no_contact_does_more_than_it_can) {
     const long runs = wanted_runs_contact_law((long)few_or_all(12, 40));
     uint64_t seed = 73;
     double worst = 0.0;
@@ -836,7 +799,7 @@ static void test_no_contact_does_more_than_it_can(void) {
 
 /* A hold and a resting stop in opposite directions of one row: impacts release the stop, which stays closed, as nothing
  * pushes it off. Friction that stuck at x0 has no part in that: its normal force is zero. */
-static void test_friction_takes_no_impulse_when_a_stop_rests_on(void) {
+TEST(contact_law, friction_takes_no_impulse_when_a_stop_rests_on) {
     drawn b = {.n = 3,
                .contacts = 5,
                .mass = {{4, -1, 1}, {-1, 2, -1}, {1, -1, 4}},
@@ -862,14 +825,4 @@ static void test_friction_takes_no_impulse_when_a_stop_rests_on(void) {
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
     TEST_ASSERT_TRUE(state_apart(&m, &b, at, after) <= 1e-12);
     motion_close(&m);
-}
-
-void suite_contact_law(void) {
-    RUN_TEST(test_friction_takes_no_impulse_when_a_stop_rests_on);
-    RUN_TEST(test_no_contact_does_more_than_it_can);
-    RUN_TEST(test_impacts_follow_newtons_law);
-    RUN_TEST(test_impacts_follow_newtons_law_in_float);
-    RUN_TEST(test_holds_capture_by_their_law);
-    RUN_TEST(test_forces_share_a_load_by_their_law);
-    RUN_TEST(test_forces_share_a_load_by_their_law_in_float);
 }

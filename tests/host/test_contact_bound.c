@@ -8,14 +8,6 @@
 #include "host/engine/engine.h"
 #include "host/engine/start.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "unity.h"
-
-void suite_contact_bound(void);
-
 enum { FEW_STEPS = 6000, RANDOM_STEPS = 20000, RUN = 20, SAMPLES = 200 };
 
 static long random_steps(void) {
@@ -180,8 +172,6 @@ static int check_if_contact(const scene *s) {
     return contacts;
 }
 
-static void test_no_step_exceeds_its_declared_bound(void) {
+TEST(contact_bound, no_step_exceeds_its_declared_bound) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_if_contact) >= 5);
 }
-
-void suite_contact_bound(void) { RUN_TEST(test_no_step_exceeds_its_declared_bound); }

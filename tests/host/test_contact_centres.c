@@ -9,15 +9,6 @@
 #include "contacts.h"
 #include "derived.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "unity.h"
-
-void suite_contact_centres(void);
-
 typedef enum machine_kind { CAM, YOKE, SLIDER, LINKAGE, HILL, MACHINES } machine_kind;
 
 static const char *const NAMES[MACHINES] = {"cam", "yoke", "slider", "linkage", "hill"};
@@ -191,7 +182,7 @@ static outcome run(const machine *c, const engine_kind *kind, double h, double u
 }
 
 /* The case that revealed this class of errors. */
-static void test_the_cam_goes_on(void) {
+TEST(contact_centres, the_cam_goes_on) {
     const machine c = {CAM, 0.1, 1.0, 0.1, 100.0, 1.0, 0.0, 0.0, 1.0, 10.0};
     long double s[2];
     TEST_ASSERT_TRUE(reference(&c, 2.0L, s));
@@ -264,16 +255,16 @@ static void check_machines(int how, const char *words, double until_s, unsigned 
     }
 }
 
-static void test_centres_passed(void) {
+TEST(contact_centres, centres_passed) {
     check_machines(0, "passing centres", 2.0, few_or_all(4, 12));
 }
-static void test_centres_from_rest(void) {
+TEST(contact_centres, centres_from_rest) {
     check_machines(1, "from rest at the centre", 0.4, few_or_all(4, 12));
 }
-static void test_centres_from_motion(void) {
+TEST(contact_centres, centres_from_motion) {
     check_machines(2, "in motion at the centre", 2.0, few_or_all(3, 6));
 }
-static void test_centres_crept_over(void) {
+TEST(contact_centres, centres_crept_over) {
     check_machines(3, "creeping over the centre", 2.0, few_or_all(3, 6));
 }
 
@@ -293,20 +284,11 @@ static void check_scene(const char *name, const machine *c, double until_s) {
     }
 }
 
-static void test_the_scenes_of_the_catalogue(void) {
+TEST(contact_centres, the_scenes_of_the_catalogue) {
     machine c = {LINKAGE, 0.1, 1.0, 0.1, 100.0, 1.0, 0.0, 0.005, 0.5, 10.0};
     check_scene("crank_turns", &c, 2.0);
     c.torque_Nm = 8.0;
     c.a = 0.0;
     c.rate = 0.0;
     check_scene("crank_starts", &c, 0.4);
-}
-
-void suite_contact_centres(void) {
-    RUN_TEST(test_the_scenes_of_the_catalogue);
-    RUN_TEST(test_the_cam_goes_on);
-    RUN_TEST(test_centres_passed);
-    RUN_TEST(test_centres_from_rest);
-    RUN_TEST(test_centres_from_motion);
-    RUN_TEST(test_centres_crept_over);
 }

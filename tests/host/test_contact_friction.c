@@ -1,12 +1,6 @@
 /* test_contact_friction.c: blocks that stick and slip (core/models/contacts.whirl). */
 #include "contacts.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
-
-void suite_contact_friction(void);
+#include "test.h"
 
 #define G 9.81
 
@@ -24,14 +18,14 @@ static void check_incline_sticks(stepping how) {
     motion_close(&m);
 }
 
-static void test_block_sticks_for_ten_minutes(void) {
+TEST(contact_friction, block_sticks_for_ten_minutes) {
     check_incline_sticks(IN_DOUBLE);
     check_incline_sticks(IN_FLOAT);
     check_incline_sticks(IN_FLOAT_COMPENSATED);
 }
 
 /* Coefficients to either side of tan 10 degrees. */
-static void test_block_sticks_up_to_the_slope(void) {
+TEST(contact_friction, block_sticks_up_to_the_slope) {
     for (int side = -1; side <= 1; side += 2) {
         motion m;
         char set[64];
@@ -65,7 +59,7 @@ static void check_incline_slides(stepping how, double bound) {
     motion_close(&m);
 }
 
-static void test_block_slides_with_the_closed_forms_acceleration(void) {
+TEST(contact_friction, block_slides_with_the_closed_forms_acceleration) {
     /* 10^4 sums rounded by 2^-53: 1.1e-12 at the very worst; the same with 2^-24; a few round-offs of the
      * acceleration */
     check_incline_slides(IN_DOUBLE, 1e-12);
@@ -91,7 +85,7 @@ static void check_thrown(stepping how, double bound) {
     motion_close(&m);
 }
 
-static void test_thrown_block_stays_where_it_stops(void) {
+TEST(contact_friction, thrown_block_stays_where_it_stops) {
     /* 215 sums rounded by 2^-53 (2^-24) of 2 m/s, which act over 0.2 s, and as many of s */
     check_thrown(IN_DOUBLE, 1e-12);
     check_thrown(IN_FLOAT, 4e-5);
@@ -108,7 +102,7 @@ static void check_table_sticks(stepping how) {
 }
 
 /* mu_s g/w^2 is the largest amplitude without slip. */
-static void test_block_slips_from_the_closed_forms_amplitude_on(void) {
+TEST(contact_friction, block_slips_from_the_closed_forms_amplitude_on) {
     const double w = 4.0 * pi();
     for (int side = -1; side <= 1; side += 2) {
         motion m;
@@ -128,7 +122,7 @@ static void test_block_slips_from_the_closed_forms_amplitude_on(void) {
 
 /* Breaks loose at sin(w t) = mu_s g/(A w^2), then slides with the table's acceleration minus mu_k g. Its speed a step
  * later yields the time of that. */
-static void test_slip_begins_where_the_closed_form_says(void) {
+TEST(contact_friction, slip_begins_where_the_closed_form_says) {
     const double w = 4.0 * pi();
     const double A = 0.040;
     const double onset = asin(0.4 * G / (A * w * w)) / w;
@@ -155,7 +149,7 @@ static void test_slip_begins_where_the_closed_form_says(void) {
     TEST_ASSERT_TRUE(fabs(onset * 1e3 - floor(onset * 1e3 + 0.5)) > 0.01);
 }
 
-static void test_net_drift(void) {
+TEST(contact_friction, net_drift) {
     motion m;
     motion_open(&m, "table_slips", IN_DOUBLE);
     motion_to(&m, 5.0);
@@ -218,7 +212,7 @@ static void check_belt(const char *which, double wanted, stepping how, double bo
     expect_between("  most", -bound, bound, most / wanted - 1.0);
 }
 
-static void test_stick_slip_period(void) {
+TEST(contact_friction, stick_slip_period) {
     /* closed form: 2 D/v of sticking, then pi + 2 atan(v/(w D)) of the spring's cycle */
     const double D = 0.1 * G / 100.0;
     const double closed = 2.0 * D / 0.1 + (pi() + 2.0 * atan(0.1 / (10.0 * D))) / 10.0;
@@ -236,15 +230,4 @@ static void test_stick_slip_period(void) {
     /* compensation is better: RK4 with w h = 0.01 (0.02) */
     check_belt("belt_stick_slip", closed, IN_DOUBLE, 1e-9);
     check_belt("belt_stiffening", stiffer, IN_DOUBLE, 1e-8);
-}
-
-void suite_contact_friction(void) {
-    RUN_TEST(test_block_sticks_for_ten_minutes);
-    RUN_TEST(test_block_sticks_up_to_the_slope);
-    RUN_TEST(test_block_slides_with_the_closed_forms_acceleration);
-    RUN_TEST(test_thrown_block_stays_where_it_stops);
-    RUN_TEST(test_block_slips_from_the_closed_forms_amplitude_on);
-    RUN_TEST(test_slip_begins_where_the_closed_form_says);
-    RUN_TEST(test_net_drift);
-    RUN_TEST(test_stick_slip_period);
 }

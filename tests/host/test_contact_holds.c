@@ -1,19 +1,8 @@
 /* test_contact_holds.c: holds keep their place over 1e5 steps and more: rods, linkages, gears. The held value is state;
  * an assignment sets it again. Linkages that lie flat are refused. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
-
-#include "unity.h"
-
-void suite_contact_holds(void);
-void suite_contact_load(void);
-void suite_contact_rest(void);
 
 /* === contact holds ============================================================================ */
 
@@ -49,7 +38,7 @@ static void expect_kept(const char *what, const char *text, long steps, double s
 
 /* --- rods ------------------------------------------------------------------------------------------------------- */
 
-static void test_rods_keep_their_length(void) {
+TEST(contact_holds, rods_keep_their_length) {
     uint64_t seed = 11;
     for (int i = 0; i < 6; i++) {
         char text[700];
@@ -131,7 +120,7 @@ static bool random_linkage(uint64_t *seed, linkage *l) {
     return l->side[0] + longest < 0.9 * (sum - longest) && close_linkage(l);
 }
 
-static void test_linkages_stay_closed(void) {
+TEST(contact_holds, linkages_stay_closed) {
     uint64_t seed = 12;
     for (int i = 0; i < 4;) {
         linkage l;
@@ -150,7 +139,7 @@ static void test_linkages_stay_closed(void) {
 
 /* If shortest + longest equals the sum of the others, a linkage lies flat once per turn and can continue in two
  * ways. */
-static void test_a_flat_linkage_is_refused(void) {
+TEST(contact_holds, a_flat_linkage_is_refused) {
     const char *asked = getenv("WHIRL_FLAT_RUNS");
     const int runs =
         asked != NULL ? (int)strtol(asked, NULL, 10) : (int)few_or_all(usual_or(4, 2), 12);
@@ -202,7 +191,7 @@ static void test_a_flat_linkage_is_refused(void) {
 
 /* Turned by 20000 rad, which a double resolves to 4e-12. In float, angles are integers: a gear ratio that float
  * represents keeps its mesh exactly, another one as well as its rounded ratio. */
-static void test_gears_keep_their_mesh(void) {
+TEST(contact_holds, gears_keep_their_mesh) {
     uint64_t seed = 14;
     static const double ratios[] = {1.0, 2.0, -3.0, 1.5, 0.0};
     for (int i = 0; i < 5; i++) {
@@ -232,7 +221,7 @@ static void test_gears_keep_their_mesh(void) {
 /* --- held values are state -------------------------------------------------------------------------------------- */
 
 /* An assignment that moves a held body is not undone: the hold keeps the new place, and the energy balance closes. */
-static void test_an_assignment_gives_it_anew(void) {
+TEST(contact_holds, an_assignment_gives_it_anew) {
     uint64_t seed = 15;
     for (int i = 0; i < 10; i++) {
         char text[900];
@@ -265,7 +254,7 @@ static void test_an_assignment_gives_it_anew(void) {
 
 /* An input raises a stop. Bodies held to the body on it, directly or along a chain, with a coupled or uncoupled mass
  * matrix, move along by the distance that keeps the hold. */
-static void test_what_is_held_to_a_raised_body_comes_along(void) {
+TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
     uint64_t seed = 17;
     double worst[2] = {0.0, 0.0};
     for (int i = 0; i < 40; i++) {
@@ -373,7 +362,7 @@ static const char *fill(const char *from, const held *of, const double number[st
 /* When such a hold closes, its condition is at its limit to the last digits. It holds in both number formats, against
  * any pull and other events in the same steps, until another condition releases it. A hold that starts at its limit
  * stays, unless it moves out. */
-static void test_a_hold_stays_at_its_own_limit(void) {
+TEST(contact_holds, a_hold_stays_at_its_own_limit) {
     dice d = dice_of("contact_holds", 1);
     int failures = 0;
     const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 600));
@@ -429,16 +418,6 @@ static void test_a_hold_stays_at_its_own_limit(void) {
     TEST_ASSERT_EQUAL_INT(0, failures);
 }
 
-void suite_contact_holds(void) {
-    RUN_TEST(test_a_hold_stays_at_its_own_limit);
-    RUN_TEST(test_what_is_held_to_a_raised_body_comes_along);
-    RUN_TEST(test_rods_keep_their_length);
-    RUN_TEST(test_linkages_stay_closed);
-    RUN_TEST(test_a_flat_linkage_is_refused);
-    RUN_TEST(test_gears_keep_their_mesh);
-    RUN_TEST(test_an_assignment_gives_it_anew);
-}
-
 /* === contact load ============================================================================= */
 /* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts disturbed by an assignment
  * or an input. */
@@ -456,7 +435,7 @@ static const stepping *each_number(int i) {
 
 /* The push exceeds both friction limits. But the block's friction can pass on 4.905 N, less than the plank's 5.886
  * N. */
-static void test_the_weaker_friction_protects_the_other(void) {
+TEST(contact_load, the_weaker_friction_protects_the_other) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
         motion_open(&m, "plank_stays", *each_number(i));
@@ -472,7 +451,7 @@ static void test_the_weaker_friction_protects_the_other(void) {
 
 /* Three contacts on two coordinates: the forces are not unique. No split of the load may move bodies that the contacts
  * can hold together. */
-static void test_leaning_blocks_rest_exactly(void) {
+TEST(contact_load, leaning_blocks_rest_exactly) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
         motion_open(&m, "leaning_rests", *each_number(i));
@@ -492,7 +471,7 @@ static void test_leaning_blocks_rest_exactly(void) {
 }
 
 /* Only together can the frictions hold it: capacities of 3.687 N each, load 6.710 N. */
-static void test_frictions_add_up_through_a_hold(void) {
+TEST(contact_load, frictions_add_up_through_a_hold) {
     static const char text[] =
         "mechanism coupled\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n"
         "parameter g = 9.81 [m/s^2]\nparameter mu = 0.4\nparameter a = 20 [deg]\n"
@@ -550,7 +529,7 @@ static void run_groove(const char *const slopes[2], const char *restitution,
     motion_close(&m);
 }
 
-static void test_a_ball_comes_to_rest_in_a_groove(void) {
+TEST(contact_load, a_ball_comes_to_rest_in_a_groove) {
     for (unsigned i = 0; i < sizeof GROOVES / sizeof GROOVES[0]; i++) {
         run_groove(GROOVES[i], "e=0", &engine_double);
         run_groove(GROOVES[i], "e=0.5", &engine_double);
@@ -559,7 +538,7 @@ static void test_a_ball_comes_to_rest_in_a_groove(void) {
 }
 
 /* Three carts in a row, in plastic impacts, without a force that presses them together. */
-static void test_plastic_impacts_without_a_force(void) {
+TEST(contact_load, plastic_impacts_without_a_force) {
     static const char text[] =
         "mechanism carts\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
         "parameter m = 1 [kg]\nparameter w = 0.1 [m]\n"
@@ -604,7 +583,7 @@ static double height_after(const char *set, double at_s, const engine_kind *kind
     return y;
 }
 
-static void test_an_assignment_lifts_or_throws_what_rests(void) {
+TEST(contact_load, an_assignment_lifts_or_throws_what_rests) {
     for (int i = 0; each_number(i) != NULL; i++) {
         const engine_kind *kind = each_number(i)->kind;
         const double bound = kind == &engine_float ? 1e-5 : 1e-9;
@@ -621,7 +600,7 @@ static void test_an_assignment_lifts_or_throws_what_rests(void) {
     }
 }
 
-static void test_an_input_moves_a_stop(void) {
+TEST(contact_load, an_input_moves_a_stop) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
         motion_open_text(&m, FLOOR "}\n", *each_number(i));
@@ -640,7 +619,7 @@ static void test_an_input_moves_a_stop(void) {
 }
 
 /* A restitution outside 0 ... 1 from an input counts as the nearer end, so that no energy appears. */
-static void test_restitution_has_its_range_while_running(void) {
+TEST(contact_load, restitution_has_its_range_while_running) {
     motion m;
     stepping how = IN_DOUBLE;
     how.start = "y=1";
@@ -657,7 +636,7 @@ static void test_restitution_has_its_range_while_running(void) {
 }
 
 /* A held rate is captured again and booked: momentum m (2 - 0), energy m 2^2/2. */
-static void test_a_hold_takes_what_an_assignment_gives(void) {
+TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     static const char text[] =
         "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
         "parameter m = 1 [kg]\nparameter J = 1 [kg*m^2]\nT = m*(x'^2 + z'^2)/2 + J*c'^2/2\n"
@@ -682,7 +661,7 @@ static void test_a_hold_takes_what_an_assignment_gives(void) {
 }
 
 /* A crossing exactly at a step's end is located like any other: 0.5 = 32 steps of 1/64 s. */
-static void test_a_crossing_at_a_steps_end_is_located(void) {
+TEST(contact_load, a_crossing_at_a_steps_end_is_located) {
     static const char text[] =
         "mechanism clock\ncoordinate c [rad]\ncoordinate x [m]\nparameter J = 1 [kg*m^2]\n"
         "parameter m = 1 [kg]\nT = J*c'^2/2 + m*x'^2/2\n"
@@ -696,19 +675,6 @@ static void test_a_crossing_at_a_steps_end_is_located(void) {
         expect_between("x, less the closed form", -bound, bound, motion_value(&m, "x") - 0.375);
         motion_close(&m);
     }
-}
-
-void suite_contact_load(void) {
-    RUN_TEST(test_the_weaker_friction_protects_the_other);
-    RUN_TEST(test_leaning_blocks_rest_exactly);
-    RUN_TEST(test_frictions_add_up_through_a_hold);
-    RUN_TEST(test_a_ball_comes_to_rest_in_a_groove);
-    RUN_TEST(test_plastic_impacts_without_a_force);
-    RUN_TEST(test_an_assignment_lifts_or_throws_what_rests);
-    RUN_TEST(test_an_input_moves_a_stop);
-    RUN_TEST(test_restitution_has_its_range_while_running);
-    RUN_TEST(test_a_hold_takes_what_an_assignment_gives);
-    RUN_TEST(test_a_crossing_at_a_steps_end_is_located);
 }
 
 /* === contact rest ============================================================================= */
@@ -775,9 +741,9 @@ static void check_wagons(bool curved, bool both, const char *words) {
     }
 }
 
-static void test_wagons_with_a_straight_buffer(void) { check_wagons(false, false, "straight"); }
-static void test_wagons_with_a_curved_buffer(void) { check_wagons(true, false, "curved"); }
-static void test_wagons_that_both_brake(void) { check_wagons(true, true, "curved, both brake"); }
+TEST(contact_rest, wagons_with_a_straight_buffer) { check_wagons(false, false, "straight"); }
+TEST(contact_rest, wagons_with_a_curved_buffer) { check_wagons(true, false, "curved"); }
+TEST(contact_rest, wagons_that_both_brake) { check_wagons(true, true, "curved, both brake"); }
 
 /* --- rows of wagons ---------------------------------------------------------------------------------------- */
 
@@ -822,7 +788,7 @@ static void write_row(uint64_t *seed, int wagons, bool wall, char *text, size_t 
              T + 1, rest, start);
 }
 
-static void test_rows_of_wagons(void) {
+TEST(contact_rest, rows_of_wagons) {
     uint64_t seed = 41;
     uint64_t most = 0;
     int overran = 0;
@@ -881,7 +847,7 @@ static void test_rows_of_wagons(void) {
 
 /* A growing force pulls a small body off or along, beside an unrelated large force on another body. The round-off of
  * one must not be mistaken for the other. */
-static void test_a_force_elsewhere_holds_nothing(void) {
+TEST(contact_rest, a_force_elsewhere_holds_nothing) {
     for (int i = 0; i < 8; i++) {
         char text[700];
         const int digits = 2 + i / 2;
@@ -909,12 +875,4 @@ static void test_a_force_elsewhere_holds_nothing(void) {
             motion_close(&m);
         }
     }
-}
-
-void suite_contact_rest(void) {
-    RUN_TEST(test_rows_of_wagons);
-    RUN_TEST(test_a_force_elsewhere_holds_nothing);
-    RUN_TEST(test_wagons_with_a_straight_buffer);
-    RUN_TEST(test_wagons_with_a_curved_buffer);
-    RUN_TEST(test_wagons_that_both_brake);
 }

@@ -5,13 +5,7 @@
  * M^-1 J^T). Without gravity and with the pendulum at rest, the motion before the impact is uniform. The cart meets the
  * wall just before the end of a step, so the step's state shows the impact alone. */
 #include "contacts.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
-
-void suite_contact_impact(void);
+#include "test.h"
 
 #define CART_KG 2.0
 #define BOB_KG 1.0
@@ -83,7 +77,7 @@ static void check(const char *what, velocities J, velocities got, double bound, 
     TEST_ASSERT_TRUE(fabs(got.theta) > 1.0);
 }
 
-static void test_cart_meets_the_wall(void) {
+TEST(contact_impact, cart_meets_the_wall) {
     const velocities J = {-1.0, 0.0};
     /* the project's bound; round-off, and the 10 N m that act for 2e-15 s after the impact */
     check("cart, double", J, run("wall", "d", 0.0, IN_DOUBLE), 1e-12, 2e-14);
@@ -92,7 +86,7 @@ static void test_cart_meets_the_wall(void) {
     check("cart, float", J, run("wall", "d", 0.0, IN_FLOAT), 6e-5, 2e-5);
 }
 
-static void test_bob_meets_the_wall(void) {
+TEST(contact_impact, bob_meets_the_wall) {
     const velocities J = {-1.0, -ROD_M * cos(TILT)};
     const double offset = ROD_M * sin(TILT);
     check("bob, double", J, run("bob_wall", "d_b", offset, IN_DOUBLE), 1e-12, 2e-14);
@@ -100,7 +94,7 @@ static void test_bob_meets_the_wall(void) {
 }
 
 /* The pendulum's own speed matters, too: both swing, with gravity. Reference from another program. */
-static void test_impacts_of_a_swinging_pendulum_converge(void) {
+TEST(contact_impact, impacts_of_a_swinging_pendulum_converge) {
     static const char *const names[] = {"crash_cart", "crash_both"};
     for (unsigned i = 0; i < 2; i++) {
         double before = 0.0;
@@ -125,10 +119,4 @@ static void test_impacts_of_a_swinging_pendulum_converge(void) {
          * the order of m/s */
         expect_between("  error at 1 ms", 1e-14, 1e-7, before);
     }
-}
-
-void suite_contact_impact(void) {
-    RUN_TEST(test_cart_meets_the_wall);
-    RUN_TEST(test_bob_meets_the_wall);
-    RUN_TEST(test_impacts_of_a_swinging_pendulum_converge);
 }

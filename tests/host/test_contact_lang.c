@@ -1,15 +1,10 @@
 /* test_contact_lang.c: meaning of stop, friction, hold, when and noise in the parsed structs. Expressions are evaluated
  * at chosen states and compared with the same formula in C. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "parsed.h"
-#include "unity.h"
 
 void suite_contact_lang(void);
 

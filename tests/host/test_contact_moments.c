@@ -1,22 +1,9 @@
 /* test_contact_moments.c: dense events: flights shorter than a step, and impacts that cause impacts at the same
  * moment. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_contact_moments(void);
-void suite_contact_scenes(void);
-void suite_contact_squeezed(void);
-void suite_crossings(void);
 
 /* === contact moments ========================================================================== */
 
@@ -53,7 +40,7 @@ static void hop(double share, double mass, double gravity, const engine_kind *ki
     motion_close(&m);
 }
 
-static void test_hops_shorter_than_a_step(void) {
+TEST(contact_moments, hops_shorter_than_a_step) {
     uint64_t seed = 5;
     for (int i = 0; i < 12; i++) {
         const double share = random_between(&seed, 0.145, 1.2);
@@ -66,7 +53,7 @@ static void test_hops_shorter_than_a_step(void) {
 
 /* The gap after the last flight is closed and booked: the balance from a bounce with restitution to rest has no
  * residual, apart from the remaining energy. */
-static void test_the_last_gap_is_booked(void) {
+TEST(contact_moments, the_last_gap_is_booked) {
     uint64_t seed = 6;
     for (int i = 0; i < 20; i++) {
         char text[600];
@@ -154,7 +141,7 @@ static void write_chain(const chain *c, bool at_start, char *text, size_t size) 
     }
 }
 
-static void test_touching_bodies_pass_an_impact_on(void) {
+TEST(contact_moments, touching_bodies_pass_an_impact_on) {
     uint64_t seed = 7;
     int done = 0;
     int most = 0;
@@ -206,7 +193,7 @@ static void test_touching_bodies_pass_an_impact_on(void) {
 
 /* The lower body stands free on the floor. Hit by the upper one, it is pulled off so hard that it moves up again before
  * the step ends. The floor must still be hit. */
-static void test_an_impact_that_is_over_within_the_step(void) {
+TEST(contact_moments, an_impact_that_is_over_within_the_step) {
     uint64_t seed = 8;
     for (int i = 0; i < 40; i++) {
         const double u = random_between(&seed, 0.2, 1.0);
@@ -251,13 +238,6 @@ static void test_an_impact_that_is_over_within_the_step(void) {
             motion_close(&m);
         }
     }
-}
-
-void suite_contact_moments(void) {
-    RUN_TEST(test_hops_shorter_than_a_step);
-    RUN_TEST(test_the_last_gap_is_booked);
-    RUN_TEST(test_touching_bodies_pass_an_impact_on);
-    RUN_TEST(test_an_impact_that_is_over_within_the_step);
 }
 
 /* === contact scenes =========================================================================== */
@@ -313,7 +293,7 @@ static double error_of(const reference_case *c, stepping how) {
     return error;
 }
 
-static void test_every_scene_meets_its_reference(void) {
+TEST(contact_scenes, every_scene_meets_its_reference) {
     for (unsigned i = 0; i < CASE_COUNT; i++) {
         const reference_case *c = &CASES[i];
         const double coarse = error_of(c, IN_DOUBLE_STEP(c->step_s));
@@ -327,7 +307,7 @@ static void test_every_scene_meets_its_reference(void) {
     }
 }
 
-static void test_every_scene_runs_in_float(void) {
+TEST(contact_scenes, every_scene_runs_in_float) {
     for (unsigned i = 0; i < CASE_COUNT; i++) {
         const reference_case *c = &CASES[i];
         const double error = error_of(c, IN_FLOAT);
@@ -363,14 +343,14 @@ static void check_clamp(stepping how) {
     TEST_ASSERT_TRUE(held > 2000 && moved > 2000);
 }
 
-static void test_clamped_carriage_stands(void) {
+TEST(contact_scenes, clamped_carriage_stands) {
     check_clamp(IN_DOUBLE);
     check_clamp(IN_FLOAT);
 }
 
 /* Restitution 0 on the right: it stays exactly at the buffer until the push reverses and exceeds static friction: F_0
  * sin(phi) = -mu_s m g. */
-static void test_carriage_leaves_the_buffer_when_the_push_beats_friction(void) {
+TEST(contact_scenes, carriage_leaves_the_buffer_when_the_push_beats_friction) {
     motion m;
     double leaves_s = -1.0;
     motion_open(&m, "shuttle_buffers", IN_DOUBLE);
@@ -414,7 +394,7 @@ static void rest_of_two(stepping how, double *q, double *X) {
     motion_close(&m);
 }
 
-static void test_two_frictions_come_to_rest(void) {
+TEST(contact_scenes, two_frictions_come_to_rest) {
     double q[3];
     double X[3];
     rest_of_two(IN_DOUBLE, &q[0], &X[0]);
@@ -432,7 +412,7 @@ static void test_two_frictions_come_to_rest(void) {
 }
 
 /* Kick and drag balance: the loss of a period equals a kick's energy. */
-static void test_escapement_reaches_its_amplitude(void) {
+TEST(contact_scenes, escapement_reaches_its_amplitude) {
     const double d = 2e-5 / (2.0 * 1e-4);
     const double w = sqrt(0.01 / 1e-4 - d * d);
     const double settled = 0.5 / (1.0 - exp(-2.0 * acos(-1.0) * d / w));
@@ -458,15 +438,6 @@ static void test_escapement_reaches_its_amplitude(void) {
     /* floor(60 w/(2 pi)), and no kick at the start */
     TEST_ASSERT_EQUAL_UINT64(95, contacts_events(&m));
     motion_close(&m);
-}
-
-void suite_contact_scenes(void) {
-    RUN_TEST(test_every_scene_meets_its_reference);
-    RUN_TEST(test_every_scene_runs_in_float);
-    RUN_TEST(test_clamped_carriage_stands);
-    RUN_TEST(test_carriage_leaves_the_buffer_when_the_push_beats_friction);
-    RUN_TEST(test_two_frictions_come_to_rest);
-    RUN_TEST(test_escapement_reaches_its_amplitude);
 }
 
 /* === contact squeezed ========================================================================= */
@@ -623,10 +594,10 @@ static uint64_t run_row(uint64_t seed, double *deepest_m) {
     return watch_row(&r, deepest_m);
 }
 
-static void test_nothing_is_squeezed_through(void) { watch_many(run_row); }
+TEST(contact_squeezed, nothing_is_squeezed_through) { watch_many(run_row); }
 
 /* The pair that revealed the error: it ended 0.6 mm beyond the wall. */
-static void test_a_pair_against_a_wall(void) {
+TEST(contact_squeezed, a_pair_against_a_wall) {
     const row r = {.n = 2,
                    .mass_kg = {1.0, 0.1},
                    .place_m = {0.01, 0.02},
@@ -720,19 +691,13 @@ static uint64_t run_cage(uint64_t seed, double *deepest_m) {
     return watch(&w, text, false, deepest_m) + watch(&w, text, true, deepest_m);
 }
 
-static void test_nothing_leaves_a_cage(void) { watch_many(run_cage); }
-
-void suite_contact_squeezed(void) {
-    RUN_TEST(test_nothing_is_squeezed_through);
-    RUN_TEST(test_a_pair_against_a_wall);
-    RUN_TEST(test_nothing_leaves_a_cage);
-}
+TEST(contact_squeezed, nothing_leaves_a_cage) { watch_many(run_cage); }
 
 /* === crossings ================================================================================ */
 /* Several crossings with assignments: each makes its own, in its own time. */
 
 /* x moves on at 1 m/s and crosses a level every second; each crossing sets rates of some of y, z, u. */
-static void test_each_crossing_sets_its_own(void) {
+TEST(crossings, each_crossing_sets_its_own) {
     static const char *const others[] = {"y", "z", "u"};
     uint64_t seed = 47;
     for (int round = 0; round < 40; round++) {
@@ -850,7 +815,7 @@ static int go(bounce *b, double end_s, double step_s, double *at) {
     }
 }
 
-static void test_what_turns_back_crosses_once(void) {
+TEST(crossings, what_turns_back_crosses_once) {
     static const char *const words[] = {" falling", "", " rising"};
     static const char *const values[] = {"x crosses 2 [m]", "3*x - 4 [m] crosses 2 [m]",
                                          "x*abs(x)/(2 [m]) crosses 2 [m]"};
@@ -907,7 +872,7 @@ static void test_what_turns_back_crosses_once(void) {
 
 /* A body stops at its crossing and stands, alone or by friction, until another crossing moves it on or back: it has
  * crossed once. A second level, half a metre on, is crossed and counted on the way. */
-static void test_what_stands_at_its_crossing(void) {
+TEST(crossings, what_stands_at_its_crossing) {
     dice d = dice_of("what stands", 5521);
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
         char text[900];
@@ -949,7 +914,7 @@ static void test_what_stands_at_its_crossing(void) {
 
 /* One crossing sets a body onto the level of another, and it moves on or back. Only levels passed by motion are
  * crossed. The level that it was set onto is not, nor is it crossed on leaving. */
-static void test_what_is_set_onto_another(void) {
+TEST(crossings, what_is_set_onto_another) {
     dice d = dice_of("set onto", 5522);
     unsigned passed = 0;
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -993,7 +958,7 @@ static void test_what_is_set_onto_another(void) {
 
 /* Each lossless bounce throws a rate across a crossing of that rate, and between bounces it falls through it: two
  * crossings per bounce. */
-static void test_what_impacts_throw_across(void) {
+TEST(crossings, what_impacts_throw_across) {
     dice d = dice_of("thrown across", 5523);
     unsigned bounced = 0;
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -1030,12 +995,4 @@ static void test_what_impacts_throw_across(void) {
         motion_close(&m);
     }
     TEST_ASSERT_TRUE(bounced > 10);
-}
-
-void suite_crossings(void) {
-    RUN_TEST(test_what_is_set_onto_another);
-    RUN_TEST(test_what_impacts_throw_across);
-    RUN_TEST(test_what_stands_at_its_crossing);
-    RUN_TEST(test_each_crossing_sets_its_own);
-    RUN_TEST(test_what_turns_back_crosses_once);
 }

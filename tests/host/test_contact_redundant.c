@@ -1,16 +1,9 @@
 /* test_contact_redundant.c: a plate on two to five supports in a line, more than needed: the load's distribution is
  * undetermined, the motion is not. It rests, or leaves all supports at once when they fall away faster, or tips over
  * the outermost one under a torque. Closed forms. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "contacts.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_contact_redundant(void);
 
 enum { TEXT = 2000 };
 
@@ -116,10 +109,5 @@ static void expect(bool falls, const char *words) {
     TEST_ASSERT_TRUE(worst[1] < 1e-5);
 }
 
-static void test_supports_fall_away(void) { expect(true, "supports that fall away"); }
-static void test_plates_tip(void) { expect(false, "plates that tip"); }
-
-void suite_contact_redundant(void) {
-    RUN_TEST(test_supports_fall_away);
-    RUN_TEST(test_plates_tip);
-}
+TEST(contact_redundant, supports_fall_away) { expect(true, "supports that fall away"); }
+TEST(contact_redundant, plates_tip) { expect(false, "plates that tip"); }

@@ -1,10 +1,7 @@
 /* test_contact_run.c: selection of stops, frictions, holds, whens and noises for one run, ranges of their numbers, and
  * the ledger. */
-#include <stdio.h>
-#include <string.h>
-
 #include "parsed.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_contact_run(void);
 

@@ -1,10 +1,5 @@
 /* test_contact_start.c: contacts pressed at the start take part in an impact at that moment. A body that touches a
  * resting row at t = 0 acts and counts like one that meets it a little later. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -12,12 +7,6 @@
 #include "motion.h"
 #include "scattered.h"
 #include "tangled.h"
-
-#include "unity.h"
-
-void suite_contact_start(void);
-void suite_contact_together(void);
-void suite_hybrids(void);
 
 /* === contact start ============================================================================ */
 
@@ -95,7 +84,7 @@ static bool after_a_step(const row *of, double *rate, uint64_t *events) {
     return overran;
 }
 
-static void test_an_impact_at_the_start_is_as_one_just_after(void) {
+TEST(contact_start, an_impact_at_the_start_is_as_one_just_after) {
     const char *wanted = getenv("WHIRL_START_ROWS");
     const long runs = wanted != NULL ? strtol(wanted, NULL, 10) : (long)usual_or(150, 50);
     double worst = 0.0;
@@ -138,7 +127,7 @@ static void test_an_impact_at_the_start_is_as_one_just_after(void) {
 }
 
 /* An impact at t = 0 counts as it would later, in either number format. Resting or held contacts do not count. */
-static void test_what_happens_at_the_start_is_counted(void) {
+TEST(contact_start, what_happens_at_the_start_is_counted) {
     static const struct {
         const char *statement;
         const char *start;
@@ -171,11 +160,6 @@ static void test_what_happens_at_the_start_is_counted(void) {
             motion_close(&m);
         }
     }
-}
-
-void suite_contact_start(void) {
-    RUN_TEST(test_an_impact_at_the_start_is_as_one_just_after);
-    RUN_TEST(test_what_happens_at_the_start_is_counted);
 }
 
 /* === contact together ========================================================================= */
@@ -212,7 +196,7 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
 
 /* Touching bodies thrown at each other, alone and with friction, loads, holds and a crossing: any order of the
  * statements gives the same motion within round-off. Steps with too many events are excepted. */
-static void test_the_order_of_the_file_does_not_matter(void) {
+TEST(contact_together, the_order_of_the_file_does_not_matter) {
     const long runs = wanted_runs(130);
     int over = 0;
     double worst = 0.0;
@@ -244,7 +228,7 @@ static void test_the_order_of_the_file_does_not_matter(void) {
 }
 
 /* No stop, friction or hold ever adds energy, except in a step with too many events. */
-static void test_no_contact_gives_energy(void) {
+TEST(contact_together, no_contact_gives_energy) {
     const long runs = wanted_runs((long)few_or_all(usual_or(15, 5), 130));
     double worst = 0.0;
     for (long i = 0; i < 2 * runs; i++) {
@@ -305,7 +289,7 @@ static void expect_speeds(const motion *m, const double *speed, double bound) {
 /* Newton's cradle: as many balls leave as arrive; a touched stop is hit in the next round of the moment. If impacts of
  * 2 and 1 m/s meet in the middle ball, both stops are hit at once: -4/3, 2/3 and 5/3 m/s. Without restitution all
  * touching balls move on together. */
-static void test_newtons_cradle(void) {
+TEST(contact_together, newtons_cradle) {
     static const struct {
         double restitution;
         double before[BALLS];
@@ -358,20 +342,13 @@ static void corner(double e1, double e2, bool swapped, stepping how, double boun
     motion_close(&m);
 }
 
-static void test_a_corner_is_hit_at_once(void) {
+TEST(contact_together, a_corner_is_hit_at_once) {
     for (int i = 0; i < 2; i++) {
         corner(0.5, 0.5, i != 0, IN_DOUBLE, 1e-12);
         corner(0.25, 0.75, i != 0, IN_DOUBLE, 1e-12);
         corner(1.0, 1.0, i != 0, IN_FLOAT, 1e-6);
         corner(1.0, 0.0, i != 0, IN_DOUBLE, 1e-12);
     }
-}
-
-void suite_contact_together(void) {
-    RUN_TEST(test_the_order_of_the_file_does_not_matter);
-    RUN_TEST(test_no_contact_gives_energy);
-    RUN_TEST(test_newtons_cradle);
-    RUN_TEST(test_a_corner_is_hit_at_once);
 }
 
 /* === hybrids ================================================================================== */
@@ -416,7 +393,7 @@ static double off_in_finer(const hybrid *h, const char *text) {
     return wanted.aside ? 0.0 : off_at(later_s, h, &wanted, STEP_S / 8.0, text);
 }
 
-static void test_random_hybrids(void) {
+TEST(hybrids, random_hybrids) {
     dice d = dice_of("hybrids", 15);
     const unsigned cases = dice_cases(few_or_all(3, 40));
     uint64_t seed = d.state;
@@ -465,7 +442,7 @@ static void test_random_hybrids(void) {
 
 /* Blocks on springs whose friction varies with the load of a swinging mass. The moments of zero load are kinks of the
  * force and are located, so the error falls with the fourth power of the step. */
-static void test_normal_forces_that_vanish(void) {
+TEST(hybrids, normal_forces_that_vanish) {
     dice d = dice_of("hybrids", 17);
     double least = 1e9;
     for (int k = 0; k < 6; k++) {
@@ -495,9 +472,4 @@ static void test_normal_forces_that_vanish(void) {
         least = fmin(least, log2(coarse / fine) / 2.0);
     }
     TEST_ASSERT_TRUE(least > 3.5);
-}
-
-void suite_hybrids(void) {
-    RUN_TEST(test_random_hybrids);
-    RUN_TEST(test_normal_forces_that_vanish);
 }

@@ -1,16 +1,8 @@
 /* test_contact_stops.c: balls on stops (core/models/contacts.whirl), with closed forms. */
 #include "contacts.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
-
-#include "unity.h"
-
-void suite_contact_stops(void);
 
 #define G 9.81
 
@@ -52,7 +44,7 @@ static void check_rest(stepping how, double height_most) {
     expect_between("  height after a bounce, off by, m", 0.0, height_most, worst);
 }
 
-static void test_ball_comes_to_rest_and_stays_for_a_minute(void) {
+TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
     check_rest(IN_DOUBLE, 1e-6); /* the project's bound */
     /* 450 sums of the first fall, each rounded by at most 2^-24 of 4.4 m/s: 1.2e-4 m/s, times v/g */
     check_rest(IN_FLOAT, 5.3e-5);
@@ -77,7 +69,7 @@ static void elastic(stepping how, double *most, double *least) {
     motion_close(&m);
 }
 
-static void test_perfect_bounces_gain_no_energy(void) {
+TEST(contact_stops, perfect_bounces_gain_no_energy) {
     double most;
     double least;
     elastic(IN_DOUBLE, &most, &least);
@@ -118,7 +110,7 @@ static double impact_error(double h, double *speed_error) {
     return fabs(t - closed);
 }
 
-static void test_impact_time_converges(void) {
+TEST(contact_stops, impact_time_converges) {
     double before = 0.0;
     double before_speed = 0.0;
     double least = HUGE_VAL;
@@ -156,7 +148,7 @@ static void check_hopper_rests(stepping how) {
 }
 
 /* Amplitudes to either side of g/w^2. */
-static void test_ball_lifts_off_where_the_table_falls_faster(void) {
+TEST(contact_stops, ball_lifts_off_where_the_table_falls_faster) {
     const double w = 20.0 * acos(-1.0);
     for (int side = -1; side <= 1; side += 2) {
         motion m;
@@ -178,7 +170,7 @@ static void test_ball_lifts_off_where_the_table_falls_faster(void) {
 }
 
 /* Closed form of the flight: lift-off at sin(w t) = g/(A w^2) with the table's speed. */
-static void test_flight_off_the_table(void) {
+TEST(contact_stops, flight_off_the_table) {
     const double w = 20.0 * acos(-1.0);
     const double A = 0.003;
     const double off = asin(G / (A * w * w)) / w;
@@ -230,7 +222,7 @@ static double check_dome(stepping how, double off_most, double speed_most) {
     return error;
 }
 
-static void test_particle_leaves_the_dome_where_the_force_turns(void) {
+TEST(contact_stops, particle_leaves_the_dome_where_the_force_turns) {
     /* the gap is zero after each step within round-off. RK4 with a rate constant sqrt(g/R) = 3.1: (3.1 h)^4/120, times
      * a second of it and the speed */
     const double coarse = check_dome(IN_DOUBLE_STEP(8e-3), 1e-12, 1e-7);
@@ -265,12 +257,12 @@ static void check_stack(stepping how, double height_most) {
     motion_close(&m);
 }
 
-static void test_stacked_blocks_come_to_rest(void) {
+TEST(contact_stops, stacked_blocks_come_to_rest) {
     check_stack(IN_DOUBLE, 1e-16); /* the last place of 0.1 m */
     check_stack(IN_FLOAT, 8e-9);
 }
 
-static void test_too_many_bounces_are_told_and_end(void) {
+TEST(contact_stops, too_many_bounces_are_told_and_end) {
     motion m;
     motion_open(&m, "ball_between", IN_DOUBLE);
     const double start = motion_value(&m, "energy");
@@ -293,7 +285,7 @@ static void test_too_many_bounces_are_told_and_end(void) {
 }
 
 /* Balls whose restitution depends on the impact speed: a warning must say where it leaves 0 to 1, and only there. */
-static void test_a_restitution_out_of_bounds_is_told(void) {
+TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
     dice d = dice_of("contact_stops", 5);
     const unsigned cases = dice_cases(24);
     unsigned told = 0;
@@ -326,16 +318,4 @@ static void test_a_restitution_out_of_bounds_is_told(void) {
         }
     }
     TEST_ASSERT_TRUE(4 * told >= cases || cases < 24);
-}
-
-void suite_contact_stops(void) {
-    RUN_TEST(test_a_restitution_out_of_bounds_is_told);
-    RUN_TEST(test_ball_comes_to_rest_and_stays_for_a_minute);
-    RUN_TEST(test_perfect_bounces_gain_no_energy);
-    RUN_TEST(test_impact_time_converges);
-    RUN_TEST(test_ball_lifts_off_where_the_table_falls_faster);
-    RUN_TEST(test_flight_off_the_table);
-    RUN_TEST(test_particle_leaves_the_dome_where_the_force_turns);
-    RUN_TEST(test_stacked_blocks_come_to_rest);
-    RUN_TEST(test_too_many_bounces_are_told_and_end);
 }

@@ -2,18 +2,8 @@
  *
  * References do not come from Whirl's steps. They are the matrix exponential of the two masses, computed here in long
  * double, the reference states of tests/reference, closed forms and conserved quantities. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_convergence(void);
-void suite_energy_kept(void);
 
 /* === convergence ============================================================================== */
 
@@ -133,7 +123,7 @@ static double two_masses_error(motion *m, const void *of) {
     return worst;
 }
 
-static void test_matrix_exponential_gives_the_printed_numbers(void) {
+TEST(convergence, matrix_exponential_gives_the_printed_numbers) {
     long double state[4];
     two_masses_exact(0.5, state);
     TEST_ASSERT_DOUBLE_WITHIN(5e-12, 2.14780055387, (double)state[0]);
@@ -143,7 +133,7 @@ static void test_matrix_exponential_gives_the_printed_numbers(void) {
     TEST_ASSERT_DOUBLE_WITHIN(5e-12, 4.37194168954, (double)state[1]);
 }
 
-static void test_order_of_every_method_on_the_two_masses(void) {
+TEST(convergence, order_of_every_method_on_the_two_masses) {
     const double at_s = 2.0;
     const char *const name = "two_mass_absolute";
     expect_order("S5 Euler at 2 s", name, WH_EULER, 1e-3, two_masses_error, &at_s, 0.9, 1.1);
@@ -167,7 +157,7 @@ static double reference_error(motion *m, const void *of) {
     return motion_error(m, r->scene, r->time);
 }
 
-static void test_order_of_every_method_on_the_epicyclic_gear(void) {
+TEST(convergence, order_of_every_method_on_the_epicyclic_gear) {
     const reference at = {"epicyclic_from_rest", "5.0", 5.0};
     expect_order("S6 Euler at 5 s", at.scene, WH_EULER, 1e-3, reference_error, &at, 0.9, 1.1);
     expect_order("S6 semi-implicit Euler at 5 s", at.scene, WH_SEMI_IMPLICIT_EULER, 1e-3,
@@ -181,7 +171,7 @@ static void test_order_of_every_method_on_the_epicyclic_gear(void) {
 
 /* From 1 ms on. 2 ms is too coarse for the six states of this one (the order from 2 to 1 ms is 3.4), but not for its
  * invariants. */
-static void test_order_on_thomson_device(void) {
+TEST(convergence, order_on_thomson_device) {
     const reference at = {"thomson_a", "5.0", 5.0};
     expect_order("S8 Runge-Kutta 4 at 5 s", at.scene, WH_RK4, 1e-3, reference_error, &at, 3.6, 4.4);
 }
@@ -219,7 +209,7 @@ static double work_off(const motion *m, const void *of) {
     return thomson_kinetic_J(m) + 2.0 * motion_value(m, "theta1");
 }
 
-static void test_order_of_thomson_momentum(void) {
+TEST(convergence, order_of_thomson_momentum) {
     const book a = {x_off, 0.6, 8.0};
     const book b = {x_off, 0.5, 5.0};
     expect_order("S8 A, X off its closed form to 8 s", "thomson_a", WH_RK4, 2e-3, book_error, &a,
@@ -228,7 +218,7 @@ static void test_order_of_thomson_momentum(void) {
                  3.9, 4.1);
 }
 
-static void test_order_of_thomson_energy(void) {
+TEST(convergence, order_of_thomson_energy) {
     const book a = {work_off, 0.6, 8.0};
     expect_order("S8 A, T - M theta1 to 8 s", "thomson_a", WH_RK4, 1e-3, book_error, &a, 3.8, 4.2);
 }
@@ -263,7 +253,7 @@ static double oscillator_error(motion *m, const void *of) {
     return hypot(motion_value(m, "x") - cos(2.0), motion_value(m, "v") / 2.0 + sin(2.0));
 }
 
-static void test_order_of_every_method_on_first_order_systems(void) {
+TEST(convergence, order_of_every_method_on_first_order_systems) {
     for (unsigned i = 0; i < WH_METHODS; i++) {
         const double order = wh_methods[i].order;
         const double step_s = order < 4.0 ? 1e-3 : order < 5.0 ? 20e-3 : 40e-3;
@@ -314,7 +304,7 @@ static double oscillator_energy_J(wh_method method, double *least, double *most)
 /* It is symplectic: x^2 + v^2 + h x v, or the same with -h, is constant. The energy oscillates by the fraction h/2
  * (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1). Explicit Euler's energy grows by 1 + h^2 per step.
  * The order does not distinguish the two. */
-static void test_semi_implicit_euler_keeps_the_energy_for_ever(void) {
+TEST(convergence, semi_implicit_euler_keeps_the_energy_for_ever) {
     double least;
     double most;
     const double grown = oscillator_energy_J(WH_EULER, &least, &most);
@@ -324,17 +314,6 @@ static void test_semi_implicit_euler_keeps_the_energy_for_ever(void) {
     printf("; semi-implicit Euler between %.6f and %.6f J\n", least, most);
     TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.5 - 0.5 * 0.01 / 2.0, least);
     TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.5 + 0.5 * 0.01 / 2.0, most);
-}
-
-void suite_convergence(void) {
-    RUN_TEST(test_matrix_exponential_gives_the_printed_numbers);
-    RUN_TEST(test_order_of_every_method_on_the_two_masses);
-    RUN_TEST(test_order_of_every_method_on_the_epicyclic_gear);
-    RUN_TEST(test_order_on_thomson_device);
-    RUN_TEST(test_order_of_thomson_momentum);
-    RUN_TEST(test_order_of_thomson_energy);
-    RUN_TEST(test_order_of_every_method_on_first_order_systems);
-    RUN_TEST(test_semi_implicit_euler_keeps_the_energy_for_ever);
 }
 
 /* === energy kept ============================================================================== */
@@ -442,7 +421,7 @@ static double gained(const swinging *s, const char *text, stepping how) {
 /* Stages that go 4.8e-8 too far, as in steps of a millisecond, would give a bias of (h w)^2 times half of that per
  * step. Scatter is h w times a float's last place over the square root of the steps. Dissipative methods take less
  * themselves if h w is small. */
-static void test_energy_does_not_leak_by_rounding(void) {
+TEST(energy_kept, energy_does_not_leak_by_rounding) {
     static const struct {
         wh_method method;
         double least, most; /* h w */
@@ -478,5 +457,3 @@ static void test_energy_does_not_leak_by_rounding(void) {
         worst, sqrt(sum / cases));
     TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 && sqrt(sum / cases) < 1e-8); /* biased: 2.7e-8 */
 }
-
-void suite_energy_kept(void) { RUN_TEST(test_energy_does_not_leak_by_rounding); }

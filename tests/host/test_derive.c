@@ -1,15 +1,8 @@
 /* test_derive.c: operation lists of every mechanism against their equations and the energy balance; and their cost. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "derived.h"
 #include "host/derive/conserve.h"
-#include "unity.h"
-
-void suite_derive(void);
 
 enum { STATES = 50 };
 
@@ -108,7 +101,7 @@ static void check_list(const derived *d, const char *name, double *worst) {
     }
 }
 
-static void test_operation_lists_solve_the_equations(void) {
+TEST(derive, operation_lists_solve_the_equations) {
     double worst = 0.0;
     for (size_t i = 0; i < sizeof lagrangian / sizeof lagrangian[0]; i++) {
         derived d = mechanism_file(lagrangian[i]);
@@ -164,7 +157,7 @@ static void check_balance(const derived *d, const char *name) {
     }
 }
 
-static void test_power_balances_in_every_mechanism(void) {
+TEST(derive, power_balances_in_every_mechanism) {
     for (size_t i = 0; i < sizeof lagrangian / sizeof lagrangian[0]; i++) {
         derived d = mechanism_file(lagrangian[i]);
         check_balance(&d, lagrangian[i]);
@@ -192,7 +185,7 @@ static void expect_cost(const char *name, int at_least, int at_most, int waves) 
     derived_free(&d);
 }
 
-static void test_right_hand_sides_stay_small(void) {
+TEST(derive, right_hand_sides_stay_small) {
     expect_cost("thomson_a", 50, 54, 2);
     expect_cost("thomson_a_conserved", 49, 53, 2);
     expect_cost("epicyclic_from_rest", 8, 14, 1);
@@ -203,7 +196,7 @@ static void test_right_hand_sides_stay_small(void) {
     expect_cost("two_mass_relative", 8, 20, 0);
 }
 
-static void test_large_but_tame_expressions_are_derived(void) {
+TEST(derive, large_but_tame_expressions_are_derived) {
     derived d = derived_text("mechanism m\ncoordinate a\ncoordinate b\ncoordinate c\ncoordinate d\n"
                              "coordinate e\nT = 1 [kg*m^2]*(a'^2 + b'^2 + c'^2 + d'^2 + e'^2)/2\n"
                              "V = 1 [J]*(a + b + c + d + e)^60\n");
@@ -233,7 +226,7 @@ static void test_large_but_tame_expressions_are_derived(void) {
 }
 
 /* Kept powers of sums hide neither a cyclic coordinate nor the function whose rate is its momentum. */
-static void test_kept_powers_do_not_hide_conservation(void) {
+TEST(derive, kept_powers_do_not_hide_conservation) {
     derived d = derived_text("mechanism m\ncoordinate X\ncoordinate x\n"
                              "T = 1 [kg*m^2]*((X' + 4*(x - 2)^3*x')^2 + x'^2)/2\n"
                              "V = 1 [J]*((x - 2)^4 + (X + x)^4 - ((X + x)^2)^2)\n");
@@ -251,7 +244,7 @@ static void test_kept_powers_do_not_hide_conservation(void) {
 }
 
 /* x^e and x^e (1 + x), for integer and half exponents of every size, with x so near 1 that they stay small. */
-static void test_large_exponents_are_not_cut(void) {
+TEST(derive, large_exponents_are_not_cut) {
     uint64_t seed = 20;
     for (int i = 0; i < 200; i++) {
         const double size = pow(10.0, random_between(&seed, 0.0, 14.0));
@@ -273,13 +266,4 @@ static void test_large_exponents_are_not_cut(void) {
         TEST_ASSERT_TRUE_MESSAGE(fabs(result[1] - wanted * (1.0 + x)) <= 6e-14 * wanted, text);
         derived_free(&d);
     }
-}
-
-void suite_derive(void) {
-    RUN_TEST(test_operation_lists_solve_the_equations);
-    RUN_TEST(test_power_balances_in_every_mechanism);
-    RUN_TEST(test_kept_powers_do_not_hide_conservation);
-    RUN_TEST(test_large_exponents_are_not_cut);
-    RUN_TEST(test_right_hand_sides_stay_small);
-    RUN_TEST(test_large_but_tame_expressions_are_derived);
 }

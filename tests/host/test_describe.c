@@ -1,10 +1,6 @@
 /* test_describe.c: `whirl describe --json`: declared ranges and a step as a matrix. docs/describe.md has each field.
  * The JSON checker refuses other text. test_image.c checks every field on random scenes. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/emit/description.h"
 #include "host/lang/units.h"
@@ -12,11 +8,6 @@
 #include "derived.h"
 #include "json_check.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_describe(void);
-void suite_image_rows(void);
 
 /* === describe ================================================================================= */
 
@@ -65,7 +56,7 @@ static void check_accounts(const char *text, const image *im) {
 }
 
 /* Declared ranges in SI, from any unit and order; null for others. */
-static void test_ranges_are_described(void) {
+TEST(describe, ranges_are_described) {
     derived d = derived_scene(derived_ranged, "s");
     derived_expect(&d, derived_ranged);
     char *json = described(d.image);
@@ -105,7 +96,7 @@ static double number_at(const char *json, const char *list, int row, int column)
 }
 
 /* A matrix step applied to the start gives the same as a step of the method. */
-static void test_a_matrix_is_described(void) {
+TEST(describe, a_matrix_is_described) {
     static const char text[] =
         "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter k = 7 [N/m]\n"
         "input push = 3 [N]\ninput pull = -2 [N]\nT = 2 [kg]*x'^2/2 + 3 [kg]*y'^2/2\n"
@@ -147,7 +138,7 @@ static void test_a_matrix_is_described(void) {
     motion_close(&with);
 }
 
-static void test_the_checker_is_strict(void) {
+TEST(describe, the_checker_is_strict) {
     static const char *const wrong[] = {"",
                                         "{",
                                         "{}}",
@@ -208,7 +199,7 @@ static void check_keys(const char *json, const char *page) {
     }
 }
 
-static void test_every_field_is_documented(void) {
+TEST(describe, every_field_is_documented) {
     static const char *const scenes[] = {"shuttle_clamped", "thomson_a_conserved", "carriage_stop"};
     char *page = page_text();
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
@@ -231,13 +222,6 @@ static void test_every_field_is_documented(void) {
     free(page);
 }
 
-void suite_describe(void) {
-    RUN_TEST(test_every_field_is_documented);
-    RUN_TEST(test_the_checker_is_strict);
-    RUN_TEST(test_ranges_are_described);
-    RUN_TEST(test_a_matrix_is_described);
-}
-
 /* === image rows =============================================================================== */
 /* The tables of an image, row by row. Each component, account and input has its place in the core's order
  * (core/scene.h, core/ledger.h), once, with the meaning of the file. A missing or shifted row would change no motion of
@@ -257,7 +241,7 @@ static dimension dimension_of(const char *unit) {
 }
 
 /* A momentum is energy times time over its coordinate's unit: metres, angles, charges, square roots of masses. */
-static void test_momenta_are_energy_by_time_over_their_coordinate(void) {
+TEST(image_rows, momenta_are_energy_by_time_over_their_coordinate) {
     static const char *const bases[DIM_BASES][5] = {{"", "*m", "/m", "*m^2", "*m^(1/2)"},
                                                     {"", "*kg", "/kg", "*kg^2", "*kg^(1/2)"},
                                                     {"", "*s", "/s", "*s^2", "/s^2"},
@@ -432,7 +416,7 @@ static int check_scene(const scene *s) {
     return 1;
 }
 
-static void test_rows_of_built_in_scenes(void) {
+TEST(image_rows, rows_of_built_in_scenes) {
     targets = 0;
     ranges = 0;
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene) > 60);
@@ -465,7 +449,7 @@ static const char of_every_kind[] =
     "    range A = -7 .. 8 [N]\n    range D = -9 .. 10 [N]\n    range ph = -11 .. 12 [rad]\n"
     "}\n";
 
-static void test_rows_of_every_kind(void) {
+TEST(image_rows, rows_of_every_kind) {
     derived d = derived_scene(of_every_kind, "s");
     derived_expect(&d, d.errors);
     check_components(d.image, "s");
@@ -478,10 +462,4 @@ static void test_rows_of_every_kind(void) {
     TEST_ASSERT_EQUAL_INT(5, check_targets(&d, "s"));
     TEST_ASSERT_EQUAL_INT(6, check_ranges(&d, "s"));
     derived_free(&d);
-}
-
-void suite_image_rows(void) {
-    RUN_TEST(test_momenta_are_energy_by_time_over_their_coordinate);
-    RUN_TEST(test_rows_of_built_in_scenes);
-    RUN_TEST(test_rows_of_every_kind);
 }

@@ -1,13 +1,7 @@
 /* test_devices.c: the particle in two coordinate sets (row S4) and the devices with guided weights (S11 Laskowitz, S13
  * Cuff). Thresholds and sources as in test_dissertation.c. */
 #include "ranges.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
-
-void suite_devices(void);
+#include "test.h"
 
 static double largest_distance(const char *one, const char *other, double until_s) {
     motion a;
@@ -28,7 +22,7 @@ static double largest_distance(const char *one, const char *other, double until_
     return worst;
 }
 
-static void test_particle_flies_alike_in_both_coordinate_sets(void) {
+TEST(devices, particle_flies_alike_in_both_coordinate_sets) {
     /* the project's bound; from below: the two cannot agree to the last bit by chance */
     expect_between("S4: spherical - Cartesian over 2 s, m", 1e-14, 1e-9,
                    largest_distance("spherical_flight", "cartesian_flight", 2.0));
@@ -37,7 +31,7 @@ static void test_particle_flies_alike_in_both_coordinate_sets(void) {
                    largest_distance("spherical_near_pole", "cartesian_near_pole", 1.0));
 }
 
-static void test_cartesian_particle_is_the_parabola(void) {
+TEST(devices, cartesian_particle_is_the_parabola) {
     motion m;
     double worst = 0.0;
     motion_open(&m, "cartesian_flight", IN_DOUBLE);
@@ -154,17 +148,17 @@ static void check_uneven_weights(const wheel *w) {
     expect_between("  X's least, m", -1e-8, 1e-8, r[0].least);
 }
 
-static void test_laskowitz_six_weights(void) {
+TEST(devices, laskowitz_six_weights) {
     check_equal_weights(&LASKOWITZ);
     check_uneven_weights(&LASKOWITZ);
 }
 
-static void test_cuff_eight_weights(void) {
+TEST(devices, cuff_eight_weights) {
     check_equal_weights(&CUFF);
     check_uneven_weights(&CUFF);
 }
 
-static void test_laskowitz_centred_is_a_flywheel(void) {
+TEST(devices, laskowitz_centred_is_a_flywheel) {
     range r[] = {{.name = "theta"}, {.name = "X"}, {.name = "r_1"}, {.name = "r_4"}};
     ranges_of("laskowitz_centred", IN_DOUBLE, 5.0, 1e-3, r, 4);
     /* closed form: torque t^2/2 / (I + 6 m R^2) = 0.5 x 12.5/0.14 */
@@ -177,7 +171,7 @@ static void test_laskowitz_centred_is_a_flywheel(void) {
 
 /* The ring's spring yields to the weights: the energy at a shift has six periods per turn. That shakes ring and
  * carriage by less than a micrometre. */
-static void test_laskowitz_shifting_moves_the_carriage_once(void) {
+TEST(devices, laskowitz_shifting_moves_the_carriage_once) {
     motion m;
     double off = 0.0;
     double across = 0.0;
@@ -205,13 +199,4 @@ static void test_laskowitz_shifting_moves_the_carriage_once(void) {
     expect_between("S11: carriage's place at last, mm", -16.27, -16.25, 500.0 * (low + high));
     /* own measurement, the same at 1 ms and 0.5 ms: 0.91 um */
     expect_between("S11: carriage's oscillation after 2 s, um", 0.8, 1.0, 1e6 * (high - low));
-}
-
-void suite_devices(void) {
-    RUN_TEST(test_particle_flies_alike_in_both_coordinate_sets);
-    RUN_TEST(test_cartesian_particle_is_the_parabola);
-    RUN_TEST(test_laskowitz_six_weights);
-    RUN_TEST(test_cuff_eight_weights);
-    RUN_TEST(test_laskowitz_centred_is_a_flywheel);
-    RUN_TEST(test_laskowitz_shifting_moves_the_carriage_once);
 }

@@ -3,14 +3,8 @@
  * characters. */
 #include "host/base/diag.h"
 
-#include <stdbool.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/base/spelling.h"
-#include "unity.h"
-
-void suite_diag(void);
 
 enum { FILES = 3, ERRORS_MOST = 30, LENGTH = 60 };
 
@@ -81,7 +75,7 @@ static void check_printed(FILE *out, const told *rows, int count) {
     TEST_ASSERT_TRUE(more == said_more);
 }
 
-static void test_order(void) {
+TEST(diag, order) {
     static const char *const names[FILES] = {"file0", "file1", "file2"};
     dice d = dice_of("errors in drawn places", 20261124);
     const unsigned cases = dice_cases(200);
@@ -110,7 +104,7 @@ static void test_order(void) {
 }
 
 /* A statement of each length around the limit: whole if it fits, else with dots at its end. */
-static void test_statements(void) {
+TEST(diag, statements) {
     enum { ROOM = 20, MOST = 2 * ROOM };
     for (size_t length = 1; length <= MOST; length++) {
         char line[MOST + 2];
@@ -127,7 +121,7 @@ static void test_statements(void) {
 }
 
 /* Up to the bracket that closes its surroundings, without comments. */
-static void test_statements_in_braces(void) {
+TEST(diag, statements_in_braces) {
     static const char *const own[] = {"a = 1", "when x { set y }", "when x { a { b } }", "e {}"};
     static const char *const begin[] = {"", "scene s { ", "\n  ", "effect e {"};
     static const char *const end[] = {"", " }", " } }\n", "\n}", " # {", "}"};
@@ -142,7 +136,7 @@ static void test_statements_in_braces(void) {
 }
 
 /* The first and last character of each length, whole at the end of a text, and truncated by each number of bytes. */
-static void test_characters(void) {
+TEST(diag, characters) {
     static const char *const characters[] = {"a",
                                              "~",
                                              "\xc2\xa0",
@@ -159,11 +153,4 @@ static void test_characters(void) {
             TEST_ASSERT_EQUAL_UINT(0, utf8_length(characters[i], left));
         }
     }
-}
-
-void suite_diag(void) {
-    RUN_TEST(test_order);
-    RUN_TEST(test_statements);
-    RUN_TEST(test_statements_in_braces);
-    RUN_TEST(test_characters);
 }

@@ -4,19 +4,13 @@
  *
  * test_devices.c has the patents' devices and the plane; test_accuracy.c and test_convergence.c check accuracy. */
 #include "ranges.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
-
-void suite_dissertation(void);
+#include "test.h"
 
 #define PI 3.14159265358979323846
 #define LBF_N 4.4482216152605
 #define INCH_M 0.0254
 
-static void test_figure_19_force_on_the_load_frame(void) {
+TEST(dissertation, figure_19_force_on_the_load_frame) {
     range r[] = {{.name = "pin_force"}, {.name = "cell_force"}};
     ranges_of("carriage_fixed", IN_DOUBLE, 2.0, 1e-3, r, 2);
     /* dissertation: 9.3 lbf in the computer model, 9.5 lbf measured (figures 17 and 19) */
@@ -32,7 +26,7 @@ static void test_figure_19_force_on_the_load_frame(void) {
                    (r[1].most + r[1].least) / 2.0 / LBF_N);
 }
 
-static void test_figure_19_frequency(void) {
+TEST(dissertation, figure_19_frequency) {
     motion m;
     unsigned crossings = 0;
     double before = 1.0;
@@ -62,7 +56,7 @@ static double pin_force_ratio(double ratio) {
     return range_width(&moving[0]) / range_width(&fixed[0]);
 }
 
-static void test_figure_20_pin_force_against_weight_ratio(void) {
+TEST(dissertation, figure_20_pin_force_against_weight_ratio) {
     for (unsigned i = 0; i <= 10; i++) {
         const double ratio = 0.1 * i;
         /* closed form at constant speed: 1/(1 + ratio); to 0.1 % */
@@ -75,7 +69,7 @@ static void test_figure_20_pin_force_against_weight_ratio(void) {
     expect_between("fig 20: carriage too heavy to move", 0.999999, 1.000001, pin_force_ratio(0.0));
 }
 
-static void test_figure_20_from_the_energies_too(void) {
+TEST(dissertation, figure_20_from_the_energies_too) {
     range by_energy[] = {{.name = "pin_force"}, {.name = "X"}, {.name = "carriage_force"}};
     range outright[] = {{.name = "pin_force"}, {.name = "X"}};
     ranges_of("carriage_free", IN_DOUBLE, 2.0, 1e-3, by_energy, 3);
@@ -126,7 +120,7 @@ static const double FIRST_MASS[4] = {-0.21833082934304, 0.33786709968658, -0.057
                                      0.04281500632119};
 static const double SECOND_MASS[4] = {-0.34526931991867, 0.5, -0.09543060600656, 0.07220046799739};
 
-static void test_figures_32_and_34_absolute_positions(void) {
+TEST(dissertation, figures_32_and_34_absolute_positions) {
     static const char *const scenes[] = {"two_mass_absolute", "two_mass_relative"};
     for (unsigned s = 0; s < 2; s++) {
         range early[] = {{.name = "x_1"}, {.name = "x_2"}};
@@ -137,7 +131,7 @@ static void test_figures_32_and_34_absolute_positions(void) {
     }
 }
 
-static void test_figure_33_stretches(void) {
+TEST(dissertation, figure_33_stretches) {
     range early[] = {{.name = "X"}, {.name = "Y"}};
     range late[] = {{.name = "X"}, {.name = "Y"}};
     two_windows("two_mass_relative", early, late);
@@ -149,7 +143,7 @@ static void test_figure_33_stretches(void) {
                    early[1].least / INCH_M);
 }
 
-static void test_figures_36_to_40_epicyclic_gear(void) {
+TEST(dissertation, figures_36_to_40_epicyclic_gear) {
     range r[] = {{.name = "theta"},
                  {.name = "X"},
                  {.name = "projection"},
@@ -173,7 +167,7 @@ static void test_figures_36_to_40_epicyclic_gear(void) {
     expect_between("fig 40: centre of mass, m", 0.3 - 1e-9, 0.3 + 1e-9, r[4].last);
 }
 
-static void test_figure_37_a_swing_each_turn(void) {
+TEST(dissertation, figure_37_a_swing_each_turn) {
     motion m;
     unsigned maxima = 0;
     double before = 0.0;
@@ -191,7 +185,7 @@ static void test_figure_37_a_swing_each_turn(void) {
     TEST_ASSERT_EQUAL_UINT(14, maxima);
 }
 
-static void test_figures_44_and_45_look_alike_and_are_not(void) {
+TEST(dissertation, figures_44_and_45_look_alike_and_are_not) {
     range r[] = {{.name = "theta1"}, {.name = "theta2"}, {.name = "theta3"}};
     ranges_of("driven_hinge_from_rest", IN_DOUBLE, 10.0, 1e-3, r, 3);
     /* dissertation: both angles seem to be identical */
@@ -200,7 +194,7 @@ static void test_figures_44_and_45_look_alike_and_are_not(void) {
     expect_between("fig 46: largest swing, rad", 2.8, PI, fmax(r[2].most, -r[2].least));
 }
 
-static void test_figure_46_the_swing_falls_without_a_loss(void) {
+TEST(dissertation, figure_46_the_swing_falls_without_a_loss) {
     enum { PEAKS_MAX = 200 };
     double at_s[PEAKS_MAX];
     double peak_rad[PEAKS_MAX];
@@ -246,17 +240,4 @@ static void test_figure_46_the_swing_falls_without_a_loss(void) {
     const double early_s = at_s[2] - at_s[1];
     const double late_s = at_s[peaks - 1] - at_s[peaks - 2];
     expect_between("fig 46: first half swing / last half swing", 4.0, 10.0, early_s / late_s);
-}
-
-void suite_dissertation(void) {
-    RUN_TEST(test_figure_19_force_on_the_load_frame);
-    RUN_TEST(test_figure_19_frequency);
-    RUN_TEST(test_figure_20_pin_force_against_weight_ratio);
-    RUN_TEST(test_figure_20_from_the_energies_too);
-    RUN_TEST(test_figures_32_and_34_absolute_positions);
-    RUN_TEST(test_figure_33_stretches);
-    RUN_TEST(test_figures_36_to_40_epicyclic_gear);
-    RUN_TEST(test_figure_37_a_swing_each_turn);
-    RUN_TEST(test_figures_44_and_45_look_alike_and_are_not);
-    RUN_TEST(test_figure_46_the_swing_falls_without_a_loss);
 }

@@ -8,15 +8,8 @@
 #define WH_DOUBLE 1
 #include "core/function_double.h"
 
+#include "test.h"
 #include "tests/scattered.h"
-#include "unity.h"
-
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-void suite_double_functions(void);
 
 #if LDBL_MANT_DIG >= 64
 
@@ -127,7 +120,7 @@ static void expect_within_one(const char *name) {
     TEST_ASSERT_TRUE_MESSAGE(worst_error > 0.4, "no error at all: not compared?");
 }
 
-static void test_one_argument(void) {
+TEST(double_functions, one_argument) {
     scattered_state = 1;
     for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
         const function *of = &functions[f];
@@ -142,7 +135,7 @@ static void test_one_argument(void) {
     }
 }
 
-static void test_atan2(void) {
+TEST(double_functions, atan2) {
     scattered_state = 2;
     worst_error = 0.0;
     for (unsigned kind = 0; kind < 4; kind++) {
@@ -163,7 +156,7 @@ static void test_atan2(void) {
     expect_within_one("atan2");
 }
 
-static void test_pow(void) {
+TEST(double_functions, pow) {
     scattered_state = 3;
     worst_error = 0.0;
     for (unsigned kind = 0; kind < 6; kind++) {
@@ -191,9 +184,4 @@ static void test_pow(void) {
     expect_within_one("pow");
 }
 
-void suite_double_functions(void) {
-    RUN_TEST(test_one_argument);
-    RUN_TEST(test_atan2);
-    RUN_TEST(test_pow);
-}
 #endif

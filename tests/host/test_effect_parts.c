@@ -1,19 +1,12 @@
 /* test_effect_parts.c: parts of an effect: its parameters and inputs can be changed only if it is active, and inertia
  * may come from effects alone. Every effect of every built-in mechanism; random mechanisms. */
-#define _POSIX_C_SOURCE 200809L
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "core/noise.h"
 #include "derived.h"
 #include "host/lang/builtin.h"
 #include "host/lang/value.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_effect_parts(void);
 
 /* The message on an instance with one change; "" if accepted. To be freed. */
 static char *said_of(const mechanism *of, const scene *in, const char *set, bool as_value,
@@ -93,7 +86,7 @@ static int check_symbols(const whirl_model *m, const mechanism *of, const symbol
     return checked;
 }
 
-static void test_changes_of_what_takes_no_part_are_refused(void) {
+TEST(effect_parts, changes_of_what_takes_no_part_are_refused) {
     int checked = 0;
     for (size_t i = 0; i < builtin_model_count; i++) {
         diags *errors = diags_new();
@@ -113,7 +106,7 @@ static void test_changes_of_what_takes_no_part_are_refused(void) {
 }
 
 /* A scene's own `set`, before or after its `with`. */
-static void test_a_scene_sets_what_it_names(void) {
+TEST(effect_parts, a_scene_sets_what_it_names) {
     static const struct {
         const char *scene;
         const char *said; /* NULL: accepted */
@@ -142,7 +135,7 @@ static void test_a_scene_sets_what_it_names(void) {
 }
 
 /* `--without E` leaves a scene usable that sets something of E. */
-static void test_a_scene_without_an_effect_that_it_sets(void) {
+TEST(effect_parts, a_scene_without_an_effect_that_it_sets) {
     static const char text[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "effect drag { parameter b = 1 [kg/s]; F += b*x'^2/2 }\n"
                                "scene s { with drag; set b = 3 [kg/s] }\n";
@@ -221,7 +214,7 @@ static derived derive_with(const int *giver, unsigned with) {
     return d;
 }
 
-static void test_inertia_of_effects(void) {
+TEST(effect_parts, inertia_of_effects) {
     for (int way = 0; way < 64; way++) { /* every giver of every coordinate */
         int giver[COORDINATES];
         for (int i = 0; i < COORDINATES; i++) {
@@ -251,7 +244,7 @@ static void test_inertia_of_effects(void) {
 }
 
 /* Without any T the mechanism itself is wrong. */
-static void test_no_inertia_anywhere(void) {
+TEST(effect_parts, no_inertia_anywhere) {
     derived d =
         derived_text("mechanism m\ncoordinate x [m]\nV = 1 [N]*x\neffect e { V += 1 [N]*x }\n");
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "mechanism 'm' has no kinetic energy T"),
@@ -311,7 +304,7 @@ static void compare_noise(const char *use, const char *with, const char *output,
     motion_close(&noisy);
 }
 
-static void test_noise_is_on_the_records_only(void) {
+TEST(effect_parts, noise_is_on_the_records_only) {
     compare_noise("eccentric_fixed", "cell_noise", "cell_force", 1, 0.07);
     compare_noise("eccentric", "cell_noise", "pin_force", 2, 0.07);
     compare_noise("eccentric_coupled", "sensor_noise", "cell_force", 1, 0.07);
@@ -321,7 +314,7 @@ static void test_noise_is_on_the_records_only(void) {
 /* The interpreter's float numbers equal the generated C's to the bit. */
 extern const wh_scene rig_coupled;
 
-static void test_noise_is_the_same_in_generated_code(void) {
+TEST(effect_parts, noise_is_the_same_in_generated_code) {
     uint64_t memory[64];
     wh_state state;
     wh_real output[8];
@@ -345,7 +338,7 @@ static void test_noise_is_the_same_in_generated_code(void) {
 /* --- an effect's input ------------------------------------------------------------------------------------------- */
 
 /* An inactive effect leaves no trace, nor does its input; when active, its input acts. */
-static void test_inputs_of_effects(void) {
+TEST(effect_parts, inputs_of_effects) {
     static const char start[] = "mechanism t\ncoordinate X [m]\nT = 2 [kg]*X'^2/2\n"
                                 "effect push { input f = 6 [N]; Q(X) += f }\n"
                                 "input h = 1 [N]\nQ(X) = h\n";
@@ -363,15 +356,4 @@ static void test_inputs_of_effects(void) {
     motion_to(&m, 1.0);
     TEST_ASSERT_DOUBLE_WITHIN(SMALL, 1.75, motion_value(&m, "X"));
     motion_close(&m);
-}
-
-void suite_effect_parts(void) {
-    RUN_TEST(test_changes_of_what_takes_no_part_are_refused);
-    RUN_TEST(test_a_scene_sets_what_it_names);
-    RUN_TEST(test_a_scene_without_an_effect_that_it_sets);
-    RUN_TEST(test_inertia_of_effects);
-    RUN_TEST(test_no_inertia_anywhere);
-    RUN_TEST(test_inputs_of_effects);
-    RUN_TEST(test_noise_is_on_the_records_only);
-    RUN_TEST(test_noise_is_the_same_in_generated_code);
 }

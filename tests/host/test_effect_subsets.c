@@ -1,15 +1,7 @@
 /* test_effect_subsets.c: `whirl effects` against brute force: two carts with up to four random effects. All subsets are
  * integrated here from the numbers in the scene, by RK4 with bisected events, without shared code. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/study/subsets.h"
-#include "unity.h"
-
-void suite_effect_subsets(void);
 
 /* X(id, its statement with one number p) */
 #define EFFECT_ROWS(X) \
@@ -395,7 +387,7 @@ static void check_case(dice *d, figures *f) {
     closed(&s);
 }
 
-static void test_against_brute_force(void) {
+TEST(effect_subsets, against_brute_force) {
     figures f = {0};
     dice d = dice_of("effect subsets", 4501);
     const unsigned cases = dice_cases(few_or_all(CASES_FEW, CASES));
@@ -411,7 +403,7 @@ static void test_against_brute_force(void) {
 }
 
 /* Seven active effects: they are removed one by one until no removal is allowed. */
-static void test_greedy(void) {
+TEST(effect_subsets, greedy) {
     const overrides none = {0};
     dice d = dice_of("greedy effects", 4502);
     for (unsigned i = 0; i < few_or_all(2, 6); i++) {
@@ -444,9 +436,4 @@ static void test_greedy(void) {
         }
         closed(&s);
     }
-}
-
-void suite_effect_subsets(void) {
-    RUN_TEST(test_against_brute_force);
-    RUN_TEST(test_greedy);
 }

@@ -3,14 +3,8 @@
 #include "motion.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
 
 #define J ((double complex)_Complex_I)
-
-void suite_effect_work(void);
 
 #define M_KG 2.0
 #define R_M 0.3
@@ -153,7 +147,7 @@ static const balance balances[] = {
 
 /* E(t) - E(0) is the work, by Simpson's rule over every step. Simpson and RK4 both have order 4: the bound holds at
  * 0.125 ms for 1 s with a margin of ten. */
-static void test_energy_changes_by_the_work_of_the_effect(void) {
+TEST(effect_work, energy_changes_by_the_work_of_the_effect) {
     for (size_t i = 0; i < sizeof balances / sizeof balances[0]; i++) {
         const balance *b = &balances[i];
         char text[300];
@@ -179,5 +173,3 @@ static void test_energy_changes_by_the_work_of_the_effect(void) {
         motion_close(&m);
     }
 }
-
-void suite_effect_work(void) { RUN_TEST(test_energy_changes_by_the_work_of_the_effect); }

@@ -5,15 +5,8 @@
  * 1e-9 unless stated otherwise. */
 #include "motion.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "unity.h"
-
 #define PI 3.14159265358979323846
 #define SMALL 1e-9
-
-void suite_effects(void);
 
 /* --- decay of a speed: exponential under viscous drag, hyperbolic under quadratic drag --------------------- */
 
@@ -54,7 +47,7 @@ static void follow_decay(const decay *d, double viscous_Nspm, double quadratic_k
     motion_close(&m);
 }
 
-static void test_viscous_drag_decays_exponentially(void) {
+TEST(effects, viscous_drag_decays_exponentially) {
     static const decay decays[] = {
         {"epicyclic.whirl",
          "scene t { with rail_drag; set M = 0; start X' = 2 [m/s] }\n",
@@ -89,7 +82,7 @@ static void test_viscous_drag_decays_exponentially(void) {
     }
 }
 
-static void test_quadratic_drag_decays_hyperbolically(void) {
+TEST(effects, quadratic_drag_decays_hyperbolically) {
     static const decay decays[] = {
         {"epicyclic.whirl",
          "scene t { with air_drag; set M = 0; start X' = 2 [m/s] }\n",
@@ -113,7 +106,7 @@ static void test_quadratic_drag_decays_hyperbolically(void) {
 }
 
 /* Falling from rest: z' = -v tanh(g t/v), with the terminal velocity v = sqrt(m g/c). */
-static void test_fall_reaches_the_terminal_velocity(void) {
+TEST(effects, fall_reaches_the_terminal_velocity) {
     motion m;
     const double terminal_mps = sqrt(9.81 / 0.1);
     motion_open_more(&m, "cartesian_particle.whirl",
@@ -130,7 +123,7 @@ static void test_fall_reaches_the_terminal_velocity(void) {
 }
 
 /* Without gravity the direction stays and the speed 13 m/s falls hyperbolically. */
-static void test_drag_is_along_the_velocity(void) {
+TEST(effects, drag_is_along_the_velocity) {
     motion m;
     motion_open_more(&m, "cartesian_particle.whirl",
                      "scene t { with air_drag; set c = 0.1 [kg/m], g = 0\n"
@@ -145,7 +138,7 @@ static void test_drag_is_along_the_velocity(void) {
 }
 
 /* The same flight with drag in spherical and Cartesian coordinates. */
-static void test_drag_is_the_same_in_spherical_coordinates(void) {
+TEST(effects, drag_is_the_same_in_spherical_coordinates) {
     static const char *const names[] = {"x", "y", "z"};
     motion a;
     motion b;
@@ -182,7 +175,7 @@ static void follow_spin_up(const char *file, const char *text, double torque_Nm,
     motion_close(&m);
 }
 
-static void test_motor_line_ends_at_the_no_load_speed(void) {
+TEST(effects, motor_line_ends_at_the_no_load_speed) {
     /* with the ring centred: J = I_w + 6 m R^2 and I_r + 8 m R^2 */
     follow_spin_up("laskowitz.whirl",
                    "scene t { use laskowitz; with motor_line; set e = 0, torque = 5 [N*m] }\n", 5.0,
@@ -196,7 +189,7 @@ static void test_motor_line_ends_at_the_no_load_speed(void) {
 
 /* The gear hanging straight down swings with w^2 = g/(2 r). With the carriage's momentum zero its energy is 2 m r^2
  * q'^2 + m g r q^2. Swings of 1e-4 rad are slower by about q^2/16, 1e-9 of the phase. */
-static void test_hanging_gear_swings(void) {
+TEST(effects, hanging_gear_swings) {
     motion m;
     motion_open_more(&m, "epicyclic.whirl",
                      "scene t { with gravity; set M = 0; start theta = 1e-4 - pi/2 }\n",
@@ -211,7 +204,7 @@ static void test_hanging_gear_swings(void) {
 }
 
 /* A tenth of the stall torque holds the arms at the angle of equal gravity torque S g. */
-static void test_motor_holds_the_arms_against_gravity(void) {
+TEST(effects, motor_holds_the_arms_against_gravity) {
     const double S_kgm =
         2.0 * 0.45359237 * 0.0254 * (0.152 * 7.25 / 2.0 + 0.15 * 6.5); /* the header's 0.035163 */
     const double rise = asin(0.1 * 1.5 / (S_kgm * 9.80665));
@@ -242,7 +235,7 @@ static void test_motor_holds_the_arms_against_gravity(void) {
 
 /* Undamped, motor and arms swing against each other with w^2 = k (1/I_arms + 1/J_rotor) and have no mean drift. RK4 at
  * 0.1 ms is late by (w h)^4/120 of the phase: 1e-7 of the amplitude in 0.2 s. */
-static void test_coupling_swings(void) {
+TEST(effects, coupling_swings) {
     const double arms = 2.0 * LB * IN * IN * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) + 1e-4;
     const double rotor = 4e-4;
     const double w = sqrt(20.0 * (1.0 / arms + 1.0 / rotor));
@@ -264,7 +257,7 @@ static void test_coupling_swings(void) {
 
 /* At the end the motor's line meets the bearing's drag: stall (duty - w/w0) = b w, and that torque twists the
  * coupling. */
-static void test_coupled_motor_ends_at_its_load_speed(void) {
+TEST(effects, coupled_motor_ends_at_its_load_speed) {
     motion m;
     motion_open_more(&m, "eccentric.whirl", "scene t { use eccentric_coupled; set duty = 0.6 }\n",
                      IN_DOUBLE_STEP(1e-3));
@@ -275,17 +268,4 @@ static void test_coupled_motor_ends_at_its_load_speed(void) {
     TEST_ASSERT_DOUBLE_WITHIN(SMALL, speed, motion_value(&m, "theta'"));
     TEST_ASSERT_DOUBLE_WITHIN(SMALL, 1e-3 * speed / 20.0, motion_value(&m, "twist"));
     motion_close(&m);
-}
-
-void suite_effects(void) {
-    RUN_TEST(test_coupled_motor_ends_at_its_load_speed);
-    RUN_TEST(test_coupling_swings);
-    RUN_TEST(test_drag_is_along_the_velocity);
-    RUN_TEST(test_drag_is_the_same_in_spherical_coordinates);
-    RUN_TEST(test_fall_reaches_the_terminal_velocity);
-    RUN_TEST(test_hanging_gear_swings);
-    RUN_TEST(test_motor_holds_the_arms_against_gravity);
-    RUN_TEST(test_motor_line_ends_at_the_no_load_speed);
-    RUN_TEST(test_quadratic_drag_decays_hyperbolically);
-    RUN_TEST(test_viscous_drag_decays_exponentially);
 }

@@ -1,15 +1,8 @@
 /* test_emit.c: printed equations equal the derived ones: they are read back and evaluated. Short ones look as in a
  * textbook; LaTeX is well formed. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "formula.h"
 #include "printed.h"
-#include "unity.h"
-
-void suite_emit(void);
+#include "test.h"
 
 enum { STATES = 10 };
 
@@ -115,7 +108,7 @@ static void check_text(const char *name, derived *d) {
     free(text);
 }
 
-static void test_printed_equations_say_what_was_derived(void) { each_mechanism(check_text); }
+TEST(emit, printed_equations_say_what_was_derived) { each_mechanism(check_text); }
 
 /* The value of the formula after `label` at a line's beginning; NaN without one. */
 static double labelled(const char *text, const char *label, state_values *s) {
@@ -181,7 +174,7 @@ static void check_first_order(const char *name, derived *d) {
     free(text);
 }
 
-static void test_first_order_form_solves_the_equations(void) { each_mechanism(check_first_order); }
+TEST(emit, first_order_form_solves_the_equations) { each_mechanism(check_first_order); }
 
 static void expect_lines(const char *name, const char *const *lines) {
     derived d = derived_builtin(name);
@@ -196,7 +189,7 @@ static void expect_lines(const char *name, const char *const *lines) {
     derived_free(&d);
 }
 
-static void test_short_equations_look_as_in_the_dissertation(void) {
+TEST(emit, short_equations_look_as_in_the_dissertation) {
     expect_lines("spherical_particle",
                  (const char *const[]){
                      "  r:  m*r'' - m*r*theta'^2 - m*r*sin(theta)^2*phi'^2 + m*g*cos(theta) = 0\n",
@@ -252,7 +245,7 @@ static void check_latex(const char *name, derived *d) {
     free(text);
 }
 
-static void test_latex_is_balanced(void) {
+TEST(emit, latex_is_balanced) {
     each_mechanism(check_latex);
     derived d =
         derived_text("mechanism m\ncoordinate phi_1_a [m]\ncoordinate _odd [m]\n"
@@ -270,11 +263,4 @@ static void test_latex_is_balanced(void) {
         free(text);
     }
     derived_free(&d);
-}
-
-void suite_emit(void) {
-    RUN_TEST(test_printed_equations_say_what_was_derived);
-    RUN_TEST(test_first_order_form_solves_the_equations);
-    RUN_TEST(test_short_equations_look_as_in_the_dissertation);
-    RUN_TEST(test_latex_is_balanced);
 }

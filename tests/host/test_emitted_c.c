@@ -1,12 +1,8 @@
 /* test_emitted_c.c: generated C of random scenes, read back word by word. Used and declared names agree, and operations
  * have the values of the list. Scripts, which take longer, check that it compiles and steps with the same bits. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "emitted.h"
 #include "host/image/image.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_emitted_c(void);
 
@@ -189,7 +185,7 @@ static void check_operations(const image *im) {
     }
 }
 
-static void test_operations_come_to_what_the_lists_have(void) {
+TEST(emitted_c, operations_come_to_what_the_lists_have) {
     finite = undefined = 0;
     each_emitted(check_operations);
     TEST_ASSERT_TRUE(finite > 10 * undefined);
@@ -200,7 +196,7 @@ static void check_whole(const image *im) {
     c_expect_whole(&emitted.file, emitted.about);
 }
 
-static void test_all_names_are_there_and_used(void) { each_emitted(check_whole); }
+TEST(emitted_c, all_names_are_there_and_used) { each_emitted(check_whole); }
 
 /* Layout: blocks of their own follow an empty line, without double empty lines and trailing blanks. Continuation lines
  * are indented. */
@@ -235,7 +231,7 @@ static void check_layout(const image *im) {
     }
 }
 
-static void test_the_layout_is_regular(void) { each_emitted(check_layout); }
+TEST(emitted_c, the_layout_is_regular) { each_emitted(check_layout); }
 
 /* Functions called by pointer need no inlining, and long ones are not inlined. */
 static void expect_linkage(const char *function, const char *inlined, const op_list *t) {
@@ -270,12 +266,6 @@ static void check_linkage(const image *im) {
     }
 }
 
-static void test_long_lists_are_not_inlined(void) { each_emitted(check_linkage); }
+TEST(emitted_c, long_lists_are_not_inlined) { each_emitted(check_linkage); }
 
-void suite_emitted_c(void) {
-    emitted_die = dice_of("emitted_c", 4100);
-    RUN_TEST(test_operations_come_to_what_the_lists_have);
-    RUN_TEST(test_all_names_are_there_and_used);
-    RUN_TEST(test_the_layout_is_regular);
-    RUN_TEST(test_long_lists_are_not_inlined);
-}
+void suite_emitted_c(void) { emitted_die = dice_of("emitted_c", 4100); }

@@ -1,16 +1,10 @@
 /* test_emitted_header.c: generated headers of random scenes, read line by line: each name with its number, unit and
  * text. The user's texts must neither end a comment nor cause a warning. */
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "drawn_scene.h"
 #include "host/base/alloc.h"
 #include "host/emit/c_header.h"
 #include "host/emit/emit.h"
-#include "unity.h"
 
 void suite_emitted_header(void);
 
@@ -82,7 +76,7 @@ static bool turns_writing(const char *text) {
 }
 
 /* Allowed pieces stay as they are; of others the expected text. */
-static void test_comments_stay_comments(void) {
+TEST(emitted_header, comments_stay_comments) {
     for (unsigned c = 0; c < dice_cases(400); c++) {
         char text[200] = "";
         char bare[200] = ""; /* without blanks and pieces that become one */
@@ -366,7 +360,7 @@ static const char *said_outputs(const char *at, const char *head) {
     return said_counted(at, "OUTPUTS", im->outputs);
 }
 
-static void test_a_header_has_every_name(void) {
+TEST(emitted_header, a_header_has_every_name) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         drawn_scene_draw(&drawn, &die);
         const image *im = &drawn.im;
@@ -388,7 +382,7 @@ static void test_a_header_has_every_name(void) {
 }
 
 /* The same for a scene in fixed point. */
-static void test_a_fixed_state_has_every_name(void) {
+TEST(emitted_header, a_fixed_state_has_every_name) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 30)); c++) {
         drawn_scene_draw(&drawn, &die);
         char *text = NULL;
@@ -410,7 +404,4 @@ static void test_a_fixed_state_has_every_name(void) {
 void suite_emitted_header(void) {
     die = dice_of("emitted_header", 4130);
     make_turning();
-    RUN_TEST(test_comments_stay_comments);
-    RUN_TEST(test_a_header_has_every_name);
-    RUN_TEST(test_a_fixed_state_has_every_name);
 }

@@ -1,12 +1,8 @@
 /* test_emitted_heads.c: the head of generated C, for readers and the core's headers, and its numbers agree with the
  * image, for random scenes. */
-#include <inttypes.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "emitted.h"
 #include "host/image/image.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_emitted_heads(void);
 
@@ -67,7 +63,7 @@ static void check_banner(const image *im) {
     said_exactly(at, " */\n");
 }
 
-static void test_the_banner_counts_and_names(void) { each_emitted(check_banner); }
+TEST(emitted_heads, the_banner_counts_and_names) { each_emitted(check_banner); }
 
 static bool list_has(const op_list *t, op_cost cost) {
     bool found = false;
@@ -140,7 +136,7 @@ static void check_directives(const image *im) {
     }
 }
 
-static void test_directives_are_those_of_the_scene(void) { each_emitted(check_directives); }
+TEST(emitted_heads, directives_are_those_of_the_scene) { each_emitted(check_directives); }
 
 static void check_starts(const image *im) {
     char words[100];
@@ -171,7 +167,7 @@ static void check_starts(const image *im) {
     }
 }
 
-static void test_starts_are_read_back(void) { each_emitted(check_starts); }
+TEST(emitted_heads, starts_are_read_back) { each_emitted(check_starts); }
 
 /* The tables, a cell per line; cells of the other half only on boards that do not fold. */
 static void check_tables(const image *im) {
@@ -213,12 +209,6 @@ static void check_tables(const image *im) {
                                  t->folds ? 11 : 4);
 }
 
-static void test_tables_are_read_back(void) { each_emitted(check_tables); }
+TEST(emitted_heads, tables_are_read_back) { each_emitted(check_tables); }
 
-void suite_emitted_heads(void) {
-    emitted_die = dice_of("emitted_heads", 4120);
-    RUN_TEST(test_the_banner_counts_and_names);
-    RUN_TEST(test_directives_are_those_of_the_scene);
-    RUN_TEST(test_starts_are_read_back);
-    RUN_TEST(test_tables_are_read_back);
-}
+void suite_emitted_heads(void) { emitted_die = dice_of("emitted_heads", 4120); }

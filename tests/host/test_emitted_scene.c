@@ -1,13 +1,8 @@
 /* test_emitted_scene.c: the scene in generated C agrees with the image, for random scenes, read back word by word. */
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "core/contact.h"
 #include "emitted.h"
 #include "host/image/image.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_emitted_scene(void);
 
@@ -91,7 +86,7 @@ static void check_scene(const image *im) {
                      c_is(&emitted.file, emitted.file.words - 1, ";"));
 }
 
-static void test_the_scene_is_the_images(void) { each_emitted(check_scene); }
+TEST(emitted_scene, the_scene_is_the_images) { each_emitted(check_scene); }
 
 /* WH_SPAN(step, its remainder in float) */
 static int expect_span(int at, double step_s) {
@@ -145,7 +140,7 @@ static void check_step(const image *im) {
     c_need(&emitted.file, at, words);
 }
 
-static void test_a_step_is_called_by_what_it_is(void) { each_emitted(check_step); }
+TEST(emitted_scene, a_step_is_called_by_what_it_is) { each_emitted(check_step); }
 
 static void check_contacts(const image *im) {
     static const char *const kinds[] = {"WH_STOP", "WH_HOLD", "WH_FRICTION", "WH_WHEN"};
@@ -210,7 +205,7 @@ static void check_contacts(const image *im) {
     expect_number(at, "coordinates", im->coordinates);
 }
 
-static void test_contacts_are_the_images(void) { each_emitted(check_contacts); }
+TEST(emitted_scene, contacts_are_the_images) { each_emitted(check_contacts); }
 
 static void expect_numbers(const char *name, const int *value, int count) {
     char words[100];
@@ -250,7 +245,7 @@ static void check_books(const image *im) {
     }
 }
 
-static void test_books_are_the_images(void) { each_emitted(check_books); }
+TEST(emitted_scene, books_are_the_images) { each_emitted(check_books); }
 
 /* The arrays of an observer. */
 static void check_observer(const image *im) {
@@ -281,13 +276,6 @@ static void check_observer(const image *im) {
     }
 }
 
-static void test_observers_have_what_they_read(void) { each_emitted(check_observer); }
+TEST(emitted_scene, observers_have_what_they_read) { each_emitted(check_observer); }
 
-void suite_emitted_scene(void) {
-    emitted_die = dice_of("emitted_scene", 4110);
-    RUN_TEST(test_the_scene_is_the_images);
-    RUN_TEST(test_a_step_is_called_by_what_it_is);
-    RUN_TEST(test_contacts_are_the_images);
-    RUN_TEST(test_books_are_the_images);
-    RUN_TEST(test_observers_have_what_they_read);
-}
+void suite_emitted_scene(void) { emitted_die = dice_of("emitted_scene", 4110); }

@@ -1,17 +1,11 @@
 /* test_engine_fixed.c: steps in fixed point (host/fixed/engine_fixed.h) of random mechanisms against the same steps in
  * double. The steps are so long and few that the difference is round-off, while a stage other than Runge-Kutta's would
  * be visible. Also other queries of a run. test_fixed.c has whole runs. */
-#include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-#include "unity.h"
 
 void suite_engine_fixed(void);
 
@@ -123,7 +117,7 @@ static double units_off(const image *im, const void *fixed, const void *exact) {
  * 7. */
 static const double units_most[KINDS] = {1200.0, 90.0, 1600.0, 25.0, 25.0};
 
-static void test_steps(void) {
+TEST(engine_fixed, steps) {
     double worst[KINDS] = {0.0};
     for (int which = 0; which < KINDS; which++) {
         for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
@@ -160,7 +154,7 @@ static void test_steps(void) {
 }
 
 /* Outputs belong to the reported state. An input is stored to half a unit and clamped to its range, with a count. */
-static void test_outputs_and_inputs(void) {
+TEST(engine_fixed, outputs_and_inputs) {
     for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
         static char text[TEXT_SIZE];
         derived d;
@@ -200,7 +194,7 @@ static void test_outputs_and_inputs(void) {
 }
 
 /* The same run has the same hash after each step, and the next step another; no failures, no events. */
-static void test_asked(void) {
+TEST(engine_fixed, asked) {
     for (unsigned c = 0; c < dice_cases(usual_or(5, 5)); c++) {
         static char text[TEXT_SIZE];
         derived d;
@@ -228,9 +222,4 @@ static void test_asked(void) {
     }
 }
 
-void suite_engine_fixed(void) {
-    die = dice_of("engine_fixed", 52);
-    RUN_TEST(test_steps);
-    RUN_TEST(test_outputs_and_inputs);
-    RUN_TEST(test_asked);
-}
+void suite_engine_fixed(void) { die = dice_of("engine_fixed", 52); }

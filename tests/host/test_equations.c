@@ -1,10 +1,5 @@
 /* test_equations.c: the derived equations are the dissertation's, at random states. */
-#include <math.h>
-
 #include "derived.h"
-#include "unity.h"
-
-void suite_equations(void);
 
 enum { STATES = 50 };
 
@@ -122,7 +117,7 @@ static void check_printed(const char *name, printed *as_printed) {
     derived_free(&d);
 }
 
-static void test_the_dissertations_equations(void) {
+TEST(equations, the_dissertations_equations) {
     check_printed("spherical_particle", spherical);
     check_printed("masses_relative", two_masses);
     check_printed("masses_absolute", two_masses_absolute);
@@ -130,5 +125,3 @@ static void test_the_dissertations_equations(void) {
     check_printed("driven_hinge", driven_hinge);
     check_printed("thomson", thomson);
 }
-
-void suite_equations(void) { RUN_TEST(test_the_dissertations_equations); }

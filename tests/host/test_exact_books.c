@@ -1,10 +1,5 @@
 /* test_exact_books.c: steps of --matrix exact are accepted at any length: the energy balance's integration between them
  * is too coarse, but the motion is exact. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/base/alloc.h"
 #include "host/check/books.h"
 #include "host/check/energy_residual.h"
@@ -13,12 +8,6 @@
 #include "command.h"
 #include "derived.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_exact_books(void);
-void suite_force_free(void);
-void suite_ledger_scenes(void);
 
 /* === exact books ============================================================================== */
 
@@ -65,7 +54,7 @@ static double try_one(const char *text, const engine_kind *kind, image_matrix_of
     return off;
 }
 
-static void test_long_exact_steps_are_believed(void) {
+TEST(exact_books, long_exact_steps_are_believed) {
     static const double step_s[] = {0.5, 0.2, 0.05, 0.01};
     uint64_t seed = 5;
     int coarse = 0;
@@ -88,8 +77,6 @@ static void test_long_exact_steps_are_believed(void) {
     }
     TEST_ASSERT_GREATER_THAN_INT((int)usual_or(8, 4), coarse);
 }
-
-void suite_exact_books(void) { RUN_TEST(test_long_exact_steps_are_believed); }
 
 /* === force free =============================================================================== */
 /* Scenes without external forces: momentum and centre of mass stay constant at each scene's own step, up to the
@@ -227,7 +214,7 @@ static int check_listed(const scene *s) {
 }
 
 /* The list has exactly the scenes without external forces. */
-static void test_no_force_free_scene_is_forgotten(void) {
+TEST(force_free, no_force_free_scene_is_forgotten) {
     TEST_ASSERT_EQUAL_INT(FREE_COUNT, each_builtin_scene(check_listed));
 }
 
@@ -309,7 +296,7 @@ static drifts drifts_of(const char *name, double step_s, double until_s) {
     return d;
 }
 
-static void test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step(void) {
+TEST(force_free, momentum_and_centre_of_mass_stay_at_each_scenes_own_step) {
     for (unsigned i = 0; i < FREE_COUNT; i++) {
         const double most = FREE[i].step_s > 0.0 ? DRIFT_MOST : ROUNDING;
         const drifts d = drifts_of(FREE[i].name, 0.0, 0.0);
@@ -326,7 +313,7 @@ static void test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step(void) 
 
 /* Runge-Kutta's error at a step and at a quarter of it: about 2^8 apart, apart from partial cancellation over thousands
  * of steps. A drift below round-off at the coarse step (Y of the mirrored pair) has no order, but must stay there. */
-static void test_drift_falls_at_fourth_order(void) {
+TEST(force_free, drift_falls_at_fourth_order) {
     for (unsigned i = 0; i < FREE_COUNT; i++) {
         const free_scene *f = &FREE[i];
         if (f->step_s <= 0.0) {
@@ -351,12 +338,6 @@ static void test_drift_falls_at_fourth_order(void) {
         printf("\n");
         TEST_ASSERT_TRUE_MESSAGE(measured > 0, f->name);
     }
-}
-
-void suite_force_free(void) {
-    RUN_TEST(test_no_force_free_scene_is_forgotten);
-    RUN_TEST(test_momentum_and_centre_of_mass_stay_at_each_scenes_own_step);
-    RUN_TEST(test_drift_falls_at_fourth_order);
 }
 
 /* === ledger scenes ============================================================================ */
@@ -409,7 +390,7 @@ static account_book run_to_end(motion *m, const char *scene_name, const char *ac
 
 /* The gear's torque M = 2 N m is constant, so its work is exactly M theta, all of it kinetic; the momentum of X has no
  * entries. */
-static void test_the_gears_torque_gives_what_theta_says(void) {
+TEST(ledger_scenes, the_gears_torque_gives_what_theta_says) {
     motion m;
     motion_open(&m, "epicyclic_from_rest", booked);
     motion_to(&m, 5.0);
@@ -423,7 +404,7 @@ static void test_the_gears_torque_gives_what_theta_says(void) {
 }
 
 /* The residual is the method's error: of fourth order. */
-static void test_what_is_left_over_falls_at_fourth_order(void) {
+TEST(ledger_scenes, what_is_left_over_falls_at_fourth_order) {
     double left[3];
     for (int k = 0; k < 3; k++) {
         motion m;
@@ -448,7 +429,7 @@ static void test_what_is_left_over_falls_at_fourth_order(void) {
 
 /* The carriage's net momentum comes from stop and friction alone: within 1e-9 N s, over 60 s of impacts, slips and
  * sticks. */
-static void test_the_carriages_momentum_is_from_stop_and_friction(void) {
+TEST(ledger_scenes, the_carriages_momentum_is_from_stop_and_friction) {
     motion m;
     motion_open(&m, "carriage_stop", booked);
     const double before = motion_value(&m, "momentum");
@@ -465,7 +446,7 @@ static void test_the_carriages_momentum_is_from_stop_and_friction(void) {
 
 /* Halvorson's vehicle gets all its momentum from the ground. Without friction there is no entry, and its momentum lies
  * within the account's drift. */
-static void test_the_vehicles_momentum_is_from_the_ground(void) {
+TEST(ledger_scenes, the_vehicles_momentum_is_from_the_ground) {
     motion m;
     account_book book = run_to_end(&m, "halvorson_ground", "X");
     TEST_ASSERT_TRUE(book.smooth == 0.0);
@@ -481,7 +462,7 @@ static void test_the_vehicles_momentum_is_from_the_ground(void) {
 }
 
 /* The magnets act between disc and frame: they take energy, but give the carriage no momentum. */
-static void test_the_magnets_give_the_carriage_nothing(void) {
+TEST(ledger_scenes, the_magnets_give_the_carriage_nothing) {
     motion m;
     const account_book energy = run_to_end(&m, "thomson_magnet", NULL);
     const account_book carriage = book_of(&m, "X");
@@ -517,12 +498,12 @@ static int check_bits_with_books(const scene *s) {
 }
 
 /* With energy balance, every scene runs to the same bits, in float and double. */
-static void test_books_leave_every_scene_as_it_is(void) {
+TEST(ledger_scenes, books_leave_every_scene_as_it_is) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_bits_with_books) > 40);
 }
 
 /* A system given by equations has no energies: its balance is refused, not zero. */
-static void test_systems_have_no_books(void) {
+TEST(ledger_scenes, systems_have_no_books) {
     static const char text[] = "mechanism decay\nstate x\nparameter k = 1 [1/s]\n"
                                "equation x' = -k*x\nscene d {\n  with ledger\n  start x = 1\n}\n";
     diags *errors = diags_new();
@@ -537,14 +518,4 @@ static void test_systems_have_no_books(void) {
     instance_free(inst);
     model_free(all);
     diags_free(errors);
-}
-
-void suite_ledger_scenes(void) {
-    RUN_TEST(test_the_gears_torque_gives_what_theta_says);
-    RUN_TEST(test_what_is_left_over_falls_at_fourth_order);
-    RUN_TEST(test_the_carriages_momentum_is_from_stop_and_friction);
-    RUN_TEST(test_the_vehicles_momentum_is_from_the_ground);
-    RUN_TEST(test_the_magnets_give_the_carriage_nothing);
-    RUN_TEST(test_books_leave_every_scene_as_it_is);
-    RUN_TEST(test_systems_have_no_books);
 }

@@ -1,21 +1,13 @@
 /* test_f405.c: clock setup of the STM32F405, on registers that follow RM0090, 7.2, 7.3 and 3.5.1, or fail. With any
  * fault the start ends, and the core never runs faster than flash and buses allow. */
-#include <math.h>
-#include <string.h>
-
 #include "boards/stm32f4/rm0090.h"
 #include "hal/motor.h"
 #include "hal/settings.h"
 #include "hal/slots.h"
 #include "hal/watchdog.h"
+#include "test.h"
 #include "tests/host/fake_registers.h"
 #include "tests/scattered.h"
-
-#include "unity.h"
-
-void suite_f405_clock(void);
-void suite_f405_motor(void);
-void suite_f405_parts(void);
 
 /* === f405 clock =============================================================================== */
 
@@ -121,7 +113,7 @@ static void leave(bool loader) {
     }
 }
 
-static void test_whatever_answers(void) {
+TEST(f405_clock, whatever_answers) {
     scattered_state = 20251125U;
     for (unsigned i = 0; i < 200; i++) {
         unit.there = true;
@@ -142,17 +134,12 @@ static void test_whatever_answers(void) {
     }
 }
 
-static void test_without_the_unit(void) {
+TEST(f405_clock, without_the_unit) {
     unit.there = false;
     leave(false);
     board_clock_start();
     TEST_ASSERT_EQUAL_UINT(GIVEN, board_clock_is);
     TEST_ASSERT_TRUE(fake.loads < LOADS_MOST);
-}
-
-void suite_f405_clock(void) {
-    RUN_TEST(test_whatever_answers);
-    RUN_TEST(test_without_the_unit);
 }
 
 /* === f405 motor =============================================================================== */
@@ -239,7 +226,7 @@ static void start(void) {
     stm32f4_motor_start();
 }
 
-static void test_starts_off(void) {
+TEST(f405_motor, starts_off) {
     scattered_state = 3;
     start();
     TEST_ASSERT_TRUE(!enabled() && output() >= 0.0 && output() <= 0.0);
@@ -260,7 +247,7 @@ static void test_starts_off(void) {
 
 /* Random orders and breaks: the output is the last order of a started motor, otherwise low. After a break it is low
  * until off is ordered. */
-static void test_orders_and_breaks(void) {
+TEST(f405_motor, orders_and_breaks) {
     scattered_state = 7;
     start();
     bool driving = false;
@@ -311,11 +298,6 @@ static void test_orders_and_breaks(void) {
     }
 }
 
-void suite_f405_motor(void) {
-    RUN_TEST(test_starts_off);
-    RUN_TEST(test_orders_and_breaks);
-}
-
 /* === f405 parts =============================================================================== */
 /* Watchdog, flash and captures of the STM32F405, on registers that follow RM0090 (21.4, 3.6, 18.4). */
 
@@ -337,7 +319,7 @@ static void watch(uint32_t address, uint32_t value) {
     fake_put(address, value);
 }
 
-static void test_bites_in_time(void) {
+TEST(f405_parts, bites_in_time) {
     scattered_state = 11;
     for (unsigned i = 0; i < 2000; i++) {
         const uint32_t ticks = i == 0 ? 20000U : 1000U + below(8000000U);
@@ -422,7 +404,7 @@ static uint32_t flash_load(uint32_t address) {
     return fake_get(address);
 }
 
-static void test_settings_are_kept(void) {
+TEST(f405_parts, settings_are_kept) {
     uint8_t kept[2][HAL_SETTINGS_BYTES];
     uint8_t bytes[HAL_SETTINGS_BYTES];
     scattered_state = 13;
@@ -505,7 +487,7 @@ static void interrupt(void) {
 }
 
 /* Random edges, up to four before the interrupt: each is reported once, in order of time, across wraps. */
-static void test_captures_in_order(void) {
+TEST(f405_parts, captures_in_order) {
     hal_slot_edge got;
     uint32_t ticks = 0xFFF00000U;
     scattered_state = 17;
@@ -543,7 +525,7 @@ static void test_captures_in_order(void) {
 }
 
 /* A storm causes no more interrupts than there is room; the oldest edges are kept, and capture continues afterwards. */
-static void test_storm_ends_by_itself(void) {
+TEST(f405_parts, storm_ends_by_itself) {
     hal_slot_edge pulse;
     uint32_t ticks = 5;
     fake_start(capture_load, capture_store);
@@ -564,11 +546,4 @@ static void test_storm_ends_by_itself(void) {
     edge(1, HAL_SLOT_LEADING, 99999);
     interrupt();
     TEST_ASSERT_TRUE(hal_slots_take(&pulse) && pulse.ticks == 99999 && pulse.sensor == 1);
-}
-
-void suite_f405_parts(void) {
-    RUN_TEST(test_bites_in_time);
-    RUN_TEST(test_settings_are_kept);
-    RUN_TEST(test_captures_in_order);
-    RUN_TEST(test_storm_ends_by_itself);
 }

@@ -5,18 +5,8 @@
  * matters, and the proposed remedy is applied. */
 #include "command.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 #include "named_cures.h"
-
-#include "unity.h"
-
-void suite_far_origin(void);
 
 /* Oscillations of the angular frequency omega (SOFT, WAVE: at small amplitudes) about a distant place or speed. */
 typedef enum far_kind {
@@ -187,7 +177,7 @@ static void expect_fine(const said *what, far_kind kind, bool is_float, double t
     }
 }
 
-static void test_fine_steps_are_silent(void) {
+TEST(far_origin, fine_steps_are_silent) {
     dice d = dice_of("far and fine", 4101);
     unsigned told = 0;
     const unsigned rounds = dice_cases(usual_or(2, 1));
@@ -219,7 +209,7 @@ static void test_fine_steps_are_silent(void) {
 /* Runge-Kutta's step then takes more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5 amplitudes in
  * double and 30 in float can take less. (On the belt and with the push, the balance's entries themselves are as much
  * larger.) */
-static void test_coarse_steps_are_told(void) {
+TEST(far_origin, coarse_steps_are_told) {
     static const far_kind kinds[] = {SPRING, APART, PARAMETER, DAMPED};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
     dice d = dice_of("far and coarse", 4102);
@@ -264,7 +254,7 @@ static void ask_trust(const char *text, bool is_float, double off) {
 
 /* A rolling cart far away: if its steps are below half a unit in its number's last place, it stands still with the
  * energy of a rolling cart. */
-static void test_carts_that_stand(void) {
+TEST(far_origin, carts_that_stand) {
     dice d = dice_of("carts", 4103);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 400));
     unsigned told = 0;
@@ -317,7 +307,7 @@ static void test_carts_that_stand(void) {
 }
 
 /* Far away and in steps too coarse for crude methods: the remedy for too few digits must leave no warning. */
-static void test_cures_are_silent(void) {
+TEST(far_origin, cures_are_silent) {
     static const char *const methods[] = {"euler", "heun", "semi-implicit-euler", "rk4"};
     dice d = dice_of("far cures", 20261130);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 8), 400));
@@ -365,11 +355,4 @@ static void test_cures_are_silent(void) {
     printf("  %u of %u far pairs told of too few digits; %u cures, all silent\n", told, cases,
            cures);
     TEST_ASSERT_TRUE(told > cases / 10 && cures > 0);
-}
-
-void suite_far_origin(void) {
-    RUN_TEST(test_cures_are_silent);
-    RUN_TEST(test_carts_that_stand);
-    RUN_TEST(test_fine_steps_are_silent);
-    RUN_TEST(test_coarse_steps_are_told);
 }

@@ -1,18 +1,8 @@
 /* test_far_slopes.c: runs far from the origin whose slopes, not steps, have too few digits: roots, quotients and
  * exponentials of differences. The reference is the same mechanism at the origin in double. Errors must be reported, a
  * named cure must remove them, and only accurate runs are trusted to the end. */
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
-#include "unity.h"
-
-void suite_far_slopes(void);
 
 typedef enum slope_kind { ORBIT, ANCHOR, QUOTIENT, BOND, STRUT, KINDS } slope_kind;
 
@@ -218,10 +208,5 @@ static void hold(bool is_float) {
     TEST_ASSERT_TRUE(ruined > cases / 20 && fine > cases / 5 && lucky <= fine / 10);
 }
 
-static void test_in_float(void) { hold(true); }
-static void test_in_double(void) { hold(false); }
-
-void suite_far_slopes(void) {
-    RUN_TEST(test_in_float);
-    RUN_TEST(test_in_double);
-}
+TEST(far_slopes, in_float) { hold(true); }
+TEST(far_slopes, in_double) { hold(false); }

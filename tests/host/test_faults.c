@@ -1,11 +1,7 @@
 /* test_faults.c: the verdicts of the fault campaign: draws are reproducible and readable; the judge's truth equals
  * closed forms; it finds every violation and nothing else. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "host/base/interrupts.h"
@@ -16,9 +12,6 @@
 #include "faults.h"
 #include "motion.h"
 
-#include "unity.h"
-
-void suite_faults(void);
 void suite_lockstep(void);
 void suite_replay(void);
 
@@ -165,7 +158,7 @@ static verdict judged(const made_up *m) {
 }
 
 /* An error beyond the interval and 1 % is a lie of that size. */
-static void test_truth(void) {
+TEST(faults, truth) {
     for (int i = -6; i <= 6; i++) {
         for (int which = 0; which < 2; which++) {
             made_up m = honest;
@@ -184,7 +177,7 @@ static void test_truth(void) {
 
 /* A wrong result is no lie if its quality is not good, it has no turns, its stated interval covers the error, or only
  * calibration could find it. */
-static void test_no_lies(void) {
+TEST(faults, no_lies) {
     made_up wrong = honest;
     wrong.amplitude_N = 21.0;
     TEST_ASSERT_TRUE(judged(&wrong).lie > 0.4);
@@ -214,7 +207,7 @@ static void test_no_lies(void) {
 }
 
 /* The mean speed of a turn counts, not the swing within it. */
-static void test_speeds(void) {
+TEST(faults, speeds) {
     made_up m = honest;
     m.swing_J = 0.0;
     for (int over = -15; over <= 15; over += 10) {
@@ -237,7 +230,7 @@ static void test_speeds(void) {
     TEST_ASSERT_TRUE(v.turn_rpm < 400.0 && v.peak_rpm > 409.0 && !v.overspeed);
 }
 
-static void test_runaways(void) {
+TEST(faults, runaways) {
     made_up m = honest;
     m.runs_away = true;
     m.fault = "runaway@2";
@@ -264,7 +257,7 @@ static void test_runaways(void) {
 }
 
 /* The motor must not drive, but turns show a drive: enable off and a trip within a second. */
-static void test_off_is_off(void) {
+TEST(faults, off_is_off) {
     static const int states[] = {0, 1, 4, 9, 15}; /* idle, armed, tripped, tare, coast */
     made_up m = honest;
     m.off_s = 99.0;
@@ -286,7 +279,7 @@ static void test_off_is_off(void) {
 }
 
 /* Pressed at 1 s: off by the next orders, permanently. */
-static void test_stops(void) {
+TEST(faults, stops) {
     made_up m = honest;
     m.fault = "stop@1+0.5";
     m.off_s = 1.001;
@@ -309,7 +302,7 @@ static void test_stops(void) {
 }
 
 /* Off in that instant, permanently; the trip is known afterwards, and so is the reset. */
-static void test_resets(void) {
+TEST(faults, resets) {
     made_up m = honest;
     for (int when = 0; when < 10; when++) {
         char words[40];
@@ -351,7 +344,7 @@ static void test_resets(void) {
 }
 
 /* A watchdog that cuts reports a delay; without any delay it is the controller's fault. */
-static void test_cuts(void) {
+TEST(faults, cuts) {
     for (int i = 0; i < 4; i++) {
         made_up m = honest;
         m.cut = i % 2 == 1;
@@ -360,7 +353,7 @@ static void test_cuts(void) {
     }
 }
 
-static void test_hangs(void) {
+TEST(faults, hangs) {
     made_up m = honest;
     m.end = LOCKSTEP_FAILED;
     TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
@@ -368,18 +361,6 @@ static void test_hangs(void) {
     TEST_ASSERT_EQUAL_INT(OUTCOME_GOOD, judged(&m).outcome);
     m.off_s = 99.0;
     TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
-}
-
-void suite_faults(void) {
-    RUN_TEST(test_truth);
-    RUN_TEST(test_no_lies);
-    RUN_TEST(test_speeds);
-    RUN_TEST(test_runaways);
-    RUN_TEST(test_off_is_off);
-    RUN_TEST(test_stops);
-    RUN_TEST(test_resets);
-    RUN_TEST(test_cuts);
-    RUN_TEST(test_hangs);
 }
 
 /* === lockstep ================================================================================= */
@@ -658,7 +639,7 @@ static double time_of(unsigned turn) {
 }
 
 /* Until the tape's end; or the firmware's, which is also the tape's; or the tape's last, unanswered message. */
-static void test_replayed(void) {
+TEST(replay, replayed) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         talk_draw();
         talk_tape_all(talk_drawn.turns - 1U);
@@ -679,7 +660,7 @@ static void test_replayed(void) {
 }
 
 /* A different answer in one turn: replay ends there and names the outputs. Counts do not matter. */
-static void test_other_orders(void) {
+TEST(replay, other_orders) {
     unsigned hints = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(50, 24)); c++) {
         char words[120];
@@ -721,7 +702,7 @@ static void test_other_orders(void) {
     TEST_ASSERT_TRUE(hints > 1);
 }
 
-static void test_not_replayed(void) {
+TEST(replay, not_replayed) {
     for (unsigned c = 0; c < 12; c++) {
         char words[120];
         talk_draw();
@@ -760,7 +741,7 @@ static void test_not_replayed(void) {
 }
 
 /* A tape with a reset of the firmware: a line cannot replay it. */
-static void test_reset_on_tape(void) {
+TEST(replay, reset_on_tape) {
     uint8_t payload[WH_RESET_BYTES];
     const wh_reset reset = {.cause = WH_RESET_WATCHDOG};
     talk_draw();
@@ -773,10 +754,4 @@ static void test_reset_on_tape(void) {
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "nothing that resets it"), told);
 }
 
-void suite_replay(void) {
-    talk_die(dice_of("replay", 50));
-    RUN_TEST(test_replayed);
-    RUN_TEST(test_other_orders);
-    RUN_TEST(test_not_replayed);
-    RUN_TEST(test_reset_on_tape);
-}
+void suite_replay(void) { talk_die(dice_of("replay", 50)); }

@@ -4,13 +4,7 @@
  * The device is chaotic. Limits on whole runs hold for every trajectory near it (ranges, invariants), and single times
  * are early enough to be accurate. */
 #include "ranges.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#include "unity.h"
-
-void suite_figures_thomson(void);
+#include "test.h"
 
 #define PI 3.14159265358979323846
 
@@ -45,7 +39,7 @@ static turns count_turns(const char *which, double step_s, double until_s) {
     return t;
 }
 
-static void test_figure_50_five_turns_of_the_arm(void) {
+TEST(figures_thomson, figure_50_five_turns_of_the_arm) {
     const turns t = count_turns("thomson_a", 0.125e-3, 9.5);
     TEST_ASSERT_EQUAL_UINT(5, t.count);
     /* dissertation: about 9.4 s; independent: 9.28 to 9.39 s */
@@ -54,7 +48,7 @@ static void test_figure_50_five_turns_of_the_arm(void) {
     expect_between("fig 50: first turn, s", 3.54, 3.55, t.at_s[0]);
 }
 
-static void test_figure_53_back_within_a_fifth_of_a_metre_each_turn(void) {
+TEST(figures_thomson, figure_53_back_within_a_fifth_of_a_metre_each_turn) {
     const turns t = count_turns("thomson_a", 0.125e-3, 9.5);
     for (unsigned i = 0; i < t.count; i++) {
         /* dissertation: back at its first place. Closed form at a full turn, from the momentum: X = (r/3)(1 - cos
@@ -63,7 +57,7 @@ static void test_figure_53_back_within_a_fifth_of_a_metre_each_turn(void) {
     }
 }
 
-static void test_figures_51_to_53_ranges(void) {
+TEST(figures_thomson, figures_51_to_53_ranges) {
     range r[] = {{.name = "X"}, {.name = "projection"}, {.name = "X'"}, {.name = "theta1'"}};
     ranges_of("thomson_a", IN_DOUBLE_STEP(0.25e-3), 10.0, 1e-3, r, 4);
     /* independent: 0 to 0.9987 m; momentum limits it to 0 to 1 m */
@@ -77,7 +71,7 @@ static void test_figures_51_to_53_ranges(void) {
     expect_between("fig 52: |theta1'|, rad/s", 5.0, 20.0, fmax(r[3].most, -r[3].least));
 }
 
-static void test_figure_54_shifted_not_larger(void) {
+TEST(figures_thomson, figure_54_shifted_not_larger) {
     range a[] = {{.name = "X"}};
     range b[] = {{.name = "X"}, {.name = "x_cm"}};
     ranges_of("thomson_a", IN_DOUBLE_STEP(0.25e-3), 10.0, 1e-3, a, 1);
@@ -93,7 +87,7 @@ static void test_figure_54_shifted_not_larger(void) {
     expect_between("fig 55: its drift, m", 0.0, 1e-12, range_drift(&b[1]));
 }
 
-static void test_figure_54_quicker(void) {
+TEST(figures_thomson, figure_54_quicker) {
     const turns a = count_turns("thomson_a", 0.125e-3, 5.0);
     const turns b = count_turns("thomson_b", 0.125e-3, 2.0);
     TEST_ASSERT_TRUE(a.count >= 1 && b.count >= 1);
@@ -105,7 +99,7 @@ static void test_figure_54_quicker(void) {
     expect_between("fig 54: X's least in the first turn, m", -0.1, -0.09, b.first_cycle.least);
 }
 
-static void test_figure_57_on_the_slider_as_a_rigid_body(void) {
+TEST(figures_thomson, figure_57_on_the_slider_as_a_rigid_body) {
     range r[] = {{.name = "X"}, {.name = "x_cm"}};
     ranges_of("thomson_b_spin", IN_DOUBLE_STEP(0.125e-3), 10.0, 1e-3, r, 2);
     /* dissertation: a harmonic motion in X only. Closed form: within 0.4 +- 0.5 m. */
@@ -147,7 +141,7 @@ static void check_plane(const char *which, double x_cm, double y_cm) {
     TEST_ASSERT_TRUE(arm > 5.0 * 2.0 * PI);
 }
 
-static void test_figure_58_round_and_round_in_the_plane(void) {
+TEST(figures_thomson, figure_58_round_and_round_in_the_plane) {
     check_plane("thomson_plane_a", 0.6, 0.0);
     check_plane("thomson_plane_b", 0.5, -0.1);
     check_plane("thomson_plane_conserved", 0.5, -0.1);
@@ -164,19 +158,8 @@ static void check_pair(const char *which, stepping how, double cm_bound) {
     expect_between("pair: X's width, m", 0.99, 1.0 + 2.0 * cm_bound, range_width(&r[0]));
 }
 
-static void test_mirrored_pair_moves_along_its_line_only(void) {
+TEST(figures_thomson, mirrored_pair_moves_along_its_line_only) {
     check_pair("thomson_pair_a", IN_DOUBLE, 1e-8);
     check_pair("thomson_pair_b", IN_DOUBLE, 1e-8);
     check_pair("thomson_pair_a", IN_FLOAT_COMPENSATED, 1e-5);
-}
-
-void suite_figures_thomson(void) {
-    RUN_TEST(test_figure_50_five_turns_of_the_arm);
-    RUN_TEST(test_figure_53_back_within_a_fifth_of_a_metre_each_turn);
-    RUN_TEST(test_figures_51_to_53_ranges);
-    RUN_TEST(test_figure_54_shifted_not_larger);
-    RUN_TEST(test_figure_54_quicker);
-    RUN_TEST(test_figure_57_on_the_slider_as_a_rigid_body);
-    RUN_TEST(test_figure_58_round_and_round_in_the_plane);
-    RUN_TEST(test_mirrored_pair_moves_along_its_line_only);
 }

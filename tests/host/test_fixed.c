@@ -1,9 +1,5 @@
 /* test_fixed.c: fixed-point runs report significant round-off and nothing else: random motions with closed forms in
  * ranges and steps of many sizes. Correct energy balances are accepted. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/base/alloc.h"
 #include "host/check/energy_residual.h"
 #include "host/check/slow.h"
@@ -11,11 +7,6 @@
 #include "host/fixed/fixed_plan.h"
 
 #include "derived.h"
-
-#include "unity.h"
-
-void suite_fixed_loss(void);
-void suite_fixed_runs(void);
 
 /* === fixed loss =============================================================================== */
 
@@ -90,7 +81,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     free(with);
 }
 
-static void test_lost_steps_are_told(void) {
+TEST(fixed_loss, lost_steps_are_told) {
     static const int step_us[] = {20, 100, 1000, 10000};
     uint64_t seed = 77;
     int told = 0;
@@ -110,7 +101,7 @@ static void test_lost_steps_are_told(void) {
 }
 
 /* Oscillators of all masses and springs, some so slow that they hardly move: accepted whenever they are accurate. */
-static void test_books_believe_what_is_right(void) {
+TEST(fixed_loss, books_believe_what_is_right) {
     int right = 0;
     for (int mass = -6; mass <= 6; mass += 2) {
         for (int spring = -6; spring <= 6; spring += 2) {
@@ -135,11 +126,6 @@ static void test_books_believe_what_is_right(void) {
         }
     }
     TEST_ASSERT_GREATER_THAN_INT(30, right);
-}
-
-void suite_fixed_loss(void) {
-    RUN_TEST(test_lost_steps_are_told);
-    RUN_TEST(test_books_believe_what_is_right);
 }
 
 /* === fixed runs =============================================================================== */
@@ -330,7 +316,7 @@ static void try_one(int which, uint64_t seed) {
     derived_free(&plain);
 }
 
-static void test_made_up_mechanisms(void) {
+TEST(fixed_runs, made_up_mechanisms) {
     for (int which = 0; which < KINDS; which++) {
         for (unsigned i = 0; i < CASES / KINDS; i++) {
             try_one(which, 1000U * (unsigned)which + i + 7U);
@@ -357,7 +343,7 @@ static void check_refused(const char *text, const char *why) {
     derived_free(&d);
 }
 
-static void test_refusals(void) {
+TEST(fixed_runs, refusals) {
     static const struct {
         const char *energy;
         const char *more;
@@ -391,7 +377,7 @@ static void test_refusals(void) {
 }
 
 /* The same denominator, kept from zero by its range. */
-static void test_ranges_keep_denominators_from_zero(void) {
+TEST(fixed_runs, ranges_keep_denominators_from_zero) {
     derived d = derived_scene(
         "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J*m]/(x + 3 [m]) + 2 [N/m]*x^2\n"
         "scene s { start x' = 0.1 [m/s]; range x = -2 .. 4 [m], x' = -9 .. 9 [m/s]; until 1 [s] }\n",
@@ -402,7 +388,7 @@ static void test_ranges_keep_denominators_from_zero(void) {
 }
 
 /* An invalid range is reported with its place. */
-static void test_ranges_in_the_language(void) {
+TEST(fixed_runs, ranges_in_the_language) {
     static const char *const tried[][2] = {
         {"range x = 1 .. -1 [m]", "holds nothing"},
         {"range x = 1 [m]", "'..' is missing"},
@@ -433,11 +419,4 @@ static void test_ranges_in_the_language(void) {
     TEST_ASSERT_EQUAL_DOUBLE(0.25, d.image->range[0].high);
     TEST_ASSERT_EQUAL_DOUBLE(6.0, d.image->range[1].high);
     derived_free(&d);
-}
-
-void suite_fixed_runs(void) {
-    RUN_TEST(test_made_up_mechanisms);
-    RUN_TEST(test_refusals);
-    RUN_TEST(test_ranges_keep_denominators_from_zero);
-    RUN_TEST(test_ranges_in_the_language);
 }

@@ -1,20 +1,11 @@
 /* test_fixed_ranges.c: ranges and steps of all sizes in fixed point: planning ends, with a step or with a refusal whose
  * hint helps. Coordinates without acceleration still move. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"
 #include "host/cli/commands.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
-
-#include "unity.h"
-
-void suite_fixed_ranges(void);
 
 /* Result and messages of fixed_plan_make(); `report` to be freed. */
 static fixed_plan *plan_of(const image *im, char **report) {
@@ -72,7 +63,7 @@ static void check_hint(image *im, double size, const char *report) {
     TEST_ASSERT_TRUE_MESSAGE(helped, report);
 }
 
-static void test_ranges_and_steps_of_all_sizes(void) {
+TEST(fixed_ranges, ranges_and_steps_of_all_sizes) {
     static const double step_s[] = {1e-6, 1e-4, 1e-3, 1e-2, 1.0};
     int made = 0;
     int refused = 0;
@@ -123,7 +114,7 @@ static double bound_of(const fixed_plan *p, int at, int rate, double until_s) {
 }
 
 /* Uniform motion: closed forms. */
-static void test_what_has_no_acceleration_moves(void) {
+TEST(fixed_ranges, what_has_no_acceleration_moves) {
     static const struct {
         const char *text;
         int at, rate; /* of the reals; -1: the angle, or absent */
@@ -174,7 +165,7 @@ static void test_what_has_no_acceleration_moves(void) {
 
 /* A swing so small that a step adds more at the lowest place than the whole range of the rate: with all ranges not
  * declared. */
-static void test_small_swings(void) {
+TEST(fixed_ranges, small_swings) {
     for (int power = -7; power <= 0; power++) {
         char *report;
         char *text = alloc_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
@@ -216,7 +207,7 @@ static void derive_pushed(int inputs, const double *start, const char *ranges, s
 }
 
 /* Each input without a range is refused with a hint; pasting the hints suffices. */
-static void test_inputs_must_declare_ranges(void) {
+TEST(fixed_ranges, inputs_must_declare_ranges) {
     dice d = dice_of("fixed_ranges", 46);
     const unsigned cases = dice_cases(usual_or(24, 8));
     for (unsigned k = 0; k < cases; k++) {
@@ -252,11 +243,4 @@ static void test_inputs_must_declare_ranges(void) {
         derive_pushed(inputs, start, ranges, &what);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     }
-}
-
-void suite_fixed_ranges(void) {
-    RUN_TEST(test_inputs_must_declare_ranges);
-    RUN_TEST(test_ranges_and_steps_of_all_sizes);
-    RUN_TEST(test_what_has_no_acceleration_moves);
-    RUN_TEST(test_small_swings);
 }

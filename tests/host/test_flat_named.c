@@ -1,14 +1,7 @@
 /* test_flat_named.c: a linkage that lies flat ends its run, and the redundant hold is named, in any order of the
  * file. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
-#include "unity.h"
-
-void suite_flat_named(void);
 
 enum { STOPS = 3, FLAT_TEXT = 2048 };
 
@@ -82,7 +75,7 @@ static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     model_drop();
 }
 
-static void test_the_hold_that_says_no_more_is_named(void) {
+TEST(flat_named, the_hold_that_says_no_more_is_named) {
     dice d = dice_of("flat_named", 26);
     for (int before = 0; before <= STOPS; before++) {
         for (int across_first = 0; across_first < 2; across_first++) {
@@ -90,5 +83,3 @@ static void test_the_hold_that_says_no_more_is_named(void) {
         }
     }
 }
-
-void suite_flat_named(void) { RUN_TEST(test_the_hold_that_says_no_more_is_named); }

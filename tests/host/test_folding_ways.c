@@ -3,13 +3,7 @@
  * one way to the other side of the exact value, in the others to either. */
 #include "host/number/folding.h"
 
-#include <math.h>
-#include <stdio.h>
-
 #include "command.h"
-#include "unity.h"
-
-void suite_folding_ways(void);
 
 enum { DRAWN = 2000 };
 
@@ -75,7 +69,7 @@ static int doubles_from(double from, double to) {
     return 9;
 }
 
-static void test_what_is_not_exact_is_moved(void) {
+TEST(folding_ways, what_is_not_exact_is_moved) {
     dice d = dice_of("folding ways", 1);
     unsigned times[KINDS][FOLDING_WAYS][5] = {{{0}}}; /* moved by -2 to 2 */
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -115,7 +109,7 @@ static void test_what_is_not_exact_is_moved(void) {
 }
 
 /* The ways differ; a repeated folding, in any order, moves the same. */
-static void test_ways_are_several(void) {
+TEST(folding_ways, ways_are_several) {
     dice d = dice_of("folding ways", 2);
     unsigned alike = 0;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -133,7 +127,7 @@ static void test_ways_are_several(void) {
 
 /* Sums, products and quotients of small integers, roots of squares, absolute values, and functions where their rows
  * begin. */
-static void test_what_is_exact_stays(void) {
+TEST(folding_ways, what_is_exact_stays) {
     static const struct {
         function_id function;
         double x, value;
@@ -161,10 +155,4 @@ static void test_what_is_exact_stays(void) {
             (void)folding_use(before);
         }
     }
-}
-
-void suite_folding_ways(void) {
-    RUN_TEST(test_what_is_not_exact_is_moved);
-    RUN_TEST(test_ways_are_several);
-    RUN_TEST(test_what_is_exact_stays);
 }

@@ -7,14 +7,8 @@
  * are its results, rounded up. A worst error below half a unit would mean that the function is not tested. */
 #include "core/function.h"
 
+#include "test.h"
 #include "tests/scattered.h"
-#include "unity.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-void suite_function_accuracy(void);
 
 #define SEED UINT64_C(10)
 static unsigned long cases(void) {
@@ -65,7 +59,7 @@ typedef struct subject {
     double bound;
 } subject;
 
-static void test_functions_of_one(void) {
+TEST(function_accuracy, functions_of_one) {
     static const subject subjects[] = {
         {"exp", wh_exp, expl, {any, below_104, near_one}, 0.52},
         {"log", wh_log, logl, {positive, near_one, below_104}, 0.52},
@@ -109,7 +103,7 @@ static float exponent_for(float base) {
     return (float)(either(unit() * 150.0f) / log2f(fabsf(base)));
 }
 
-static void test_functions_of_two(void) {
+TEST(function_accuracy, functions_of_two) {
     double worst_arc = 0.0;
     double worst_power = 0.0;
     float worst_at[2] = {0.0f, 0.0f};
@@ -136,9 +130,4 @@ static void test_functions_of_two(void) {
              worst_arc, worst_power, (double)worst_at[0], (double)worst_at[1], (int)SEED);
     TEST_ASSERT_TRUE_MESSAGE(worst_arc <= 0.53 && worst_arc > 0.49, text);
     TEST_ASSERT_TRUE_MESSAGE(worst_power <= 0.65 && worst_power > 0.49, text);
-}
-
-void suite_function_accuracy(void) {
-    RUN_TEST(test_functions_of_one);
-    RUN_TEST(test_functions_of_two);
 }

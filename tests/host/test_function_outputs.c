@@ -4,17 +4,9 @@
  * WHIRL_FUNCTION_CASES=10000 build/tests/host function_outputs
  *
  * tests that many arguments of each kind instead of twenty-five. */
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "core/function.h"
 #include "derived.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_function_outputs(void);
 
 #define PI_L 3.141592653589793238462643383279502884L
 
@@ -89,7 +81,7 @@ static void expect(const form *f, float x, float y) {
     TEST_ASSERT_TRUE_MESSAGE(error <= 0.7, text);
 }
 
-static void test_functions_of_any_size(void) {
+TEST(function_outputs, functions_of_any_size) {
     uint64_t seed = 11;
     for (unsigned k = 0; k < sizeof forms / sizeof forms[0]; k++) {
         for (unsigned long i = 0; i < cases(); i++) {
@@ -104,16 +96,11 @@ static void test_functions_of_any_size(void) {
 }
 
 /* The floats nearest to multiples of a quarter turn, where a tangent is smallest or largest. */
-static void test_tangent_at_quarter_turns(void) {
+TEST(function_outputs, tangent_at_quarter_turns) {
     uint64_t seed = 12;
     for (unsigned long i = 0; i < 4 * cases(); i++) {
         const uint64_t quarters = random_bits(&seed) % (UINT64_C(1) << random_bits(&seed) % 25U);
         const float rad = (float)((long double)(quarters + 1U) * PI_L / 2.0L);
         expect(&forms[2], i % 2 == 0 ? rad : -rad, 0.0f);
     }
-}
-
-void suite_function_outputs(void) {
-    RUN_TEST(test_functions_of_any_size);
-    RUN_TEST(test_tangent_at_quarter_turns);
 }

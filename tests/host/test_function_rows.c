@@ -5,17 +5,9 @@
  * WHIRL_RANDOM_STATES=10000 build/tests/host function_rows
  *
  * tests that many places of each function instead of two hundred. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/algebra/algebra.h"
 #include "host/engine/engine.h"
-#include "unity.h"
-
-void suite_function_rows(void);
 
 #define SEED UINT64_C(20061122)
 
@@ -60,7 +52,7 @@ static double variable_value(void *context, const symbol *sym, int primes) {
     return ((const double *)context)[sym->index];
 }
 
-static void test_slopes(void) {
+TEST(function_rows, slopes) {
     uint64_t seed = SEED;
     for (int f = 0; f < FUNCTIONS; f++) {
         algebra *a = algebra_new();
@@ -94,7 +86,7 @@ static void test_slopes(void) {
 }
 
 /* At a tie both arguments have half of the slope; an absolute value has slope 0 at zero. */
-static void test_slopes_where_they_jump(void) {
+TEST(function_rows, slopes_where_they_jump) {
     for (int which = 0; which < 2; which++) {
         TEST_ASSERT_TRUE(number_slope(FN_MIN, which, 2.0, 2.0) == 0.5);
         TEST_ASSERT_TRUE(number_slope(FN_MAX, which, 2.0, 2.0) == 0.5);
@@ -104,7 +96,7 @@ static void test_slopes_where_they_jump(void) {
 }
 
 /* A function that is real everywhere has a value at every place; any other lacks one at some places. */
-static void test_range(void) {
+TEST(function_rows, range) {
     uint64_t seed = SEED + 4;
     for (int f = 0; f < FUNCTIONS; f++) {
         int none = 0;
@@ -117,7 +109,7 @@ static void test_range(void) {
 }
 
 /* The same bits as number_call(), except for sine and cosine, which are a phase's. */
-static void test_operations(void) {
+TEST(function_rows, operations) {
     uint64_t seed = SEED + 1;
     for (int f = 0; f < FUNCTIONS; f++) {
         op_list *t = op_list_new(0, 1);
@@ -153,7 +145,7 @@ static void test_operations(void) {
 }
 
 /* An energy's force at the end of the whole chain: a lost derivative shows here. */
-static void test_forces(void) {
+TEST(function_rows, forces) {
     uint64_t seed = SEED + 2;
     for (int f = 0; f < FUNCTIONS; f++) {
         char text[400];
@@ -224,7 +216,7 @@ static bool has_period(int f, double period) {
 }
 
 /* The value under another choice of units tells the allowed dimensions of a function. */
-static void test_dimensions_of_values(void) {
+TEST(function_rows, dimensions_of_values) {
     for (int f = 0; f < FUNCTIONS; f++) {
         const function_dimensions takes = function_takes(at(f));
         const bool root = takes == TAKES_SQUARE;
@@ -239,7 +231,7 @@ static void test_dimensions_of_values(void) {
 }
 
 /* A length, lengths, or a length and a time: the result is a number, a length, a root, or an error. */
-static void test_dimensions(void) {
+TEST(function_rows, dimensions) {
     for (int f = 0; f < FUNCTIONS; f++) {
         char alike[80];
         char mixed[80];
@@ -262,7 +254,7 @@ static void test_dimensions(void) {
     }
 }
 
-static void test_names(void) {
+TEST(function_rows, names) {
     for (int f = 0; f < FUNCTIONS; f++) {
         function_id found;
         TEST_ASSERT_TRUE_MESSAGE(function_find(name(f), strlen(name(f)), &found), name(f));
@@ -299,7 +291,7 @@ static void expect_in(const char *text, const char *before, int f, const char *a
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, words), message);
 }
 
-static void test_words_of_the_docs(void) {
+TEST(function_rows, words_of_the_docs) {
     char *docs = read_whole("docs/language.md");
     char *words = read_whole("tests/fuzz/fuzz_lang.dict");
     for (char *c = docs; *c != '\0'; c++) { /* regardless of the page's line breaks */
@@ -319,16 +311,4 @@ static void test_words_of_the_docs(void) {
     }
     free(words);
     free(docs);
-}
-
-void suite_function_rows(void) {
-    RUN_TEST(test_slopes);
-    RUN_TEST(test_slopes_where_they_jump);
-    RUN_TEST(test_range);
-    RUN_TEST(test_operations);
-    RUN_TEST(test_forces);
-    RUN_TEST(test_dimensions_of_values);
-    RUN_TEST(test_dimensions);
-    RUN_TEST(test_names);
-    RUN_TEST(test_words_of_the_docs);
 }

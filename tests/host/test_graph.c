@@ -1,10 +1,5 @@
 /* test_graph.c: random expressions as a graph (host/prove/graph.h, graph_slope.c): values of the nodes; slopes against
  * complex-step derivatives; graphs without some variables; one node for equal expressions; simplification. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/base/alloc.h"
 #include "host/lang/model.h"
 #include "host/prove/reader.h"
@@ -12,8 +7,6 @@
 
 #include "derived.h"
 #include "drawn_graph.h"
-
-#include "unity.h"
 
 void suite_graph(void);
 void suite_reader(void);
@@ -64,7 +57,7 @@ static void expect_near(const char *what, long double wanted, long double got, l
     TEST_ASSERT_TRUE_MESSAGE(fabsl(wanted - got) <= 1e-12L * (1.0L + fabsl(wanted) + size), what);
 }
 
-static void test_worth(void) {
+TEST(graph, worth) {
     for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
         series of[DRAWN_STEPS];
         draw();
@@ -76,7 +69,7 @@ static void test_worth(void) {
     }
 }
 
-static void test_slopes(void) {
+TEST(graph, slopes) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
         series of[DRAWN_STEPS];
         draw();
@@ -116,7 +109,7 @@ static bool reaches(int from, int first) {
     return found;
 }
 
-static void test_without(void) {
+TEST(graph, without) {
     unsigned reached = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
         series of[DRAWN_STEPS];
@@ -139,7 +132,7 @@ static void test_without(void) {
 }
 
 /* Repetition makes no node; all are found again, in any number. */
-static void test_one_node(void) {
+TEST(graph, one_node) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         int again[DRAWN_STEPS];
         draw();
@@ -217,7 +210,7 @@ static bool has_kind(node_kind kind) {
     return has;
 }
 
-static void test_simple(void) {
+TEST(graph, simple) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         draw();
         const int steps[] = {made_graph[0], made_graph[1], made_graph[DRAWN_STEPS - 1],
@@ -263,7 +256,7 @@ static void test_simple(void) {
 
 /* Integer exponents up to 64 become products, by repeated halving; others do not, nor does an exponent that may not be
  * an integer. */
-static void test_whole_powers(void) {
+TEST(graph, whole_powers) {
     for (int exponent = -70; exponent <= 70; exponent++) {
         g_graph = graph_new();
         const int a = graph_variable(g_graph, 0);
@@ -297,7 +290,7 @@ static void expect_number(const char *what, int at, long double wanted) {
 }
 
 /* An operation on numbers is a number that encloses the long double result. */
-static void test_numbers(void) {
+TEST(graph, numbers) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 100)); c++) {
         const double a = dice_between(&die, -5.0, 5.0);
         const double b = dice_between(&die, 0.5, 5.0);
@@ -347,7 +340,7 @@ static enclosure read_number(const char *written) {
 }
 
 /* Integers stay exact through sums, products, quotients and powers with integer results. */
-static void test_whole_numbers_stay_whole(void) {
+TEST(graph, whole_numbers_stay_whole) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 60)); c++) {
         const int a = 1 + (int)dice_one_of(&die, 12);
         const int b = 1 + (int)dice_one_of(&die, 9);
@@ -379,7 +372,7 @@ static void test_whole_numbers_stay_whole(void) {
 }
 
 /* Inverse functions of numbers enclose the long double result within a few units in the last place. */
-static void test_inverse_functions_of_numbers(void) {
+TEST(graph, inverse_functions_of_numbers) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 60)); c++) {
         const double u = dice_between(&die, -1.0, 1.0);
         const double v = dice_between(&die, -30.0, 30.0);
@@ -406,18 +399,7 @@ static void test_inverse_functions_of_numbers(void) {
     }
 }
 
-void suite_graph(void) {
-    die = dice_of("graph", 41);
-    RUN_TEST(test_worth);
-    RUN_TEST(test_slopes);
-    RUN_TEST(test_without);
-    RUN_TEST(test_one_node);
-    RUN_TEST(test_simple);
-    RUN_TEST(test_whole_powers);
-    RUN_TEST(test_numbers);
-    RUN_TEST(test_whole_numbers_stay_whole);
-    RUN_TEST(test_inverse_functions_of_numbers);
-}
+void suite_graph(void) { die = dice_of("graph", 41); }
 
 /* === reader =================================================================================== */
 /* A model's expressions as nodes of a graph (host/prove/reader.h). Random formulas have their long double values, and
@@ -581,7 +563,7 @@ static void draw_text(void) {
     TEST_ASSERT_TRUE(d.length < TEXT_SIZE);
 }
 
-static void test_worth_reader(void) {
+TEST(reader, worth_reader) {
     unsigned numbers = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
         draw_text();
@@ -621,7 +603,7 @@ static void test_worth_reader(void) {
 }
 
 /* Nodes of the derivatives are the given variables. */
-static void test_variables(void) {
+TEST(reader, variables) {
     static const char *const words[] = {"a", "a'", "b", "a''", "b'"};
     for (int i = 0; i < MOVING; i++) {
         char text[400];
@@ -656,7 +638,7 @@ static void expect_ends(const char *formula, double low, double high) {
     TEST_ASSERT_TRUE_MESSAGE(e.high >= high && e.high - high <= slack, formula);
 }
 
-static void test_corners(void) {
+TEST(reader, corners) {
     const enclosure z = number_of("z");
     const enclosure w = number_of("w");
     TEST_ASSERT_TRUE(z.low < 0.0 && z.high > 0.0 && w.low > 0.09 && w.low < w.high);
@@ -703,7 +685,7 @@ static void expect_refused(const char *formula, const char *name) {
     close_text();
 }
 
-static void test_refused(void) {
+TEST(reader, refused) {
     static const char *const inside[] = {
         "%s",     "1 + %s",     "%s*2",       "a/(3 + %s)", "sin(%s)",    "tanh(%s)",     "(%s)^2",
         "2^(%s)", "min(1, %s)", "min(%s, 1)", "-(%s)",      "a*(b - %s)", "sqrt(exp(%s))"};
@@ -725,7 +707,7 @@ static void test_refused(void) {
 }
 
 /* An output has no value of its own during a proof. */
-static void test_outputs(void) {
+TEST(reader, outputs) {
     char *told = NULL;
     size_t length = 0;
     open_text(HEAD "output o = a\noutput p = 2*o\n");
@@ -739,14 +721,7 @@ static void test_outputs(void) {
     close_text();
 }
 
-void suite_reader(void) {
-    die = dice_of("reader", 53);
-    RUN_TEST(test_worth_reader);
-    RUN_TEST(test_variables);
-    RUN_TEST(test_corners);
-    RUN_TEST(test_refused);
-    RUN_TEST(test_outputs);
-}
+void suite_reader(void) { die = dice_of("reader", 53); }
 
 /* === taylor =================================================================================== */
 /* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, against
@@ -807,7 +782,7 @@ static long double size_of(const series *s, int k) {
     return size;
 }
 
-static void test_at_a_point(void) {
+TEST(taylor, at_a_point) {
     for (unsigned c = 0; c < dice_cases(usual_or(25, 8)); c++) {
         drawn_motion m;
         series of[DRAWN_STEPS];
@@ -851,7 +826,7 @@ static void test_at_a_point(void) {
     }
 }
 
-static void test_in_a_box(void) {
+TEST(taylor, in_a_box) {
     unsigned finite = 0;
     const unsigned cases = dice_cases(usual_or(20, 8));
     for (unsigned c = 0; c < cases; c++) {
@@ -911,7 +886,7 @@ static void close_with(closed *c, int rate) {
 
 /* x' = x^2 from 1/2 on is 1/(2 - t): (1/2)^(k+1), and its slope by the start, all exact in binary. x' = 1/x from 1 on
  * is sqrt(1 + 2 t). */
-static void test_closed_forms(void) {
+TEST(taylor, closed_forms) {
     enum { ORDER = 20 };
     closed c = {.graph = graph_new()};
     const int a = graph_variable(c.graph, 0);
@@ -948,7 +923,7 @@ static void test_closed_forms(void) {
 }
 
 /* A non-number is reported, even if it is unused. */
-static void test_no_number(void) {
+TEST(taylor, no_number) {
     closed c = {.graph = graph_new()};
     (void)graph_variable(c.graph, 0);
     close_with(&c, graph_whole(c.graph, 1));
@@ -963,7 +938,7 @@ static void test_no_number(void) {
 }
 
 /* The cost grows with the square of the order and with the slopes: the counted products of a node. */
-static void test_products(void) {
+TEST(taylor, products) {
     closed c = {.graph = graph_new()};
     const int a = graph_variable(c.graph, 0);
     const int both = graph_add(c.graph, graph_sine(c.graph, a), graph_whole(c.graph, 3));
@@ -983,11 +958,4 @@ static void test_products(void) {
     graph_free(c.graph);
 }
 
-void suite_taylor(void) {
-    die = dice_of("taylor", 42);
-    RUN_TEST(test_at_a_point);
-    RUN_TEST(test_in_a_box);
-    RUN_TEST(test_closed_forms);
-    RUN_TEST(test_no_number);
-    RUN_TEST(test_products);
-}
+void suite_taylor(void) { die = dice_of("taylor", 42); }

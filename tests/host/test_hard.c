@@ -1,22 +1,11 @@
 /* test_hard.c: hard cases with contacts, and undamped resonance (docs/hard, docs/hard_cases.md), against closed forms.
  * Redundant supports and frictions that break away, friction under a vanishing load, Newton's cradle. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "contacts.h"
 #include "horizons.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_hard_contacts(void);
-void suite_hard_origin(void);
 
 /* === hard contacts ============================================================================ */
 
@@ -95,12 +84,12 @@ static void check_breaking(const char *name, const char *second, double factor, 
 }
 
 /* About the left support the inertia is 4/3 m: 4/3 m y'' = 2 P - m g. */
-static void test_a_beam_lifts_off_two_of_three_supports(void) {
+TEST(hard_contacts, a_beam_lifts_off_two_of_three_supports) {
     check_breaking("beam_lifts", "s", 3.0 / (4.0 * 2.0) * 2.0, 10.0);
 }
 
 /* 2 m x'' = P - 2 mu_k m g. */
-static void test_two_blocks_break_loose_together(void) {
+TEST(hard_contacts, two_blocks_break_loose_together) {
     check_breaking("blocks_slide", "y", 1.0 / 2.0, 8.0);
 }
 
@@ -194,7 +183,7 @@ static double pulled_off_m(double step_s, const engine_kind *kind, uint64_t *eve
     return off;
 }
 
-static void test_a_load_that_pulsates_and_vanishes(void) {
+TEST(hard_contacts, a_load_that_pulsates_and_vanishes) {
     static const double steps[] = {5e-3, 2.5e-3, 1.25e-3};
     double off[3];
     uint64_t events[4];
@@ -215,7 +204,7 @@ static void test_a_load_that_pulsates_and_vanishes(void) {
 
 /* --- Newton's cradle ------------------------------------------------------------------------------------------------ */
 
-static void test_the_cradle_swings(void) {
+TEST(hard_contacts, the_cradle_swings) {
     for (int real = 0; real < 2; real++) {
         const double w = 5.0;
         const double period = 2.0 * acos(-1.0) / w;
@@ -262,7 +251,7 @@ static double resonance_off(double step_s, const engine_kind *kind) {
     return off;
 }
 
-static void test_a_resonance_that_nothing_damps(void) {
+TEST(hard_contacts, a_resonance_that_nothing_damps) {
     const double coarse = resonance_off(2e-3, &engine_double);
     const double fine = resonance_off(1e-3, &engine_double);
     const double in_float = resonance_off(1e-3, &engine_float);
@@ -271,14 +260,6 @@ static void test_a_resonance_that_nothing_damps(void) {
     TEST_ASSERT_TRUE(fine > 1e-10 && fine < 1e-6);
     TEST_ASSERT_TRUE(log2(coarse / fine) > 3.5 && log2(coarse / fine) < 5.5);
     TEST_ASSERT_TRUE(in_float < 1e-4);
-}
-
-void suite_hard_contacts(void) {
-    RUN_TEST(test_a_beam_lifts_off_two_of_three_supports);
-    RUN_TEST(test_two_blocks_break_loose_together);
-    RUN_TEST(test_a_load_that_pulsates_and_vanishes);
-    RUN_TEST(test_the_cradle_swings);
-    RUN_TEST(test_a_resonance_that_nothing_damps);
 }
 
 /* === hard origin ============================================================================== */
@@ -326,7 +307,7 @@ static double passage_off_m(double d_m, double step_s, const engine_kind *kind, 
     return passage_by(WH_RK4, d_m, step_s, kind, compensated);
 }
 
-static void test_past_the_origin_of_polar_coordinates(void) {
+TEST(hard_origin, past_the_origin_of_polar_coordinates) {
     dice d = dice_of("origin", 15001);
     const unsigned cases = dice_cases(few_or_all(8, 60));
     unsigned off_course = 0;
@@ -377,7 +358,7 @@ static wh_method method_named(const char *hint, wh_method own) {
 
 /* Crude methods have larger errors and would need extremely small steps: the proposed remedy must be possible, and is
  * applied. (A former version proposed `--step 0ns`.) */
-static void test_past_the_origin_by_crude_methods(void) {
+TEST(hard_origin, past_the_origin_by_crude_methods) {
     static const wh_method crude[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_NYSTROEM3};
     dice d = dice_of("crude", 15006);
     const unsigned cases = dice_cases(few_or_all(12, 120));
@@ -421,7 +402,7 @@ static void test_past_the_origin_by_crude_methods(void) {
 
 /* Straight through: without rotation, r changes its sign undisturbed. If a stage meets the origin itself, theta'' is
  * not a number, and the run ends with a message. */
-static void test_through_the_origin(void) {
+TEST(hard_origin, through_the_origin) {
     static const char *const steps[] = {"1ms", "0.7ms", "0.3ms", "2ms"};
     unsigned through = 0;
     for (unsigned i = 0; i < 8; i++) {
@@ -503,7 +484,7 @@ static double flight_off_m(const flight *f, double step_s, const engine_kind *ki
     return went ? sqrt(sum) : (double)INFINITY;
 }
 
-static void test_past_the_origin_of_spherical_coordinates(void) {
+TEST(hard_origin, past_the_origin_of_spherical_coordinates) {
     dice d = dice_of("space", 15004);
     const unsigned cases = dice_cases(few_or_all(8, 60));
     unsigned off_course = 0;
@@ -541,11 +522,4 @@ static void test_past_the_origin_of_spherical_coordinates(void) {
     printf("  %u flights: %u end more than 2 cm off, all told, cured to %.1e m; %u sound\n", cases,
            off_course, cured_m, sound);
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
-}
-
-void suite_hard_origin(void) {
-    RUN_TEST(test_past_the_origin_of_polar_coordinates);
-    RUN_TEST(test_past_the_origin_by_crude_methods);
-    RUN_TEST(test_through_the_origin);
-    RUN_TEST(test_past_the_origin_of_spherical_coordinates);
 }

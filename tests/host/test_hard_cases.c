@@ -1,22 +1,11 @@
 /* test_hard_cases.c: hard cases for an integrator (docs/hard, docs/hard_cases.md), against closed forms or the same
  * energies in numbers (linkage.h). A motor too weak to pass a resonance (Sommerfeld), an almost vanishing inertia,
  * decaying hops on a moving floor. A table that falls away from a body on it, fast rotation. */
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "linkage.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_hard_cases(void);
-void suite_hard_edges(void);
 
 /* === hard cases =============================================================================== */
 
@@ -65,7 +54,7 @@ static double speed_after(double torque_Nm, stepping how) {
     return speed;
 }
 
-static void test_a_motor_at_a_resonance(void) {
+TEST(hard_cases, a_motor_at_a_resonance) {
     const double weak_reference = reference_after(0.25);
     const double strong_reference = reference_after(1.5);
     const double weak = speed_after(0.25, IN_DOUBLE);
@@ -85,7 +74,7 @@ static void test_a_motor_at_a_resonance(void) {
 
 /* A disc on a frictionless pivot at a pendulum's end keeps its rotation, although its angle includes the pendulum's
  * coordinate. Its inertia may be tiny compared with the pendulum's. */
-static void test_a_disc_of_hardly_any_inertia(void) {
+TEST(hard_cases, a_disc_of_hardly_any_inertia) {
     double worst[2] = {0.0, 0.0};
     for (int k = 0; k <= 12; k += 3) {
         for (int real = 0; real < 2; real++) {
@@ -134,7 +123,7 @@ static void open_table(motion *m, double A_m, double w_radps, double height_m, d
     motion_open_file(m, HARD "moving_floor.whirl", more, "drawn", IN_DOUBLE_STEP(step_s));
 }
 
-static void test_hops_on_a_moving_floor_end(void) {
+TEST(hard_cases, hops_on_a_moving_floor_end) {
     motion m;
     open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2: a body on it stays */
     motion_to(&m, 2.0);
@@ -148,7 +137,7 @@ static void test_hops_on_a_moving_floor_end(void) {
 }
 
 /* It leaves a ball when it falls faster than that: cos(w t) = -g/(A w^2). */
-static void test_a_table_falls_away(void) {
+TEST(hard_cases, a_table_falls_away) {
     for (int k = 0; k < 5; k++) {
         const double A = 0.02 + 0.01 * k;
         const double w = 30.0;
@@ -169,7 +158,7 @@ static void test_a_table_falls_away(void) {
 
 /* --- fast rotation --------------------------------------------------------------------------------------------- */
 
-static void test_fast_rotation(void) {
+TEST(hard_cases, fast_rotation) {
     for (int k = 0; k < 5; k++) {
         const double rate = 600.0 * (k + 1) + 17.0 * k; /* up to 3068 rad/s: 0.49 turns a step */
         char start[60];
@@ -183,14 +172,6 @@ static void test_fast_rotation(void) {
         TEST_ASSERT_DOUBLE_WITHIN(turned * 1.3e-7 + 1e-4, turned, motion_value(&m, "th"));
         motion_close(&m);
     }
-}
-
-void suite_hard_cases(void) {
-    RUN_TEST(test_a_motor_at_a_resonance);
-    RUN_TEST(test_a_disc_of_hardly_any_inertia);
-    RUN_TEST(test_hops_on_a_moving_floor_end);
-    RUN_TEST(test_a_table_falls_away);
-    RUN_TEST(test_fast_rotation);
 }
 
 /* === hard edges =============================================================================== */
@@ -228,7 +209,7 @@ static double floor_off(double hw, const engine_kind *kind) {
     return most;
 }
 
-static void test_a_floor_stiffer_than_the_step_bears(void) {
+TEST(hard_edges, a_floor_stiffer_than_the_step_bears) {
     dice d = dice_of("floors", 15002);
     const unsigned cases = dice_cases(few_or_all(10, 80));
     unsigned gone = 0;
@@ -261,7 +242,7 @@ static void test_a_floor_stiffer_than_the_step_bears(void) {
 }
 
 /* The stop has no stiffness: the height after 2 s of bounces, at any step. */
-static void test_a_stop_has_no_stiffness(void) {
+TEST(hard_edges, a_stop_has_no_stiffness) {
     static const double steps[] = {1e-2, 5e-3, 1e-3, 1e-4};
     const double G = 9.81;
     const double fall = sqrt(0.2 / G);
@@ -313,7 +294,7 @@ static double jumps_off_m(dice *d, double step_s, image_matrix_of matrix) {
     return off;
 }
 
-static void test_inputs_that_jump_between_steps(void) {
+TEST(hard_edges, inputs_that_jump_between_steps) {
     double least = 9.0;
     double most = 0.0;
     double exact = 0.0;
@@ -346,7 +327,7 @@ static double jump_inside_off_m(double step_s, const engine_kind *kind) {
     return off;
 }
 
-static void test_a_jump_inside_a_step(void) {
+TEST(hard_edges, a_jump_inside_a_step) {
     const double coarse = jump_inside_off_m(1e-3, &engine_double);
     const double fine = jump_inside_off_m(0.5e-3, &engine_double);
     const double in_float = jump_inside_off_m(1e-3, &engine_float);
@@ -405,8 +386,8 @@ static void scales(bool is_float, double least, double last) {
     TEST_ASSERT_TRUE(right > 20 && told > 2);
 }
 
-static void test_amplitudes_to_the_ends_of_float(void) { scales(true, -45.0, 38.5); }
-static void test_amplitudes_to_the_ends_of_double(void) { scales(false, -305.0, 307.5); }
+TEST(hard_edges, amplitudes_to_the_ends_of_float) { scales(true, -45.0, 38.5); }
+TEST(hard_edges, amplitudes_to_the_ends_of_double) { scales(false, -305.0, 307.5); }
 
 /* A swing under a cubic force: x/A at ten moments; the same for every amplitude. */
 static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
@@ -425,7 +406,7 @@ static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
 }
 
 /* Its cube underflows in float long before the distance does: the report names underflow. */
-static void test_products_that_fall_below_float(void) {
+TEST(hard_edges, products_that_fall_below_float) {
     double wanted[10];
     unsigned off_course = 0;
     unsigned sound = 0;
@@ -457,7 +438,7 @@ static void test_products_that_fall_below_float(void) {
 }
 
 /* Beyond 1e15 no step is accepted; beyond 6.28e9 rad no start of an angle in float. */
-static void test_starts_that_are_too_large(void) {
+TEST(hard_edges, starts_that_are_too_large) {
     static const struct {
         const char *file, *start;
         bool is_float;
@@ -513,7 +494,7 @@ static double unequal_off_m(double mass, const engine_kind *kind) {
 
 /* Up to 1e8 no effect. In a sum M + m the last place of m is 2^-53 m, relative to M as large as the mass ratio. That is
  * the error of a phase of 50 rad, up to a ratio of 1e13. Beyond that, the matrix is refused. */
-static void test_two_bodies_of_very_different_mass(void) {
+TEST(hard_edges, two_bodies_of_very_different_mass) {
     double worst[2] = {0.0, 0.0};
     double beyond = 0.0;
     for (int decade = -12; decade <= 13; decade++) {
@@ -542,16 +523,4 @@ static void test_two_bodies_of_very_different_mass(void) {
         worst[0], worst[1], beyond);
     TEST_ASSERT_TRUE(worst[0] > 1e-12 && worst[0] < 1e-8);
     TEST_ASSERT_TRUE(worst[1] > 1e-9 && worst[1] < 1e-5);
-}
-
-void suite_hard_edges(void) {
-    RUN_TEST(test_a_floor_stiffer_than_the_step_bears);
-    RUN_TEST(test_a_stop_has_no_stiffness);
-    RUN_TEST(test_inputs_that_jump_between_steps);
-    RUN_TEST(test_a_jump_inside_a_step);
-    RUN_TEST(test_amplitudes_to_the_ends_of_float);
-    RUN_TEST(test_amplitudes_to_the_ends_of_double);
-    RUN_TEST(test_products_that_fall_below_float);
-    RUN_TEST(test_starts_that_are_too_large);
-    RUN_TEST(test_two_bodies_of_very_different_mass);
 }

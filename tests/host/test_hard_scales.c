@@ -1,18 +1,10 @@
 /* test_hard_scales.c: random planar linkages in other units, masses, lengths and times by factors from 1e-12 to 1e12.
  * Powers of two change no digit of a product or quotient, so the motion must be the same, except for the order of sums.
  * At the end of float's range a run must report it and never silently change. */
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
 #include "linkage.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_hard_scales(void);
 
 enum { STEPS = 50 };
 
@@ -161,7 +153,7 @@ static void in_all_units(const engine_kind *kind, double most_off, reach *reache
     }
 }
 
-static void test_units_do_not_matter_in_double(void) {
+TEST(hard_scales, units_do_not_matter_in_double) {
     reach reached[REACHES] = {{.most = 4}, {.most = 20}, {.most = 40}};
     in_all_units(&engine_double, 1e-11, reached);
     TEST_ASSERT_EQUAL_UINT(0, reached[0].none);
@@ -169,7 +161,7 @@ static void test_units_do_not_matter_in_double(void) {
     TEST_ASSERT_TRUE(reached[2].none * 4 <= cases());
 }
 
-static void test_units_do_not_matter_in_float(void) {
+TEST(hard_scales, units_do_not_matter_in_float) {
     reach reached[REACHES] = {{.most = 4}, {.most = 12}, {.most = 40}};
     in_all_units(&engine_float, 1e-4, reached);
     TEST_ASSERT_EQUAL_UINT(0, reached[0].none);
@@ -274,16 +266,10 @@ static unequal of_unequal(const engine_kind *kind, double decades, double last) 
     return sum;
 }
 
-static void test_masses_of_very_different_size(void) {
+TEST(hard_scales, masses_of_very_different_size) {
     const unequal in_double = of_unequal(&engine_double, 3.0, DBL_EPSILON);
     const unequal in_float = of_unequal(&engine_float, 1.5, (double)FLT_EPSILON);
     TEST_ASSERT_EQUAL_UINT(0, in_double.beyond);
     TEST_ASSERT_EQUAL_UINT(0, in_float.beyond);
     TEST_ASSERT_TRUE(in_double.plain > 0 && in_float.plain > 0);
-}
-
-void suite_hard_scales(void) {
-    RUN_TEST(test_units_do_not_matter_in_double);
-    RUN_TEST(test_units_do_not_matter_in_float);
-    RUN_TEST(test_masses_of_very_different_size);
 }

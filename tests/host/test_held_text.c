@@ -1,13 +1,9 @@
 /* test_held_text.c: the text of `whirl prove` on random findings (host/prove/containment.h), read back. Numbers round
  * up, but not by much; the right state is named at the end; rows are exact to the last bit. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "drawn_image.h"
 #include "host/base/alloc.h"
 #include "host/prove/containment.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_held_text(void);
 
@@ -185,7 +181,7 @@ static const char *said_end(const char *at, double end_s) {
     return said_exactly(at, "\n");
 }
 
-static void test_words(void) {
+TEST(held_text, words) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 100)); c++) {
         char name[40];
         draw();
@@ -224,7 +220,7 @@ static const char *read_exactly(const char *at, double wanted) {
     return at;
 }
 
-static void test_rows(void) {
+TEST(held_text, rows) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
         enclosure exact[DRAWN_STATES] = {{0.0, 0.0}};
         double run[DRAWN_STATES] = {0.0};
@@ -264,8 +260,4 @@ static void test_rows(void) {
     }
 }
 
-void suite_held_text(void) {
-    die = dice_of("held_text", 45);
-    RUN_TEST(test_words);
-    RUN_TEST(test_rows);
-}
+void suite_held_text(void) { die = dice_of("held_text", 45); }

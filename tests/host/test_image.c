@@ -1,14 +1,7 @@
 /* test_image.c: an image is self-contained. Runs and written output are the same after the language and algebra objects
  * are freed; under the sanitizers, a remaining pointer into them fails here. An image remade with other starts equals
  * one derived with them. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <inttypes.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "core/contact.h"
 #include "host/check/books_text.h"
@@ -28,11 +21,7 @@
 #include "json_check.h"
 #include "mechanism.h"
 
-#include "unity.h"
-
-void suite_image(void);
 void suite_described_drawn(void);
-void suite_generated_texts(void);
 
 /* === image ==================================================================================== */
 
@@ -139,7 +128,7 @@ static int check_scene_alone(const scene *s) {
     return 1;
 }
 
-static void test_an_image_outlives_what_it_was_made_of(void) {
+TEST(image, an_image_outlives_what_it_was_made_of) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene_alone) > 60);
 }
 
@@ -159,7 +148,7 @@ static const char undefined_everywhere[] =
     "    stop x >= 1 [m]/sqrt(th) - 10 [m] restitution 0.5\n"
     "    friction th static 0.2 kinetic 0.1 normal 1 [N*m]/th\n";
 
-static void test_a_file_of_ones_own_is_forgotten_too(void) {
+TEST(image, a_file_of_ones_own_is_forgotten_too) {
     derived d = derived_text(undefined_everywhere);
     check_alone(&d, d.errors);
 }
@@ -215,14 +204,8 @@ static int check_again(const scene *s) {
     return compared;
 }
 
-static void test_other_starts_need_no_derivation(void) {
+TEST(image, other_starts_need_no_derivation) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_again) > 50);
-}
-
-void suite_image(void) {
-    RUN_TEST(test_an_image_outlives_what_it_was_made_of);
-    RUN_TEST(test_a_file_of_ones_own_is_forgotten_too);
-    RUN_TEST(test_other_starts_need_no_derivation);
 }
 
 /* === described drawn ========================================================================== */
@@ -512,7 +495,7 @@ static void check_layout(void) {
     TEST_ASSERT_EQUAL_INT(0, depth);
 }
 
-static void test_json_has_every_field(void) {
+TEST(described_drawn, json_has_every_field) {
     char why[100];
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 15), 400)); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -532,7 +515,7 @@ static void test_json_has_every_field(void) {
 }
 
 /* Characters stay; quotes, control characters and invalid UTF-8 are replaced by their escapes. */
-static void test_any_text_is_told(void) {
+TEST(described_drawn, any_text_is_told) {
     static const char *const pieces[][2] = {{"a", "a"},
                                             {" ~", " ~"},
                                             {"\xc3\xa9", "\xc3\xa9"},
@@ -566,7 +549,7 @@ static void test_any_text_is_told(void) {
 }
 
 /* JSON has no word for these. */
-static void test_what_is_no_number_is_null(void) {
+TEST(described_drawn, what_is_no_number_is_null) {
     static const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 3; i++) {
         char why[100];
@@ -583,12 +566,7 @@ static void test_what_is_no_number_is_null(void) {
     }
 }
 
-void suite_described_drawn(void) {
-    die = dice_of("described_drawn", 4140);
-    RUN_TEST(test_json_has_every_field);
-    RUN_TEST(test_any_text_is_told);
-    RUN_TEST(test_what_is_no_number_is_null);
-}
+void suite_described_drawn(void) { die = dice_of("described_drawn", 4140); }
 
 /* === generated texts ========================================================================== */
 /* Tests over any mechanism cover every function: the writers of random expressions and mechanisms know each row of
@@ -629,7 +607,7 @@ static void expect_all(const bool called[FUNCTIONS], const char *where) {
 }
 
 /* Drawn until each function occurred; then missing ones are named. */
-static void test_generated_texts(void) {
+TEST(generated_texts, generated_texts) {
     static char text[1 << 14];
     static const char *const coordinates[] = {"q"};
     static const char *const constants[] = {"p"};
@@ -651,5 +629,3 @@ static void test_generated_texts(void) {
     }
     expect_all(derived_from, "mechanism_write() of tests/host/mechanism.c");
 }
-
-void suite_generated_texts(void) { RUN_TEST(test_generated_texts); }

@@ -1,14 +1,10 @@
 /* test_influence.c: `conserve` with forces, losses and contacts: the message names the obstacle to conservation, and a
  * conserved coordinate that others depend on is accurate. */
-#include <math.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/derive/program.h"
 #include "motion.h"
 #include "parsed.h"
 #include "ranges.h"
-#include "unity.h"
 
 void suite_influence(void);
 

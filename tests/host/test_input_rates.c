@@ -4,14 +4,6 @@
 #include "derived.h"
 #include "motion.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "unity.h"
-
-void suite_input_rates(void);
-
 #define G 9.81
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
@@ -63,7 +55,7 @@ static void exact_ball(const double *wall, const double *speed, double e, double
     }
 }
 
-static void test_a_ball_between_moving_walls(void) {
+TEST(input_rates, a_ball_between_moving_walls) {
     const unsigned cases = dice_cases(24);
     dice d = dice_of("input_rates", 4602);
     double worst[2] = {0.0, 0.0};
@@ -109,7 +101,7 @@ static void test_a_ball_between_moving_walls(void) {
 }
 
 /* A ball on a shaking table stays while the table's downward acceleration is below g, then flies. */
-static void test_a_ball_on_a_shaking_table(void) {
+TEST(input_rates, a_ball_on_a_shaking_table) {
     const unsigned cases = dice_cases(16);
     dice d = dice_of("input_rates", 4602);
     double worst[TELLINGS] = {0.0, 0.0, 0.0};
@@ -239,7 +231,7 @@ static course draw_rope(dice *d) {
 
 /* With the mean rate or acceleration, the rope follows to second order in the step; with the rate at the step's begin,
  * to first. The same holds for energies with L. The hold is exact in any case. */
-static void test_a_pendulum_on_a_rope_of_changing_length(void) {
+TEST(input_rates, a_pendulum_on_a_rope_of_changing_length) {
     const unsigned cases = dice_cases(6);
     dice d = dice_of("input_rates", 4602);
     static const char *const by[BY_WAYS] = {"a hold", "the angle"};
@@ -296,7 +288,7 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
 
 /* A refused step leaves no trace: the run continues as if it had not been requested, also with inputs other than the
  * last good ones. */
-static void test_a_refused_step_leaves_no_trace(void) {
+TEST(input_rates, a_refused_step_leaves_no_trace) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
                                  1e30}; /* finite: may be held */
     dice d = dice_of("input_rates", 4603);
@@ -353,7 +345,7 @@ static void test_a_refused_step_leaves_no_trace(void) {
 
 /* --- the language -------------------------------------------------------------------------------------------- */
 
-static void test_what_a_rate_may_be(void) {
+TEST(input_rates, what_a_rate_may_be) {
     static const struct {
         const char *lines;
         const char *said;
@@ -388,12 +380,4 @@ static void test_what_a_rate_may_be(void) {
                                                           : strstr(report, cases[i].said) != NULL,
                                  report[0] == '\0' ? cases[i].lines : report);
     }
-}
-
-void suite_input_rates(void) {
-    RUN_TEST(test_a_ball_between_moving_walls);
-    RUN_TEST(test_a_ball_on_a_shaking_table);
-    RUN_TEST(test_a_pendulum_on_a_rope_of_changing_length);
-    RUN_TEST(test_a_refused_step_leaves_no_trace);
-    RUN_TEST(test_what_a_rate_may_be);
 }

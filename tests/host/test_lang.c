@@ -1,14 +1,8 @@
 /* test_lang.c: meaning of a .whirl file: units, dimensions, names, values of scenes. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/lang/value.h"
 #include "parsed.h"
-#include "unity.h"
 
 void suite_lang(void);
 

@@ -1,10 +1,5 @@
 /* test_leaks.c: memory leaks. After a scene is derived, run, written or refused, as many blocks
  * are in use as before. If the C library has no count, the sanitizers check. */
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
@@ -15,9 +10,6 @@
 #include "host/check/summary.h"
 #include "host/emit/description.h"
 #include "host/emit/emit.h"
-#include "unity.h"
-
-void suite_leaks(void);
 
 /* The first round may allocate caches of the libraries. */
 enum { ROUNDS = 2 };
@@ -30,7 +22,7 @@ static int check_scene(const scene *s) {
     return 1;
 }
 
-static void test_scenes_give_everything_back(void) {
+TEST(leaks, scenes_give_everything_back) {
     TEST_ASSERT_GREATER_THAN_INT(50, each_builtin_scene(check_scene));
 }
 
@@ -120,7 +112,7 @@ static int make_all_ways(const char *name) {
     return made;
 }
 
-static void test_other_settings_give_everything_back(void) {
+TEST(leaks, other_settings_give_everything_back) {
     int made = 0;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         long before = 0;
@@ -135,7 +127,7 @@ static void test_other_settings_give_everything_back(void) {
 
 #define TWO "mechanism m\ncoordinate x [m]\ncoordinate y [m]\n"
 
-static void test_what_is_refused_gives_everything_back(void) {
+TEST(leaks, what_is_refused_gives_everything_back) {
     static const char *const refused[] = {
         TWO "T = 1 [kg]*x'^2\n",                                     /* no inertia */
         TWO "T = 1 [kg]*(x' + y')^2\n",                              /* singular */
@@ -183,7 +175,7 @@ static bool all_are(const unsigned char *bytes, size_t count, unsigned char valu
     return true;
 }
 
-static void test_rooms_of_drawn_sizes(void) {
+TEST(leaks, rooms_of_drawn_sizes) {
     dice d = dice_of("room", 2511);
     for (unsigned i = 0; i < 200; i++) {
         const size_t size = 1U + dice_one_of(&d, 40);
@@ -207,7 +199,7 @@ static void test_rooms_of_drawn_sizes(void) {
     }
 }
 
-static void test_words_of_any_length(void) {
+TEST(leaks, words_of_any_length) {
     for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
         char *words = alloc_words("%*s|%d", length, "", length);
         TEST_ASSERT_EQUAL_INT('|', words[length]);
@@ -217,7 +209,7 @@ static void test_words_of_any_length(void) {
     }
 }
 
-static void test_texts_of_any_length(void) {
+TEST(leaks, texts_of_any_length) {
     for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
         char *text = NULL;
         size_t bytes = 0;
@@ -285,7 +277,7 @@ static int ask(int count, char **words) {
 #define ASKED "abcdefghijklmn"
 #endif
 
-static void test_what_there_is_no_room_for(void) {
+TEST(leaks, what_there_is_no_room_for) {
     static const char asked[] = ASKED "-";
     for (size_t i = 0; asked[i] != '\0'; i++) {
         const char word[] = {asked[i], '\0'};
@@ -296,14 +288,4 @@ static void test_what_there_is_no_room_for(void) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(ends ? EXIT_RUN_FAILED : 0, what.status, word);
         TEST_ASSERT_EQUAL_STRING_MESSAGE(ends ? "whirl: out of memory\n" : "", what.err, word);
     }
-}
-
-void suite_leaks(void) {
-    RUN_TEST(test_scenes_give_everything_back);
-    RUN_TEST(test_other_settings_give_everything_back);
-    RUN_TEST(test_what_is_refused_gives_everything_back);
-    RUN_TEST(test_rooms_of_drawn_sizes);
-    RUN_TEST(test_words_of_any_length);
-    RUN_TEST(test_texts_of_any_length);
-    RUN_TEST(test_what_there_is_no_room_for);
 }

@@ -1,18 +1,10 @@
 /* test_let_rates.c: x1' and x1'' of `let x1 = ...` compared with derivatives by hand. A drawn tree
  * of functions is written as a let. Its derivatives are written as text by the textbook rules.
  * Both files must give the same equations. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"
 #include "host/emit/emit.h"
-#include "unity.h"
-
-void suite_let_rates(void);
 
 /* A formula with its first and second derivative; "0" if zero. Never freed before the test ends. */
 typedef struct formula {
@@ -132,7 +124,7 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
 }
 
 /* Both give the same numbers, and nine of ten the same C, because powers of quotients have no unique normal form. */
-static void test_derivatives_of_lets_are_those_by_hand(void) {
+TEST(let_rates, derivatives_of_lets_are_those_by_hand) {
     dice d = dice_of("let_rates", 4601);
     const unsigned cases = dice_cases(usual_or(120, 20));
     unsigned compared = 0;
@@ -162,7 +154,7 @@ static void test_derivatives_of_lets_are_those_by_hand(void) {
 }
 
 /* A derivative of a let is allowed where one of a coordinate is. The messages give its order. */
-static void test_derivatives_of_lets_keep_the_rules(void) {
+TEST(let_rates, derivatives_of_lets_keep_the_rules) {
     static const struct {
         const char *line;
         const char *said;
@@ -193,9 +185,4 @@ static void test_derivatives_of_lets_keep_the_rules(void) {
                                                           : strstr(report, cases[i].said) != NULL,
                                  cases[i].line);
     }
-}
-
-void suite_let_rates(void) {
-    RUN_TEST(test_derivatives_of_lets_are_those_by_hand);
-    RUN_TEST(test_derivatives_of_lets_keep_the_rules);
 }

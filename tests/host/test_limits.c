@@ -1,16 +1,8 @@
 /* test_limits.c: longest stable step. Bisection on the program's own runs is compared with the
  * stability polynomials of the methods, on the imaginary and real axis. Also the steps in hints. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "command.h"
 #include "host/check/summary.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_limits(void);
 
 #define STEPS 40000
 #define BEYOND 30.0
@@ -86,7 +78,7 @@ static void hold(const char *text, wh_method method, double limit, const char *w
     }
 }
 
-static void test_measured_limits_are_the_known_ones(void) {
+TEST(limits, measured_limits_are_the_known_ones) {
     unsigned seen = 0;
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         hold(spring, known[i].method, known[i].swings, "swings");
@@ -100,7 +92,7 @@ static void test_measured_limits_are_the_known_ones(void) {
 }
 
 /* Runge-Kutta 4 loses (h w)^6/72 of the energy in a step. */
-static void test_what_a_step_takes(void) {
+TEST(limits, what_a_step_takes) {
     for (int k = 5; k < 20; k++) {
         const double hw = 0.02 * k;
         motion m;
@@ -115,7 +107,7 @@ static void test_what_a_step_takes(void) {
 }
 
 /* 1, 2 and 5 times powers of ten, from 5000 down over 16 decades. Each must be the nearest from below. */
-static void test_nice_steps(void) {
+TEST(limits, nice_steps) {
     dice die = dice_of("nice steps", 68);
     for (unsigned c = 0; c < dice_cases(2000); c++) {
         const double most_s = exp(dice_between(&die, log(1e-12), log(1e4)));
@@ -134,10 +126,4 @@ static void test_nice_steps(void) {
     TEST_ASSERT_TRUE(fabs(step_nice_s(1.001e-12) - 1e-12) < 1e-24);
     TEST_ASSERT_TRUE(step_nice_s(0.999e-12) == 0.0);
     TEST_ASSERT_TRUE(step_nice_s(0.0) == 0.0);
-}
-
-void suite_limits(void) {
-    RUN_TEST(test_measured_limits_are_the_known_ones);
-    RUN_TEST(test_what_a_step_takes);
-    RUN_TEST(test_nice_steps);
 }

@@ -1,16 +1,6 @@
 /* test_links.c: pendulums of one to twelve links, derived from their energies, compared with
  * equations by hand. The mass matrix has closed forms and is solved in long double. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "derived.h"
-
-#include "unity.h"
-
-void suite_links(void);
 
 enum { LINKS_MOST = 12, STATES = 40 };
 #define GRAVITY 9.81
@@ -85,7 +75,7 @@ static void by_hand(const links *of, const state_values *s, long double *accel) 
     }
 }
 
-static void test_pendulums_of_so_many_links(void) {
+TEST(links, pendulums_of_so_many_links) {
     uint64_t seed = 12;
     double worst = 0.0;
     for (int n = 1; n <= LINKS_MOST; n++) {
@@ -123,5 +113,3 @@ static void test_pendulums_of_so_many_links(void) {
     TEST_MESSAGE(said);
     TEST_ASSERT_TRUE(worst > 0.0 && worst <= 1e-11);
 }
-
-void suite_links(void) { RUN_TEST(test_pendulums_of_so_many_links); }

@@ -1,20 +1,9 @@
 /* test_mass_scales.c: singular mass matrices must be found independently of units and mass ratios. Generated
  * matrices, alone and as mechanisms, are compared with exact-order elimination in long double. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "command.h"
 #include "derived.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/derive/lagrange.h"
-#include "unity.h"
-
-void suite_mass_scales(void);
 
 enum { MOST = 6, ROOM = MOST * MOST };
 
@@ -180,7 +169,7 @@ static double check_right(const bodies *b, uint64_t *seed) {
 }
 
 /* Mass ratios up to 1e12, units from micrometres to thousands of kilometres. */
-static void test_mixed_masses_and_units_are_right(void) {
+TEST(mass_scales, mixed_masses_and_units_are_right) {
     uint64_t seed = 90210;
     double worst = 0.0;
     const int all = cases(150);
@@ -193,7 +182,7 @@ static void test_mixed_masses_and_units_are_right(void) {
 }
 
 /* The light body rides on the heavy one, or the other way round. */
-static void test_a_ratio_of_a_million_millions(void) {
+TEST(mass_scales, a_ratio_of_a_million_millions) {
     uint64_t seed = 5;
     for (int way = 0; way < 2; way++) {
         for (int power = -7; power <= 7; power++) {
@@ -207,7 +196,7 @@ static void test_a_ratio_of_a_million_millions(void) {
     }
 }
 
-static void test_fewer_bodies_than_coordinates_are_refused(void) {
+TEST(mass_scales, fewer_bodies_than_coordinates_are_refused) {
     uint64_t seed = 77;
     for (int i = 0; i < cases(150); i++) {
         const int n = 2 + (int)(random_bits(&seed) % 4);
@@ -226,7 +215,7 @@ static void test_fewer_bodies_than_coordinates_are_refused(void) {
 }
 
 /* The same through sines: a body on a turning line; its speed is a sum of two rates with one factor. */
-static void test_one_speed_through_sines_is_refused(void) {
+TEST(mass_scales, one_speed_through_sines_is_refused) {
     uint64_t seed = 31;
     for (int i = 0; i < 60; i++) {
         char text[600];
@@ -246,7 +235,7 @@ static void test_one_speed_through_sines_is_refused(void) {
 }
 
 /* D A D and D A E of any scales have the rank of A. */
-static void test_scales_do_not_change_the_rank(void) {
+TEST(mass_scales, scales_do_not_change_the_rank) {
     uint64_t seed = 1969;
     const int all = cases(4000);
     for (int i = 0; i < all; i++) {
@@ -280,7 +269,7 @@ static void test_scales_do_not_change_the_rank(void) {
     printf("  %d matrices from seed 1969\n", all);
 }
 
-static void test_a_pivot_within_the_errors_is_none(void) {
+TEST(mass_scales, a_pivot_within_the_errors_is_none) {
     for (int power = -10; power <= 10; power += 5) {
         const double scale = pow(10.0, power);
         double m[4] = {1.0, scale, scale, scale * scale * (1.0 + 1e-9)};
@@ -290,13 +279,4 @@ static void test_a_pivot_within_the_errors_is_none(void) {
         double coarse[4] = {1e-8, 0.0, 0.0, 1e-8 * scale * scale};
         TEST_ASSERT_EQUAL_INT(1, rank_of(again, coarse, 2, true));
     }
-}
-
-void suite_mass_scales(void) {
-    RUN_TEST(test_mixed_masses_and_units_are_right);
-    RUN_TEST(test_a_ratio_of_a_million_millions);
-    RUN_TEST(test_fewer_bodies_than_coordinates_are_refused);
-    RUN_TEST(test_one_speed_through_sines_is_refused);
-    RUN_TEST(test_scales_do_not_change_the_rank);
-    RUN_TEST(test_a_pivot_within_the_errors_is_none);
 }

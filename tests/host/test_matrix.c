@@ -1,12 +1,6 @@
 /* test_matrix.c: a linear step as one matrix, for generated and built-in linear mechanisms. References: the
  * exponential in 113 bits of the test's own matrices (linear.h), and the stages of RK4. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/base/alloc.h"
 #include "host/derive/matrix_make.h"
@@ -19,9 +13,6 @@
 #include "linear.h"
 #include "motion.h"
 
-#include "unity.h"
-
-void suite_matrix(void);
 void suite_matrix_printed(void);
 
 /* === matrix =================================================================================== */
@@ -46,7 +37,7 @@ static void expect_near(quad want, twofold got, quad size) {
     TEST_ASSERT_TRUE((double)want == got.high);
 }
 
-static void test_twice_the_digits(void) {
+TEST(matrix, twice_the_digits) {
     uint64_t seed = 7001;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
         const twofold a = drawn_twofold(&seed);
@@ -61,7 +52,7 @@ static void test_twice_the_digits(void) {
 }
 
 /* Each constant is the float nearest to its 113 bits, including ties and values next to ties. */
-static void test_constants_are_rounded_once(void) {
+TEST(matrix, constants_are_rounded_once) {
     uint64_t seed = 7002;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
         twofold a = drawn_twofold(&seed);
@@ -133,7 +124,7 @@ static void take_rates(const image *im, const char *text, linear *of) {
 
 /* Every entry is the double nearest to the list's exponential, from soft to stiff: oscillations shorter than a step,
  * dampers that stop a motion within one. */
-static void test_entries_are_the_nearest_doubles(void) {
+TEST(matrix, entries_are_the_nearest_doubles) {
     static const int stiff[] = {0, 6, 14, 20};
     uint64_t seed = 7003;
     double worst = 0.0;
@@ -159,7 +150,7 @@ static void test_entries_are_the_nearest_doubles(void) {
 }
 
 /* In coupled masses the list's constants are rounded, each by half a unit. The exponential amplifies that like |A|. */
-static void test_entries_of_full_mass_matrices(void) {
+TEST(matrix, entries_of_full_mass_matrices) {
     uint64_t seed = 7004;
     double worst = 0.0;
     for (unsigned n = 0; n < dice_cases(few_or_all(8, 200)); n++) {
@@ -240,7 +231,7 @@ static double run_error(const linear *of, const char *text, motion *m, int order
 }
 
 /* 1000 steps in both numbers, compensated or not, exact or RK4. Each error is round-off, at most `most` units. */
-static void test_motions_are_those_of_the_exponential(void) {
+TEST(matrix, motions_are_those_of_the_exponential) {
     static const struct {
         const engine_kind *kind;
         bool compensated;
@@ -273,7 +264,7 @@ static void test_motions_are_those_of_the_exponential(void) {
     }
 }
 
-static void test_the_matrix_of_rk4_moves_like_its_stages(void) {
+TEST(matrix, the_matrix_of_rk4_moves_like_its_stages) {
     uint64_t seed = 7006;
     double worst = 0.0;
     for (unsigned n = 0; n < dice_cases(few_or_all(8, 200)); n++) {
@@ -299,15 +290,6 @@ static void test_the_matrix_of_rk4_moves_like_its_stages(void) {
         TEST_ASSERT_TRUE_MESSAGE(worst < 200.0 * DBL_EPSILON, text);
     }
     printf("  RK4's matrix and its stages are %.2g apart after 200 steps\n", worst);
-}
-
-void suite_matrix(void) {
-    RUN_TEST(test_twice_the_digits);
-    RUN_TEST(test_constants_are_rounded_once);
-    RUN_TEST(test_entries_are_the_nearest_doubles);
-    RUN_TEST(test_entries_of_full_mass_matrices);
-    RUN_TEST(test_motions_are_those_of_the_exponential);
-    RUN_TEST(test_the_matrix_of_rk4_moves_like_its_stages);
 }
 
 /* === matrix printed =========================================================================== */
@@ -399,7 +381,7 @@ static const char *said_step(const char *at) {
     return at;
 }
 
-static void test_tables(void) {
+TEST(matrix_printed, tables) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
         drawn_image_draw(&drawn, &die, c % 2 == 0 ? MATRIX_EXACT : MATRIX_RK4);
         const int states = drawn.im.matrix.states;
@@ -442,7 +424,7 @@ static const char *read_latex(const char *at, const char *title, int first, int 
     return said_exactly(at, "\\end{bmatrix}");
 }
 
-static void test_latex(void) {
+TEST(matrix_printed, latex) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
         drawn_image_draw(&drawn, &die, c % 2 == 0 ? MATRIX_EXACT : MATRIX_RK4);
         const int states = drawn.im.matrix.states;
@@ -471,8 +453,4 @@ static void test_latex(void) {
     }
 }
 
-void suite_matrix_printed(void) {
-    die = dice_of("matrix_printed", 44);
-    RUN_TEST(test_tables);
-    RUN_TEST(test_latex);
-}
+void suite_matrix_printed(void) { die = dice_of("matrix_printed", 44); }

@@ -1,21 +1,10 @@
 /* test_matrix_runs.c: steps as one matrix in use: built-in linear scenes, a million steps, turn angles, systems of
  * first order, sweeps over the step, divergence, and refusals. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/cli/commands.h"
 #include "linear.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_matrix_runs(void);
 
 static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool compensated) {
     return (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix};
@@ -65,7 +54,7 @@ static double two_masses_off(stepping how, double unit) {
     return worst;
 }
 
-static void test_two_masses_are_their_exponential(void) {
+TEST(matrix_runs, two_masses_are_their_exponential) {
     static const struct {
         const engine_kind *kind;
         bool compensated;
@@ -94,7 +83,7 @@ static double oscillator_off(const float x, const float v, const quad *truth, do
 }
 
 /* x + (Phi - 1) x compared with Phi x, every entry rounded once to float. */
-static void test_rounding_the_change_is_better(void) {
+TEST(matrix_runs, rounding_the_change_is_better) {
     static const double stiffness[] = {1.5, 39.5, 700.0};
     for (int k = 0; k < 3; k++) {
         static quad step[LINEAR_STATES][LINEAR_COLUMNS];
@@ -195,7 +184,7 @@ static void expect_rotors(const engine_kind *kind, bool compensated, image_matri
     motion_close(&m);
 }
 
-static void test_turn_angles(void) {
+TEST(matrix_runs, turn_angles) {
     expect_rotors(&engine_double, false, MATRIX_EXACT, 1e-11, 1e-8);
     expect_rotors(&engine_double, true, MATRIX_EXACT, 1e-12, 1e-12);
     /* A free rotor moves by the same 1.5e-9 rad in each of 1e5 steps, rounded once. A slow rate stops once a step
@@ -207,7 +196,7 @@ static void test_turn_angles(void) {
 }
 
 /* A system given as equations of orders one and two, with an angle driven by a state. The reference is a closed form. */
-static void test_systems_of_first_order(void) {
+TEST(matrix_runs, systems_of_first_order) {
     static const char text[] =
         "mechanism sys\nstate a [rad]\nstate u [V]\ninput d = 2 [V]\n"
         "equation a' = u/(1 [V*s]) + 3 [1/s]\nequation u' = (d - u)/(0.25 [s])\n"
@@ -231,7 +220,7 @@ static void test_systems_of_first_order(void) {
 }
 
 /* x' = c y, y' = 0: x moves by y alone, however weak c is. Finite constants of all sizes. */
-static void test_weak_couplings(void) {
+TEST(matrix_runs, weak_couplings) {
     for (int exponent = -280; exponent <= 0; exponent += 20) {
         char text[400];
         motion m;
@@ -253,7 +242,7 @@ static void test_weak_couplings(void) {
 }
 
 /* An unstable balance ends at the same step as with RK4's stages, in the last good state. */
-static void test_runs_that_diverge_end_alike(void) {
+TEST(matrix_runs, runs_that_diverge_end_alike) {
     static const char text[] =
         "mechanism m\ncoordinate b [m]\ncoordinate q [m]\nT = 1 [kg]*(q'^2 + b'^2)/2\n"
         "V = -100 [N/m]*q^2/2\nscene s { start q = 1 [m]; step 1 [ms]; until 100 [s] }\n";
@@ -281,7 +270,7 @@ static void test_runs_that_diverge_end_alike(void) {
     }
 }
 
-static void test_another_step_has_another_matrix(void) {
+TEST(matrix_runs, another_step_has_another_matrix) {
     motion m;
     motion other;
     diags *errors = diags_new();
@@ -332,7 +321,7 @@ static void expect_not_linear(const char *line, const char *part, const char *wh
     expect_refused(text, none, wanted);
 }
 
-static void test_what_is_not_linear_is_refused_where_it_stands(void) {
+TEST(matrix_runs, what_is_not_linear_is_refused_where_it_stands) {
     expect_not_linear("V = 2 [N/m]*x^2 + 3 [J]*sin(th)", "sin", "sin() of th");
     expect_not_linear("V = 1 [N/m^2]*x^3", "^3", "a power of x");
     expect_not_linear("V = 1 [N/m^2]*x^2*x/3", "*x/3", "a power of x");
@@ -357,7 +346,7 @@ static void test_what_is_not_linear_is_refused_where_it_stands(void) {
     }
 }
 
-static void test_what_has_no_matrix_is_refused(void) {
+TEST(matrix_runs, what_has_no_matrix_is_refused) {
     static const char ball[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 10 [N]*x\n"
                                "stop x >= 0 restitution 0.5\n"
                                "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n";
@@ -372,16 +361,4 @@ static void test_what_has_no_matrix_is_refused(void) {
                    "--matrix exact and --method heun");
     expect_refused(mass, (const char *const[]){"--with", "ledger", NULL},
                    "error: the ledger of 's' wants the stages of a step");
-}
-
-void suite_matrix_runs(void) {
-    RUN_TEST(test_two_masses_are_their_exponential);
-    RUN_TEST(test_rounding_the_change_is_better);
-    RUN_TEST(test_turn_angles);
-    RUN_TEST(test_systems_of_first_order);
-    RUN_TEST(test_weak_couplings);
-    RUN_TEST(test_runs_that_diverge_end_alike);
-    RUN_TEST(test_another_step_has_another_matrix);
-    RUN_TEST(test_what_is_not_linear_is_refused_where_it_stands);
-    RUN_TEST(test_what_has_no_matrix_is_refused);
 }

@@ -1,13 +1,6 @@
 /* test_method.c: the first-order form of `whirl derive`, for mechanisms with drawn names. Each slope has its
  * component's name and a prime, and the letter of the components is not a coordinate's. Also the effects, the rows of
  * core/method.h, and the paths of RK4. */
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "core/step/ledger_step.h"
 #include "host/cli/commands.h"
 #include "host/engine/start.h"
@@ -17,10 +10,6 @@
 #include "derived.h"
 #include "motion.h"
 
-#include "unity.h"
-
-void suite_first_order(void);
-void suite_method_rows(void);
 void suite_rk4(void);
 
 /* === first order ============================================================================== */
@@ -100,7 +89,7 @@ static void check_form(FILE *out, int count) {
     }
 }
 
-static void test_slopes_of_components(void) {
+TEST(first_order, slopes_of_components) {
     dice d = dice_of("first-order forms", 20261124);
     const unsigned cases = dice_cases(60);
     for (unsigned c = 0; c < cases; c++) {
@@ -118,7 +107,7 @@ static void test_slopes_of_components(void) {
     }
 }
 
-static void test_effects_are_told(void) {
+TEST(first_order, effects_are_told) {
     enum { EFFECTS = 4 };
     static const char text[] =
         "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
@@ -144,11 +133,6 @@ static void test_effects_are_told(void) {
         }
     }
     model_drop();
-}
-
-void suite_first_order(void) {
-    RUN_TEST(test_slopes_of_components);
-    RUN_TEST(test_effects_are_told);
 }
 
 /* === method rows ============================================================================== */
@@ -181,7 +165,7 @@ static butcher row_of(int method) {
 
 static bool near(double a, double b) { return fabs(a - b) < ROUNDING; }
 
-static void test_rows_are_explicit(void) {
+TEST(method_rows, rows_are_explicit) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         const char *word = wh_methods[m].word;
@@ -199,7 +183,7 @@ static void test_rows_are_explicit(void) {
 }
 
 /* positions = b A gives the same method as on x' = f(x). */
-static void test_runge_kutta_methods_have_the_positions_of_their_rates(void) {
+TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         double off = 0.0;
@@ -221,7 +205,7 @@ static void test_runge_kutta_methods_have_the_positions_of_their_rates(void) {
     }
 }
 
-static void test_the_books_weigh_each_stage_as_the_rates_do(void) {
+TEST(method_rows, the_books_weigh_each_stage_as_the_rates_do) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         for (int i = 0; i < t.stages; i++) {
@@ -230,7 +214,7 @@ static void test_the_books_weigh_each_stage_as_the_rates_do(void) {
     }
 }
 
-static void test_words_are_apart_and_fit_command_lines(void) {
+TEST(method_rows, words_are_apart_and_fit_command_lines) {
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_method_row *row = &wh_methods[m];
         TEST_ASSERT_TRUE(row->word[0] >= 'a' && row->word[0] <= 'z');
@@ -356,7 +340,7 @@ static double interval(double (*growth)(wh_method method, double h), wh_method m
     return h;
 }
 
-static void test_documented_stability_is_the_measured_one(void) {
+TEST(method_rows, documented_stability_is_the_measured_one) {
     FILE *in = fopen("docs/dev/numerics.md", "r");
     TEST_ASSERT_NOT_NULL(in);
     char *page = calloc(1, 1 << 20);
@@ -399,7 +383,7 @@ static unsigned times_in(const char *text, const char *word) {
 }
 
 /* Each method once, the default first; also only the methods for one form. The buffer's old text does not matter. */
-static void test_sentences_have_each_method_once(void) {
+TEST(method_rows, sentences_have_each_method_once) {
     char text[METHODS_TEXT_SIZE];
     char first[80];
     memset(text, 'x', sizeof text);
@@ -418,15 +402,6 @@ static void test_sentences_have_each_method_once(void) {
             TEST_ASSERT_EQUAL_UINT_MESSAGE(named, times_in(text, wh_methods[m].word), text);
         }
     }
-}
-
-void suite_method_rows(void) {
-    RUN_TEST(test_rows_are_explicit);
-    RUN_TEST(test_runge_kutta_methods_have_the_positions_of_their_rates);
-    RUN_TEST(test_the_books_weigh_each_stage_as_the_rates_do);
-    RUN_TEST(test_words_are_apart_and_fit_command_lines);
-    RUN_TEST(test_documented_stability_is_the_measured_one);
-    RUN_TEST(test_sentences_have_each_method_once);
 }
 
 /* === rk4 ====================================================================================== */
@@ -513,12 +488,9 @@ static int paths_of_a_scene(const scene *s) {
     return 1;
 }
 
-static void test_all_paths_step_as_the_plain_one(void) {
+TEST(rk4, all_paths_step_as_the_plain_one) {
     each_builtin_scene(paths_of_a_scene);
     TEST_ASSERT_TRUE(compared > 500);
 }
 
-void suite_rk4(void) {
-    seed = 20261129;
-    RUN_TEST(test_all_paths_step_as_the_plain_one);
-}
+void suite_rk4(void) { seed = 20261129; }

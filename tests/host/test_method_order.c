@@ -1,14 +1,9 @@
 /* test_method_order.c: order of the rows of core/method.h by the order conditions: one per rooted tree, for first
  * order, second order, and second order without rates. A wrong digit in a coefficient violates one. */
 #define WH_DOUBLE 1
-#include <math.h>
-#include <stdio.h>
 
 #include "core/step/ledger_step.h"
-
-#include "unity.h"
-
-void suite_method_order(void);
+#include "test.h"
 
 #define ROUNDING 4e-15L /* for sums of a few shares, here in double */
 enum { ORDER_MAX = 6, TREES = 320, STAGES = WH_STAGES_MAX };
@@ -163,7 +158,7 @@ static void plant(forest *f, int method) {
 
 /* The number of trees is as published (Hairer, Norsett & Wanner, I, sections II.2 and II.14), so no condition is
  * missing. */
-static void test_no_tree_is_missing(void) {
+TEST(method_order, no_tree_is_missing) {
     static const int all[ORDER_MAX] = {1, 2, 6, 18, 60, 204};
     static const int first_order[ORDER_MAX] = {1, 1, 2, 4, 9, 20};
     static const int no_rates[ORDER_MAX] = {1, 1, 2, 3, 6, 10};
@@ -183,7 +178,7 @@ static void test_no_tree_is_missing(void) {
     }
 }
 
-static void test_rows_have_their_order_and_no_more(void) {
+TEST(method_order, rows_have_their_order_and_no_more) {
     static forest f;
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_method_row *row = &wh_methods[m];
@@ -203,7 +198,7 @@ static void test_rows_have_their_order_and_no_more(void) {
     }
 }
 
-static void test_a_wrong_coefficient_is_noticed(void) {
+TEST(method_order, a_wrong_coefficient_is_noticed) {
     static forest f;
     int moved = 0;
     for (int m = 0; m < WH_METHODS; m++) {
@@ -241,7 +236,7 @@ static void test_a_wrong_coefficient_is_noticed(void) {
 }
 
 /* A stage's node is the sum of its shares. A stage that reuses another's position has the same shares. */
-static void test_nodes_follow_from_the_shares(void) {
+TEST(method_order, nodes_follow_from_the_shares) {
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_tableau *t = wh_tableau_of((wh_method)m);
         for (unsigned i = 0; i < t->stages && wh_methods[m].takes != WH_NO_RATES; i++) {
@@ -260,7 +255,7 @@ static void test_nodes_follow_from_the_shares(void) {
 
 /* Without rates in the forces each step is a composition of kicks and drifts, which preserves area, and is its own
  * reverse. */
-static void test_compositions_are_symplectic_and_symmetric(void) {
+TEST(method_order, compositions_are_symplectic_and_symmetric) {
     int rows = 0;
     for (int m = 0; m < WH_METHODS; m++) {
         const weights w = weights_of(m);
@@ -280,12 +275,4 @@ static void test_compositions_are_symplectic_and_symmetric(void) {
         rows++;
     }
     TEST_ASSERT_TRUE(rows > 0);
-}
-
-void suite_method_order(void) {
-    RUN_TEST(test_no_tree_is_missing);
-    RUN_TEST(test_rows_have_their_order_and_no_more);
-    RUN_TEST(test_a_wrong_coefficient_is_noticed);
-    RUN_TEST(test_nodes_follow_from_the_shares);
-    RUN_TEST(test_compositions_are_symplectic_and_symmetric);
 }

@@ -1,22 +1,11 @@
 /* test_methods.c: every method in every form of scene, with compensated sums, energy balance and contacts: right
  * order, or refused. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/engine/start.h"
 
 #include "command.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_methods(void);
-void suite_reference(void);
 
 /* === methods ================================================================================== */
 
@@ -122,7 +111,7 @@ static double distance(const form *f, stepping how, int halvings) {
     return sum;
 }
 
-static void test_orders_are_those_of_the_names(void) {
+TEST(methods, orders_are_those_of_the_names) {
     int measured = 0;
     for (int i = 0; i < FORMS; i++) {
         const form *f = &forms[i];
@@ -155,7 +144,7 @@ static void test_orders_are_those_of_the_names(void) {
     printf("  %d orders measured\n", measured);
 }
 
-static void test_books_have_the_order_of_the_name(void) {
+TEST(methods, books_have_the_order_of_the_name) {
     int measured = 0;
     for (int i = 0; i < FORMS; i++) {
         for (int m = 0; m < WH_METHODS && forms[i].ledger; m++) {
@@ -193,7 +182,7 @@ static void test_books_have_the_order_of_the_name(void) {
 }
 
 /* Both Euler methods have order one. They differ in the rate that moves the position. */
-static void test_semi_implicit_euler_moves_by_the_new_rates(void) {
+TEST(methods, semi_implicit_euler_moves_by_the_new_rates) {
     const double h = 1.0 / 256.0;
     for (int i = 0; i < FORMS; i++) {
         const form *f = &forms[i];
@@ -223,7 +212,7 @@ static void test_semi_implicit_euler_moves_by_the_new_rates(void) {
     }
 }
 
-static void test_methods_are_refused_where_their_rows_say(void) {
+TEST(methods, methods_are_refused_where_their_rows_say) {
     int refused = 0;
     int asked = 0;
     for (int i = 0; i < FORMS; i++) {
@@ -253,13 +242,6 @@ static void test_methods_are_refused_where_their_rows_say(void) {
     }
     TEST_ASSERT_TRUE(asked >= 4);
     TEST_ASSERT_EQUAL_INT(asked, refused);
-}
-
-void suite_methods(void) {
-    RUN_TEST(test_orders_are_those_of_the_names);
-    RUN_TEST(test_books_have_the_order_of_the_name);
-    RUN_TEST(test_semi_implicit_euler_moves_by_the_new_rates);
-    RUN_TEST(test_methods_are_refused_where_their_rows_say);
 }
 
 /* === reference ================================================================================ */
@@ -436,15 +418,10 @@ static void check_folder(const char *folder, int states_at_least) {
     TEST_ASSERT_TRUE_MESSAGE(score.states >= states_at_least, "too few reference states read");
 }
 
-static void test_accelerations_of_the_dissertations_mechanisms(void) {
+TEST(reference, accelerations_of_the_dissertations_mechanisms) {
     check_folder("core/models/", 120);
 }
 
-static void test_accelerations_of_textbook_mechanisms_and_systems(void) {
+TEST(reference, accelerations_of_textbook_mechanisms_and_systems) {
     check_folder("tests/mechanisms/", 186);
-}
-
-void suite_reference(void) {
-    RUN_TEST(test_accelerations_of_the_dissertations_mechanisms);
-    RUN_TEST(test_accelerations_of_textbook_mechanisms_and_systems);
 }

@@ -1,16 +1,10 @@
 /* test_mistyped.c: for a mistyped name of any kind and place the message suggests the declared one. */
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
-#include "unity.h"
-
-void suite_mistyped(void);
 
 enum { NAMES = 4 };
 
-static void test_coordinates(void) {
+TEST(mistyped, coordinates) {
     static const char *const names[NAMES] = {"alpha", "bravo", "charlie", "delta"};
     static const char *const typed[NAMES] = {"alphb", "bravi", "charlle", "delto"};
     for (int k = 0; k < NAMES; k++) {
@@ -37,5 +31,3 @@ static void test_coordinates(void) {
     }
     model_drop();
 }
-
-void suite_mistyped(void) { RUN_TEST(test_coordinates); }

@@ -1,20 +1,12 @@
 /* test_monitor.c: telemetry as records, waves and counts (host/monitor/recording.h). Frames of drawn channels with
  * losses, clock wraps and restarts are compared with the test's own files. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/base/alloc.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/schema.h"
 
 #include "command.h"
 
-#include "unity.h"
-
 void suite_recording(void);
-void suite_schema(void);
 
 /* === recording ================================================================================ */
 
@@ -454,7 +446,7 @@ static void expect_counts(void) {
     TEST_ASSERT_EQUAL_UINT64(t.counts.restarts, is->restarts);
 }
 
-static void test_streams(void) {
+TEST(recording, streams) {
     unsigned pulses = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(40, 15)); c++) {
         begin(true, false);
@@ -472,7 +464,7 @@ static void test_streams(void) {
     TEST_ASSERT_TRUE(pulses > 10);
 }
 
-static void test_without_files(void) {
+TEST(recording, without_files) {
     for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
         begin(false, c % 2 == 0);
         for (int i = 0; i < 40; i++) {
@@ -485,11 +477,7 @@ static void test_without_files(void) {
     }
 }
 
-void suite_recording(void) {
-    die = dice_of("recording", 48);
-    RUN_TEST(test_streams);
-    RUN_TEST(test_without_files);
-}
+void suite_recording(void) { die = dice_of("recording", 48); }
 
 /* === schema =================================================================================== */
 /* Schema lines of a rig (host/monitor/schema.h): drawn channels, states and rates are parsed as written. A line with
@@ -577,7 +565,7 @@ static void expect_refused(const schema *s, const char *line) {
     TEST_ASSERT_TRUE_MESSAGE(memcmp(&tried, s, sizeof tried) == 0, line);
 }
 
-static void test_channels_are_as_written(void) {
+TEST(schema, channels_are_as_written) {
     static schema s;
     die = dice_of("schema", 61);
     memset(&s, 0, sizeof s);
@@ -598,7 +586,7 @@ static void test_channels_are_as_written(void) {
     }
 }
 
-static void test_what_is_wrong_is_refused(void) {
+TEST(schema, what_is_wrong_is_refused) {
     static const char *const wrong[PIECES][6] = {
         {"channel=8", "channel=-1", "channel=x", "channel=", "channel=1e9", "channel=nan"},
         {"name=", "name=:", "name=abcdefghijklmnopqrstuvwxyzabcdef", "named=a", "nam=a",
@@ -632,7 +620,7 @@ static void test_what_is_wrong_is_refused(void) {
     }
 }
 
-static void test_rates(void) {
+TEST(schema, rates) {
     static schema s;
     die = dice_of("schema", 63);
     memset(&s, 0, sizeof s);
@@ -657,7 +645,7 @@ static void test_rates(void) {
     }
 }
 
-static void test_states(void) {
+TEST(schema, states) {
     static schema s;
     die = dice_of("schema", 64);
     memset(&s, 0, sizeof s);
@@ -682,11 +670,4 @@ static void test_states(void) {
     expect_refused(&s, "OK");
     expect_refused(&s, "OK 1=a");
     expect_refused(&s, "ERR 0=a");
-}
-
-void suite_schema(void) {
-    RUN_TEST(test_channels_are_as_written);
-    RUN_TEST(test_what_is_wrong_is_refused);
-    RUN_TEST(test_rates);
-    RUN_TEST(test_states);
 }

@@ -1,21 +1,10 @@
 /* test_near_zero.c: precision of small differences, also in float: powers of sums and of sines are not expanded into
  * large terms that cancel. */
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "host/algebra/poly.h"
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_near_zero(void);
-void suite_tiny_sizes(void);
 
 /* === near zero ================================================================================ */
 
@@ -30,7 +19,7 @@ static const poly *replace_by_number(void *context, algebra *a, const symbol *sy
     return sym->index == 1 ? poly_number(a, *(const double *)context) : NULL;
 }
 
-static void test_slopes_of_kept_powers_stay_powers(void) {
+TEST(near_zero, slopes_of_kept_powers_stay_powers) {
     algebra *a = algebra_new();
     static const symbol u = {.kind = SYM_COORDINATE, .name = "u", .text = "", .index = 0};
     static const symbol v = {.kind = SYM_COORDINATE, .name = "v", .text = "", .index = 1};
@@ -91,7 +80,7 @@ static const char springs[] =
     "output right = r''\n"
     "scene at { }\n";
 
-static void test_stiffening_springs_near_their_rest(void) {
+TEST(near_zero, stiffening_springs_near_their_rest) {
     static const double distances[] = {0.25, 0.02, 1e-3, 3e-5};
     for (int number = 0; number < 2; number++) {
         const double half = number == 0 ? (double)FLT_EPSILON / 2.0 : DBL_EPSILON / 2.0;
@@ -155,7 +144,7 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
     motion_close(&m);
 }
 
-static void test_powers_of_sines_near_their_poles(void) {
+TEST(near_zero, powers_of_sines_near_their_poles) {
     for (int n = 2; n <= 3; n++) {
         for (int bits = 16; bits <= 28; bits += 4) {
             /* a multiple of 2^-32 turns: exact, also in float */
@@ -166,12 +155,6 @@ static void test_powers_of_sines_near_their_poles(void) {
         }
     }
     show_worst("poles");
-}
-
-void suite_near_zero(void) {
-    RUN_TEST(test_slopes_of_kept_powers_stay_powers);
-    RUN_TEST(test_powers_of_sines_near_their_poles);
-    RUN_TEST(test_stiffening_springs_near_their_rest);
 }
 
 /* === tiny sizes =============================================================================== */
@@ -270,11 +253,11 @@ static void hold(const char *number) {
     TEST_ASSERT_EQUAL_UINT(0, untrusted);
 }
 
-static void test_in_float(void) { hold("float"); }
-static void test_in_double(void) { hold("double"); }
+TEST(tiny_sizes, in_float) { hold("float"); }
+TEST(tiny_sizes, in_double) { hold("double"); }
 
 /* A start is checked by its form. Nested parts number two to the depth, here 40 to 90: visiting each would never end. */
-static void test_starts_of_parts_of_parts(void) {
+TEST(tiny_sizes, starts_of_parts_of_parts) {
     static const char *const ways[] = {"%s%u = p%u*p%u\n", "%s%u = p%u/p%u\n",
                                        "%s%u = -p%u*p%u^2\n", "%s%u = p%u^2/-p%u\n"};
     dice d = dice_of("parts of parts", 9907);
@@ -296,10 +279,4 @@ static void test_starts_of_parts_of_parts(void) {
         command_say_model(command_run, text, &what);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     }
-}
-
-void suite_tiny_sizes(void) {
-    RUN_TEST(test_starts_of_parts_of_parts);
-    RUN_TEST(test_in_float);
-    RUN_TEST(test_in_double);
 }

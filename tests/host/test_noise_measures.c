@@ -1,19 +1,9 @@
 /* test_noise_measures.c: noise depends only on an output's name, the seed and the step, in records and in sweeps,
  * however the measures are grouped. Mechanisms and lists of measures are generated. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "derived.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "host/engine/engine.h"
 #include "host/study/point.h"
-#include "unity.h"
-
-void suite_noise_measures(void);
 
 enum { OUTPUTS = 6, MEASURES_MAX = 12, STEPS = 25 };
 
@@ -167,7 +157,7 @@ static void expect_noise(const made_up *m, const mechanism *of, const scene *in)
     free(without);
 }
 
-static void test_measures_have_the_noise_of_the_records(void) {
+TEST(noise_measures, measures_have_the_noise_of_the_records) {
     const char *more = getenv("WHIRL_NOISE_CASES");
     const int cases = more != NULL ? (int)strtol(more, NULL, 10) : 60;
     uint64_t seed = 20261121;
@@ -186,7 +176,7 @@ static void test_measures_have_the_noise_of_the_records(void) {
     }
 }
 
-static void test_all_outputs_have_the_bits_of_the_records(void) {
+TEST(noise_measures, all_outputs_have_the_bits_of_the_records) {
     uint64_t seed = 4711;
     for (int i = 0; i < 10; i++) {
         const made_up m = make_up(&seed);
@@ -208,9 +198,4 @@ static void test_all_outputs_have_the_bits_of_the_records(void) {
         model_free(parsed);
         diags_free(errors);
     }
-}
-
-void suite_noise_measures(void) {
-    RUN_TEST(test_measures_have_the_noise_of_the_records);
-    RUN_TEST(test_all_outputs_have_the_bits_of_the_records);
 }

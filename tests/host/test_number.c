@@ -1,10 +1,4 @@
 /* test_number.c: number functions of the host, compared with the C library's, which are exact here. Seeds are fixed. */
-#include <inttypes.h>
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "bits.h"
 #include "command.h"
 #include "derived.h"
@@ -12,7 +6,6 @@
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
 #include "tests/scattered.h"
-#include "unity.h"
 
 void suite_number(void);
 

@@ -1,20 +1,12 @@
 /* test_number_text.c: decimals are read as the closest double, and hexadecimal numbers are exact. The reference is
  * strtod() and printf("%a") of glibc, which round correctly. WHIRL_NUMBERS sets the number of texts of each kind. */
 #include <fenv.h>
-#include <float.h>
-#include <inttypes.h>
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "bits.h"
 #include "command.h"
 #include "derived.h"
 #include "host/base/spelling.h"
 #include "host/number/decimal.h"
-#include "unity.h"
 
 void suite_number_text(void);
 
@@ -65,7 +57,7 @@ static size_t put_digits(char *text, size_t at, int count) {
     return at;
 }
 
-static void test_any_digits(void) {
+TEST(number_text, any_digits) {
     static const int longest[] = {3, 20, 40, 900};
     for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         char text[TEXT] = "";
@@ -83,7 +75,7 @@ static void test_any_digits(void) {
     }
 }
 
-static void test_doubles_again(void) {
+TEST(number_text, doubles_again) {
     for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         const double value = of_bits(random_bits(&seed));
         char text[64];
@@ -127,7 +119,7 @@ static void around_middle(uint64_t lower_bits) {
     }
 }
 
-static void test_halfway(void) {
+TEST(number_text, halfway) {
     for (int i = 0; i < count_of((int)few_or_all(800, 4000)); i++) {
         around_middle(random_bits(&seed) % (UINT64_C(0x7ff) << 52));
         around_middle(random_bits(&seed) >> (12 + draw(52))); /* subnormal */
@@ -138,7 +130,7 @@ static void test_halfway(void) {
     around_middle(0);
 }
 
-static void test_places_and_ends(void) {
+TEST(number_text, places_and_ends) {
     static const char *const texts[] = {"0",
                                         "-0",
                                         "0.0",
@@ -209,7 +201,7 @@ static void hex_agrees(uint64_t bits) {
 #endif
 }
 
-static void test_hexadecimal(void) {
+TEST(number_text, hexadecimal) {
     const uint64_t infinite = UINT64_C(0x7ff) << 52;
     for (int i = 0; i < count_of((int)few_or_all(20000, 100000)); i++) {
         const uint64_t bits = random_bits(&seed);
@@ -266,7 +258,7 @@ static unsigned expected(const unsigned char *text, unsigned left) {
     return shortest(point) == ones ? ones : 0;
 }
 
-static void test_every_pair_of_bytes(void) {
+TEST(number_text, every_pair_of_bytes) {
     static const unsigned char edges[] = {0x00, 0x7f, 0x80, 0xbf, 0xc0};
     unsigned wrong = 0;
     unsigned characters = 0;
@@ -285,12 +277,4 @@ static void test_every_pair_of_bytes(void) {
     TEST_ASSERT_GREATER_THAN_UINT(100000, characters);
 }
 
-void suite_number_text(void) {
-    printf("number_text: seed %" PRIu64 "\n", seed);
-    RUN_TEST(test_any_digits);
-    RUN_TEST(test_doubles_again);
-    RUN_TEST(test_halfway);
-    RUN_TEST(test_places_and_ends);
-    RUN_TEST(test_hexadecimal);
-    RUN_TEST(test_every_pair_of_bytes);
-}
+void suite_number_text(void) { printf("number_text: seed %" PRIu64 "\n", seed); }

@@ -1,12 +1,6 @@
 /* test_octave.c: files for Octave: where values may become complex, and the named form, parsed line by line. Its
  * slopes are the accelerations of the operation lists. Function files: test_octave_drawn.c. Also LaTeX. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "formula.h"
 #include "latex.h"
@@ -14,17 +8,12 @@
 #include "mechanism.h"
 #include "printed.h"
 
-#include "unity.h"
-
-void suite_octave(void);
-void suite_latex_runs(void);
-
 /* === octave =================================================================================== */
 
 enum { STATES = 10, RESULTS_MAX = 128 };
 
 /* Functions that may be undefined for real arguments: Octave would continue with complex values. */
-static void test_files_stay_real(void) {
+TEST(octave, files_stay_real) {
     static const struct {
         const char *call;
         bool leaves;
@@ -275,7 +264,7 @@ static int named_scene(const scene *s) {
 static int named_files;
 static void named_mechanism(const char *name, derived *d) { named_files += compare_named(name, d); }
 
-static void test_files_with_names_compute_the_same(void) {
+TEST(octave, files_with_names_compute_the_same) {
     enum { MECHANISMS = 30 };
     int compared = 0;
     written = 0;
@@ -292,11 +281,6 @@ static void test_files_with_names_compute_the_same(void) {
     }
     printf("  seed %d on: %d of %d mechanisms compared\n", OWN_SEED, compared, MECHANISMS);
     TEST_ASSERT_TRUE(10 * compared > 7 * MECHANISMS);
-}
-
-void suite_octave(void) {
-    RUN_TEST(test_files_with_names_compute_the_same);
-    RUN_TEST(test_files_stay_real);
 }
 
 /* === latex runs =============================================================================== */
@@ -649,7 +633,7 @@ static int compare_scene(const scene *s) {
     return compared > 0;
 }
 
-static void test_scenes_run_as_their_latex_says(void) {
+TEST(latex_runs, scenes_run_as_their_latex_says) {
     begin_cases();
     TEST_ASSERT_TRUE(each_builtin_scene(compare_scene) > 60);
     end_cases();
@@ -659,7 +643,7 @@ static void test_scenes_run_as_their_latex_says(void) {
 static int files;
 static void compare_file(const char *name, derived *d) { files += compare_all(name, d) > 0; }
 
-static void test_files_run_as_their_latex_says(void) {
+TEST(latex_runs, files_run_as_their_latex_says) {
     files = 0;
     begin_cases();
     each_mechanism(compare_file);
@@ -668,7 +652,7 @@ static void test_files_run_as_their_latex_says(void) {
     TEST_ASSERT_EQUAL_INT(0, cases_wide);
 }
 
-static void test_generated_mechanisms_run_as_their_latex_says(void) {
+TEST(latex_runs, generated_mechanisms_run_as_their_latex_says) {
     const char *more = getenv("PRINTED_MECHANISMS");
     const int wanted = more != NULL ? (int)strtol(more, NULL, 10) : 60;
     int compared = 0;
@@ -682,10 +666,4 @@ static void test_generated_mechanisms_run_as_their_latex_says(void) {
     }
     end_cases();
     TEST_ASSERT_TRUE(10 * compared >= 7 * wanted);
-}
-
-void suite_latex_runs(void) {
-    RUN_TEST(test_scenes_run_as_their_latex_says);
-    RUN_TEST(test_files_run_as_their_latex_says);
-    RUN_TEST(test_generated_mechanisms_run_as_their_latex_says);
 }

@@ -1,18 +1,12 @@
 /* test_octave_drawn.c: function files for Octave and Matlab of drawn scenes, parsed completely. Each line computes
  * its operation of the list, and each y(k) is the right component. */
-#include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "blocks.h"
 #include "drawn_scene.h"
 #include "formula.h"
 #include "host/base/alloc.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_octave_drawn(void);
 
@@ -259,7 +253,7 @@ static void draw_for_octave(void) {
     make_order(&drawn.im);
 }
 
-static void test_function_files_compute_the_list(void) {
+TEST(octave_drawn, function_files_compute_the_list) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         draw_for_octave();
         const image *im = &drawn.im;
@@ -331,7 +325,7 @@ static const char *said_names(const char *at, const image *im) {
     return said_exactly(at, ")\n%\n");
 }
 
-static void test_matrix_files_have_each_entry(void) {
+TEST(octave_drawn, matrix_files_have_each_entry) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 30)); c++) {
         do {
             drawn_scene_draw(&drawn, &die);
@@ -376,8 +370,4 @@ static void test_matrix_files_have_each_entry(void) {
     }
 }
 
-void suite_octave_drawn(void) {
-    die = dice_of("octave_drawn", 4160);
-    RUN_TEST(test_function_files_compute_the_list);
-    RUN_TEST(test_matrix_files_have_each_entry);
-}
+void suite_octave_drawn(void) { die = dice_of("octave_drawn", 4160); }

@@ -1,12 +1,6 @@
 /* test_order.c: reordering of operation lists for few live values. Operations and bits stay the same, operands come
  * first, and stores and loads decrease, to the minimum where it is known. WHIRL_CASES: number of random lists. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/base/alloc.h"
 #include "host/derive/lower.h"
@@ -14,11 +8,6 @@
 
 #include "command.h"
 #include "derived.h"
-
-#include "unity.h"
-
-void suite_order(void);
-void suite_pieces(void);
 
 /* === order ==================================================================================== */
 
@@ -151,7 +140,7 @@ static void expect_same_bits(dice *d, const op_list *entered, const op_list *ord
     evaluator_free(other);
 }
 
-static void test_random_lists_compute_the_same(void) {
+TEST(order, random_lists_compute_the_same) {
     dice d = dice_of("order", 41);
     const unsigned cases = dice_cases(300);
     long long before = 0;
@@ -184,7 +173,7 @@ static void test_random_lists_compute_the_same(void) {
 
 /* The sum of n squares, all squares first. The minimum is one load per leaf. In the entered order, squares beyond 20
  * registers are stored and loaded again; the last register makes the next square. */
-static void test_squares_are_summed_as_they_come(void) {
+TEST(order, squares_are_summed_as_they_come) {
     for (int n = 1; n <= 200; n++) {
         op_list *t = op_list_new(0, 1);
         int *square = alloc(n, sizeof *square);
@@ -203,11 +192,6 @@ static void test_squares_are_summed_as_they_come(void) {
         free(square);
         op_list_free(t);
     }
-}
-
-void suite_order(void) {
-    RUN_TEST(test_random_lists_compute_the_same);
-    RUN_TEST(test_squares_are_summed_as_they_come);
 }
 
 /* === pieces =================================================================================== */
@@ -241,7 +225,7 @@ static double pieces_value(const piece *pieces, int count, double at[VARIABLES])
     return sum;
 }
 
-static void test_squares_of_sines_come_back(void) {
+TEST(pieces, squares_of_sines_come_back) {
     algebra *a = algebra_new();
     const poly *u = poly_symbol(a, &variables[0], 0);
     const poly *v = poly_symbol(a, &variables[1], 0);
@@ -269,7 +253,7 @@ static void test_squares_of_sines_come_back(void) {
 
 /* sin(w)^(2p) cos(w)^(2q) and its slope, for w = 2u - v, and times 0.3 v. Each is one piece if the slope is one
  * product, else two. */
-static void test_even_powers_come_back(void) {
+TEST(pieces, even_powers_come_back) {
     for (int p = 0; p <= 8; p++) {
         for (int q = 0; p + q <= 8; q++) {
             if (p + q == 0) {
@@ -304,7 +288,7 @@ static void test_even_powers_come_back(void) {
     }
 }
 
-static void test_other_rows_stay_as_they_are(void) {
+TEST(pieces, other_rows_stay_as_they_are) {
     algebra *a = algebra_new();
     const poly *u = poly_symbol(a, &variables[0], 0);
     const poly *one = poly_number(a, 1.0);
@@ -342,7 +326,7 @@ static void test_other_rows_stay_as_they_are(void) {
     algebra_free(a);
 }
 
-static void test_pieces_have_the_sums_value(void) {
+TEST(pieces, pieces_have_the_sums_value) {
     uint64_t seed = 7;
     int powers = 0;
     for (int round = 0; round < 2000; round++) {
@@ -379,7 +363,7 @@ static void test_pieces_have_the_sums_value(void) {
 }
 
 /* Fourth powers and squares of one wave, each times another factor. */
-static void test_each_of_several_comes_back(void) {
+TEST(pieces, each_of_several_comes_back) {
     for (unsigned which = 0; which < 64;
          which++) { /* three factors, each absent, a square or a fourth power */
         algebra *a = algebra_new();
@@ -453,7 +437,7 @@ static int check(const derived *d, uint64_t *seed) {
     return checked;
 }
 
-static void test_sines_inside_sines(void) {
+TEST(pieces, sines_inside_sines) {
     uint64_t seed = 7;
     int checked = 0;
     for (int i = 0; i < MECHANISMS; i++) {
@@ -479,13 +463,4 @@ static void test_sines_inside_sines(void) {
     }
     printf("  seed 7: %d states of %d mechanisms\n", checked, MECHANISMS);
     TEST_ASSERT_EQUAL_INT(MECHANISMS * PIECES_STATES, checked);
-}
-
-void suite_pieces(void) {
-    RUN_TEST(test_squares_of_sines_come_back);
-    RUN_TEST(test_even_powers_come_back);
-    RUN_TEST(test_other_rows_stay_as_they_are);
-    RUN_TEST(test_each_of_several_comes_back);
-    RUN_TEST(test_pieces_have_the_sums_value);
-    RUN_TEST(test_sines_inside_sines);
 }

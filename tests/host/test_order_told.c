@@ -1,16 +1,8 @@
 /* test_order_told.c: output of `whirl run` (summary, warnings, hints) is independent of the order of declarations.
  * Drawn scenes for every kind of warning have coordinates of very different size and run in all orders. Words must be
  * equal, and numbers too, except for reordered sums. */
-#include <ctype.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
-#include "unity.h"
 
 void suite_order_told(void);
 
@@ -251,7 +243,7 @@ static void expect_the_same(char *wanted, char *is, double apart) {
     }
 }
 
-static void test_orders(void) {
+TEST(order_told, orders) {
     for (int i = 0; i < SCENES; i++) {
         const told_scene *s = &scenes[i];
         (void)dice_one_of(&die, 2);
@@ -274,7 +266,4 @@ static void test_orders(void) {
     model_drop();
 }
 
-void suite_order_told(void) {
-    die = dice_of("order_told", 91);
-    RUN_TEST(test_orders);
-}
+void suite_order_told(void) { die = dice_of("order_told", 91); }

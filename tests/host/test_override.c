@@ -1,9 +1,6 @@
 /* test_override.c: the command line's changes to a scene. */
-#include <math.h>
-#include <string.h>
-
 #include "parsed.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_override(void);
 

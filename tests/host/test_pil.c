@@ -1,9 +1,4 @@
 /* test_pil.c: processor in the loop: draws of a campaign of faults, the dialogue with a rig, and the faults. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/monitor/wire.h"
 #include "host/pil/fault.h"
 
@@ -12,15 +7,9 @@
 #include "faults.h"
 #include "motion.h"
 
-#include "unity.h"
-
-void suite_campaign(void);
-void suite_dialogue(void);
-void suite_fault(void);
-
 /* === campaign ================================================================================= */
 
-static void test_draws(void) {
+TEST(campaign, draws) {
     unsigned drawn[CAMPAIGN_ROWS_MAX] = {0};
     unsigned stages[RIG_STAGES_MAX] = {0};
     const campaign all = {.firmware = "pil_dialled.elf", .seed = 3};
@@ -80,7 +69,7 @@ static void test_draws(void) {
 
 /* Runs with close set-points share nothing else. Of pairs within 0.02 rad/s, about a twentieth have the same fault at
  * times within a twentieth. */
-static void test_draws_are_independent(void) {
+TEST(campaign, draws_are_independent) {
     enum { RUNS = 4000 };
     static double target[RUNS];
     static double after[RUNS];
@@ -107,7 +96,7 @@ static void test_draws_are_independent(void) {
 }
 
 /* Refused: an emulator's counts and an operator's dials. */
-static void test_what_there_is_to_draw(void) {
+TEST(campaign, what_there_is_to_draw) {
     const char *const words[] = {NULL, "jam", "slow", "feed-part", "two faults", "nothing"};
     static const bool has[3][6] = {{true, true, false, false, true, false},
                                    {true, true, true, false, true, false},
@@ -127,7 +116,7 @@ static void test_what_there_is_to_draw(void) {
 }
 
 /* Bound: speed after 7/6 of a turn plus a control period, from closed forms of speed and angle over time. */
-static void test_how_fast_a_runaway_may_get(void) {
+TEST(campaign, how_fast_a_runaway_may_get) {
     TEST_ASSERT_TRUE(rig_caught_rpm(100.0) == 470.0 && rig_caught_rpm(330.0) == 470.0);
     for (int five = 67; five <= 72; five++) {
         const double rpm = 5.0 * five;
@@ -142,13 +131,6 @@ static void test_how_fast_a_runaway_may_get(void) {
         const double most = rig_caught_rpm(rpm);
         TEST_ASSERT_DOUBLE_WITHIN(0.1, mean + swing > 470.0 ? mean + swing : 470.0, most);
     }
-}
-
-void suite_campaign(void) {
-    RUN_TEST(test_draws);
-    RUN_TEST(test_draws_are_independent);
-    RUN_TEST(test_what_there_is_to_draw);
-    RUN_TEST(test_how_fast_a_runaway_may_get);
 }
 
 /* === dialogue ================================================================================= */
@@ -275,14 +257,14 @@ static void one_case(dice *d) {
     TEST_ASSERT_FALSE(dialogue_answer(&talk, "OK")); /* for another program */
 }
 
-static void test_it_comes_to_its_end_whatever_was_in_the_line(void) {
+TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {
     dice d = dice_of("dialogue", 1);
     for (unsigned i = dice_cases(few_or_all(2000, 100000)); i > 0; i--) {
         one_case(&d);
     }
 }
 
-static void test_who_is_no_rig_is_not_met(void) {
+TEST(dialogue, who_is_no_rig_is_not_met) {
     dialogue d = {.rate = 500};
     const char *const lines[] = {"OK", "ERR 100 no such command", "hello", "talk off",
                                  "OK rate=0 "};
@@ -292,11 +274,6 @@ static void test_who_is_no_rig_is_not_met(void) {
     TEST_ASSERT_EQUAL(0, d.asked);
     TEST_ASSERT_FALSE(d.done);
     TEST_ASSERT_EQUAL_STRING("", d.refused);
-}
-
-void suite_dialogue(void) {
-    RUN_TEST(test_it_comes_to_its_end_whatever_was_in_the_line);
-    RUN_TEST(test_who_is_no_rig_is_not_met);
 }
 
 /* === fault ==================================================================================== */
@@ -426,7 +403,7 @@ static int edges_of(const heard *h, int channel) {
 }
 
 /* Healthy: two turns, four alternating pulses. */
-static void test_edges(void) {
+TEST(fault, edges) {
     run_with(NULL, &well);
     TEST_ASSERT_EQUAL_INT(4, well.edges);
     run_with("edge-dead", &ill);
@@ -470,7 +447,7 @@ static void test_edges(void) {
     }
 }
 
-static void test_pulses_of_nothing(void) {
+TEST(fault, pulses_of_nothing) {
     run_with(NULL, &well);
     for (int count = 1; count <= 5; count++) {
         char words[40];
@@ -531,7 +508,7 @@ static void expect_raws(const char *words, double least, double most, double wit
 }
 
 /* Healthy: 40 N and 10 N to either side. */
-static void test_samples(void) {
+TEST(fault, samples) {
     const wh_sample *s;
     expect_raws(NULL, 3000, 5000, 1);
     expect_raws("cell-frozen@0.1", 4025, 4951, 10);
@@ -561,7 +538,7 @@ static void test_samples(void) {
     TEST_ASSERT_EQUAL_UINT32(hello.start_ticks + PERIOD_TICKS, s->ticks);
 }
 
-static void test_noise_of_samples(void) {
+TEST(fault, noise_of_samples) {
     double squares = 0.0;
     run_with(NULL, &well);
     run_with("cell-noise=0.5", &ill);
@@ -572,7 +549,7 @@ static void test_noise_of_samples(void) {
     TEST_ASSERT_TRUE(fabs(sqrt(squares / READS) - 0.5) < 0.06);
 }
 
-static void test_spikes(void) {
+TEST(fault, spikes) {
     int spikes = 0;
     run_with(NULL, &well);
     run_with("cell-spikes=30", &ill);
@@ -585,7 +562,7 @@ static void test_spikes(void) {
 }
 
 /* Each input has its fault value during the fault, the healthy one before and after, and no other input moves. */
-static void test_inputs(void) {
+TEST(fault, inputs) {
     static const struct {
         const char *words;
         int input[2];
@@ -624,7 +601,7 @@ static void test_inputs(void) {
     }
 }
 
-static void test_orders(void) {
+TEST(fault, orders) {
     run_with("slow=20@0.5", &ill);
     TEST_ASSERT_TRUE(ill.orders[200].busy_timer == 20 && ill.orders[300].busy_timer == 400 &&
                      ill.orders[300].acted_timer == 200);
@@ -643,7 +620,7 @@ static void test_orders(void) {
 }
 
 /* Orders lost on the line leave the outputs unchanged; the next request keeps its time. */
-static void test_line(void) {
+TEST(fault, line) {
     int lost = 0;
     run_with("orders-lost=0.5", &ill);
     for (int i = 2; i <= READS; i++) {
@@ -667,7 +644,7 @@ static void test_line(void) {
     TEST_ASSERT_EQUAL_INT(2 * 249, ill.samples);
 }
 
-static void test_parameters(void) {
+TEST(fault, parameters) {
     fault_plan plan = {.count = 0};
     TEST_ASSERT_TRUE(fault_read(&plan, "jam,inertia=1.5"));
     char *none = fault_parameter(&plan, 0);
@@ -677,7 +654,7 @@ static void test_parameters(void) {
     free(one);
 }
 
-static void test_words(void) {
+TEST(fault, words) {
     static const char *const none[] = {
         "",
         "jamm",
@@ -726,17 +703,4 @@ static void test_words(void) {
         TEST_ASSERT_TRUE(one.fault[0].size >= fault_rows[i].least &&
                          one.fault[0].size <= fault_rows[i].most);
     }
-}
-
-void suite_fault(void) {
-    RUN_TEST(test_edges);
-    RUN_TEST(test_pulses_of_nothing);
-    RUN_TEST(test_samples);
-    RUN_TEST(test_noise_of_samples);
-    RUN_TEST(test_spikes);
-    RUN_TEST(test_inputs);
-    RUN_TEST(test_orders);
-    RUN_TEST(test_line);
-    RUN_TEST(test_parameters);
-    RUN_TEST(test_words);
 }

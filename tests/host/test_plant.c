@@ -1,16 +1,9 @@
 /* test_plant.c: sensors and actuators of a scene, compared with closed forms: times of edges, samples, effect of
  * orders, watchdog; and the binding of signals to quantities. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/pil/plant.h"
 #include "host/pil/talk.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_plant(void);
 
 #define TICKS_PER_S 1000000U
 #define TURN_RAD 6.283185307179586477
@@ -82,7 +75,7 @@ static int edges_until(double until_s, double *at_s, int most) {
 }
 
 /* Once a turn the angle enters the range, at the lower end going up, at the upper end going down. */
-static void test_edges_of_an_angle(void) {
+TEST(plant, edges_of_an_angle) {
     uint64_t seed = 1;
     for (int round = 0; round < 60; round++) {
         const double speed =
@@ -111,7 +104,7 @@ static void test_edges_of_an_angle(void) {
 }
 
 /* x = cos(10 t) enters a range twice a period. So does its double, an output without a rate. */
-static void test_edges_of_a_length(void) {
+TEST(plant, edges_of_a_length) {
     for (int output = 0; output < 2; output++) {
         const float low = 0.2F;
         const float high = 0.4F;
@@ -136,7 +129,7 @@ static void test_edges_of_a_length(void) {
 }
 
 /* Jitter has the given deviation, and no edge is delivered before its time. */
-static void test_jitter(void) {
+TEST(plant, jitter) {
     const plant_wish wish = {.jitter_s = 20e-6, .seed = 5};
     const double speed = 100.0;
     add(edge("a", "rad", -0.01F, 0.01F));
@@ -168,7 +161,7 @@ static wh_signal sample(float per_count, float most, uint32_t period_ticks) {
 }
 
 /* cos(10 t) in counts, at the requested instants only, with the given delay. */
-static void test_samples(void) {
+TEST(plant, samples) {
     const double delays_s[] = {0.0, 150e-6, 1.3e-3};
     for (int d = 0; d < 3; d++) {
         const plant_wish wish = {.delay_s = delays_s[d]};
@@ -201,7 +194,7 @@ static void test_samples(void) {
 }
 
 /* Counts at both ends of a range must fit 32 bits. An accepted range reaches both ends exactly. */
-static void test_ranges(void) {
+TEST(plant, ranges) {
     const plant_wish wish = {.seed = 1};
     uint64_t seed = 3;
     int taken = 0;
@@ -246,7 +239,7 @@ static void test_ranges(void) {
 }
 
 /* Beyond a reading's capacity the newest are lost and counted. */
-static void test_too_many(void) {
+TEST(plant, too_many) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
     add(sample(1e-4F, 2.0F, 50));
@@ -277,7 +270,7 @@ static void add_push(void) {
 }
 
 /* A delayed push of 1 N leaves 1 kg slower by the delay: whole steps, or up to the next step. */
-static void test_late_orders(void) {
+TEST(plant, late_orders) {
     for (int late = 0; late <= 1000; late += 125) {
         const plant_wish wish = {.seed = 1};
         add_push();
@@ -292,7 +285,7 @@ static void test_late_orders(void) {
 }
 
 /* A note is bound to no quantity and moves nothing; outputs keep their channels. */
-static void test_notes(void) {
+TEST(plant, notes) {
     const plant_wish wish = {.seed = 1};
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "state", .unit = "1"});
     add_push();
@@ -308,7 +301,7 @@ static void test_notes(void) {
 }
 
 /* The plant clamps outputs to the declared range. A NaN, which ends a run (lockstep.c), counts as the minimum. */
-static void test_held_orders(void) {
+TEST(plant, held_orders) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
     const double taken[] = {2.0, -2.0, 0.5, -2.0};
     for (int i = 0; i < 4; i++) {
@@ -324,7 +317,7 @@ static void test_held_orders(void) {
 }
 
 /* Alive only at 0: after 10 ms and a step the push ends for good, and the report says so. */
-static void test_watchdog(void) {
+TEST(plant, watchdog) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
     add_push();
@@ -356,7 +349,7 @@ static bool binds(const char *name, const char *unit, wh_signal_kind kind, const
     return bind_signals(&b, &of, bench.image, renames);
 }
 
-static void test_names(void) {
+TEST(plant, names) {
     const plant_wish wish = {.seed = 1};
     open_bench(0.0, 0.0, 1e-3, &wish);
     TEST_ASSERT_TRUE(binds("x'", "m/s", WH_SIGNAL_SAMPLE, NULL));
@@ -376,7 +369,7 @@ static void test_names(void) {
 }
 
 /* Equal orders with different counts have equal hashes; each other field changes the hash. */
-static void test_hash(void) {
+TEST(plant, hash) {
     const wh_orders base = {
         .until_ticks = 1, .watchdog_ticks = 2, .flags = 1, .outputs = 2, .output = {1.0F, 2.0F}};
     wh_orders other = base;
@@ -394,19 +387,4 @@ static void test_hash(void) {
         other.output[1] = i == 4 ? -2.0F : other.output[1];
         TEST_ASSERT_TRUE(talk_hash(7, &other) != hash);
     }
-}
-
-void suite_plant(void) {
-    RUN_TEST(test_edges_of_an_angle);
-    RUN_TEST(test_edges_of_a_length);
-    RUN_TEST(test_jitter);
-    RUN_TEST(test_samples);
-    RUN_TEST(test_ranges);
-    RUN_TEST(test_too_many);
-    RUN_TEST(test_late_orders);
-    RUN_TEST(test_notes);
-    RUN_TEST(test_held_orders);
-    RUN_TEST(test_watchdog);
-    RUN_TEST(test_names);
-    RUN_TEST(test_hash);
 }

@@ -1,11 +1,5 @@
 /* test_plot.c: text for gnuplot is never a command and appears unchanged in the picture. Names, titles and units are
  * generated from characters special to gnuplot, a shell or XML. Also envelopes and colours. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "host/io/gnuplot.h"
@@ -16,11 +10,6 @@
 
 #include "command.h"
 
-#include "unity.h"
-
-void suite_plot(void);
-void suite_envelope(void);
-void suite_palette(void);
 void suite_recording_plot(void);
 
 /* === plot ===================================================================================== */
@@ -153,7 +142,7 @@ static void find(const char *in, const char *text) {
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(in, wanted), wanted);
 }
 
-static void test_texts_are_no_commands(void) {
+TEST(plot, texts_are_no_commands) {
     if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
         TEST_IGNORE_MESSAGE("no gnuplot here");
     }
@@ -186,7 +175,7 @@ static void test_texts_are_no_commands(void) {
     unlink(PICTURE);
 }
 
-static void test_no_picture(void) {
+TEST(plot, no_picture) {
     if (!gnuplot_is_there()) {
         TEST_IGNORE_MESSAGE("no gnuplot here");
     }
@@ -198,7 +187,7 @@ static void test_no_picture(void) {
     unlink(PICTURE);
 }
 
-static void test_a_panel_a_unit(void) {
+TEST(plot, a_panel_a_unit) {
     enum { CURVES = 6, UNITS = 4 };
     static const char *const units[UNITS] = {"unita", "unitb", "unitc", "unitd"};
     static const char *const names[CURVES] = {"first",  "second", "third",
@@ -241,12 +230,6 @@ static void test_a_panel_a_unit(void) {
     unlink(PICTURE);
 }
 
-void suite_plot(void) {
-    RUN_TEST(test_texts_are_no_commands);
-    RUN_TEST(test_a_panel_a_unit);
-    RUN_TEST(test_no_picture);
-}
-
 /* === envelope ================================================================================= */
 /* The envelope of a run for its picture: generated signals of every length, compared with all their values. */
 
@@ -277,7 +260,7 @@ static decimation *entered(const double *data, unsigned steps) {
     return v;
 }
 
-static void test_short_runs_are_kept_number_by_number(void) {
+TEST(envelope, short_runs_are_kept_number_by_number) {
     dice d = dice_of("short signals", 5101);
     for (unsigned i = 0; i < 20; i++) {
         const unsigned steps = i == 0   ? 1
@@ -328,7 +311,7 @@ static void check_bucket(const double *data, unsigned from, unsigned to, int i, 
     TEST_ASSERT_TRUE(second == data[(size_t)late * COLUMNS + (size_t)i]);
 }
 
-static void test_long_runs_keep_least_and_most_of_every_stretch(void) {
+TEST(envelope, long_runs_keep_least_and_most_of_every_stretch) {
     dice d = dice_of("long signals", 5102);
     const unsigned cases = dice_cases(25);
     for (unsigned i = 0; i < cases; i++) {
@@ -358,7 +341,7 @@ static void test_long_runs_keep_least_and_most_of_every_stretch(void) {
     }
 }
 
-static void test_at_every_moment_all_is_there(void) {
+TEST(envelope, at_every_moment_all_is_there) {
     dice d = dice_of("broken off", 5103);
     const unsigned steps = 5 * DECIMATION_ROOM;
     double *data = signal_of(&d, steps);
@@ -377,12 +360,6 @@ static void test_at_every_moment_all_is_there(void) {
     }
     free(data);
     decimation_free(v);
-}
-
-void suite_envelope(void) {
-    RUN_TEST(test_short_runs_are_kept_number_by_number);
-    RUN_TEST(test_long_runs_keep_least_and_most_of_every_stretch);
-    RUN_TEST(test_at_every_moment_all_is_there);
 }
 
 /* === palette ================================================================================== */
@@ -483,7 +460,7 @@ static double ciede2000(const double a[3], const double b[3]) {
 }
 
 /* Pairs 1, 7, 17 and 24 of Sharma, Wu and Dalal's table of test data. */
-static void test_the_distance_is_the_published_one(void) {
+TEST(palette, the_distance_is_the_published_one) {
     static const struct {
         double a[3], b[3], distance;
     } published[] = {{{50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}, 2.0425},
@@ -496,7 +473,7 @@ static void test_the_distance_is_the_published_one(void) {
     }
 }
 
-static void test_lines_stand_out_on_white_and_dark(void) {
+TEST(palette, lines_stand_out_on_white_and_dark) {
     static const char *const pages[] = {PALETTE_WHITE, PALETTE_DARK};
     double least = 100.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 21.0, contrast("#000000", "#ffffff"));
@@ -521,7 +498,7 @@ static double distance(const char *a, const char *b, int k) {
     return ciede2000(one, other);
 }
 
-static void test_colours_are_apart_to_every_eye(void) {
+TEST(palette, colours_are_apart_to_every_eye) {
     for (int k = 0; k < EYES; k++) {
         double least = 1000.0;
         for (int i = 0; i < PALETTE_LINES; i++) {
@@ -537,7 +514,7 @@ static void test_colours_are_apart_to_every_eye(void) {
     TEST_ASSERT_TRUE(distance("#c06030", "#7f8030", 2) < APART);
 }
 
-static void test_areas_darken_from_good_to_bad(void) {
+TEST(palette, areas_darken_from_good_to_bad) {
     for (int k = 0; k < EYES; k++) {
         for (int i = 1; i < PALETTE_AREAS; i++) {
             double one[3];
@@ -550,7 +527,7 @@ static void test_areas_darken_from_good_to_bad(void) {
     }
 }
 
-static void test_lines_that_share_a_colour_differ_otherwise(void) {
+TEST(palette, lines_that_share_a_colour_differ_otherwise) {
     for (int i = 0; i < 3 * PALETTE_LINES; i++) {
         for (int j = 0; j < i; j++) {
             TEST_ASSERT_TRUE(strcmp(palette_line(i), palette_line(j)) != 0 ||
@@ -562,14 +539,6 @@ static void test_lines_that_share_a_colour_differ_otherwise(void) {
             TEST_ASSERT_TRUE(palette_point(i) != palette_point(j));
         }
     }
-}
-
-void suite_palette(void) {
-    RUN_TEST(test_the_distance_is_the_published_one);
-    RUN_TEST(test_lines_stand_out_on_white_and_dark);
-    RUN_TEST(test_colours_are_apart_to_every_eye);
-    RUN_TEST(test_areas_darken_from_good_to_bad);
-    RUN_TEST(test_lines_that_share_a_colour_differ_otherwise);
 }
 
 /* === recording plot =========================================================================== */
@@ -584,7 +553,7 @@ static const schema numbers = {
                                .eaches = 1,
                                .each[0] = {.name = "n [N]", .size = 4, .scale = 1.0}}};
 
-static void test_thinned_out(void) {
+TEST(recording_plot, thinned_out) {
     recording r;
     recording_begin(&r, NULL, NULL, NULL, true);
     const unsigned samples = 230000U + dice_one_of(&die, 20000);
@@ -609,7 +578,7 @@ static void test_thinned_out(void) {
     TEST_ASSERT_NULL(r.row);
 }
 
-static void test_nothing_to_plot(void) {
+TEST(recording_plot, nothing_to_plot) {
     recording r;
     recording_begin(&r, NULL, NULL, NULL, true);
     errors_catch();
@@ -620,8 +589,4 @@ static void test_nothing_to_plot(void) {
     recording_end(&r);
 }
 
-void suite_recording_plot(void) {
-    die = dice_of("recording_plot", 54);
-    RUN_TEST(test_thinned_out);
-    RUN_TEST(test_nothing_to_plot);
-}
+void suite_recording_plot(void) { die = dice_of("recording_plot", 54); }

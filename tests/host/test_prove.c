@@ -1,16 +1,8 @@
 /* test_prove.c: the tube of `whirl prove` contains the exact motion at every record. References of 113 bits share
  * nothing with the program (quad_arms.h). With a parameter wrong by a millionth, the motion leaves the tube. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "beside.h"
 #include "command.h"
 #include "horizons.h"
-#include "unity.h"
-
-void suite_prove(void);
 
 #define PARTS(above, below) ((quad)(above) / (quad)(below))
 
@@ -106,7 +98,7 @@ static void expect_proved(const scene_case *c, double widest) {
 #endif
 }
 
-static void test_epicyclic(void) {
+TEST(prove, epicyclic) {
     const scene_case c = {.name = "epicyclic",
                           .builtin = true,
                           .file = "epicyclic.whirl",
@@ -120,7 +112,7 @@ static void test_epicyclic(void) {
     expect_proved(&c, 1e-9);
 }
 
-static void test_double_pendulum(void) {
+TEST(prove, double_pendulum) {
     const scene_case c = {.name = "double_pendulum",
                           .file = "tests/mechanisms/double_pendulum.whirl",
                           .starts = "a = 2.5 [rad], b = 2 [rad]",
@@ -134,7 +126,7 @@ static void test_double_pendulum(void) {
     expect_proved(&c, 1e-6);
 }
 
-static void test_thomson(void) {
+TEST(prove, thomson) {
     const scene_case c = {.name = "thomson",
                           .builtin = true,
                           .file = "thomson.whirl",
@@ -147,10 +139,4 @@ static void test_thomson(void) {
                           .usual_s = 0.5,
                           .until_s = 5.0};
     expect_proved(&c, 1e-6);
-}
-
-void suite_prove(void) {
-    RUN_TEST(test_epicyclic);
-    RUN_TEST(test_double_pendulum);
-    RUN_TEST(test_thomson);
 }

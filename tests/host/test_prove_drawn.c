@@ -1,18 +1,9 @@
 /* test_prove_drawn.c: tubes of `whirl prove` for drawn mechanisms. Masses on arms have decimal parameters that
  * doubles cannot hold, and references of 113 bits by d'Alembert's equations. A coefficient wrong by a millionth, or
  * by 1e-12, must leave the tube. Linkages with springs, dampers and drives have references in long double. */
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "beside.h"
 #include "command.h"
 #include "linkage.h"
-#include "unity.h"
-
-void suite_prove_drawn(void);
 
 static quad hundredths(dice *d, int least, int most, char text[16]) {
     const int number = least + (int)dice_one_of(d, (unsigned)(most - least));
@@ -137,7 +128,7 @@ static beside hold_arms(const drawn_arms *d, const char *text, unsigned which, d
     return b;
 }
 
-static void test_drawn_arms(void) {
+TEST(prove_drawn, drawn_arms) {
 #ifdef QUAD_KNOWN
     static drawn_arms d;
     dice die = dice_of("prove_drawn", 23);
@@ -194,7 +185,7 @@ static void linkage_slopes(const void *of, const quad *state, quad *to) {
     }
 }
 
-static void test_drawn_linkages(void) {
+TEST(prove_drawn, drawn_linkages) {
     if (LDBL_MANT_DIG < 64) {
         TEST_IGNORE_MESSAGE("no long double of more bits here");
     }
@@ -223,9 +214,4 @@ static void test_drawn_linkages(void) {
     }
     printf("  %u drawn linkages, %u to the end, widest %.2e\n", cases, to_the_end, widest);
     TEST_ASSERT_TRUE(10 * to_the_end >= 9 * cases);
-}
-
-void suite_prove_drawn(void) {
-    RUN_TEST(test_drawn_arms);
-    RUN_TEST(test_drawn_linkages);
 }

@@ -1,12 +1,7 @@
 /* test_rank.c: rank of matrices built with a known rank, in any units of rows and columns, and the round-off that
  * counts as zero. Also solving, systems, and scenes that cannot be derived. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "host/cli/commands.h"
@@ -16,13 +11,6 @@
 #include "command.h"
 #include "derived.h"
 #include "ranges.h"
-
-#include "unity.h"
-
-void suite_rank(void);
-void suite_solving(void);
-void suite_systems(void);
-void suite_underivable(void);
 
 /* === rank ===================================================================================== */
 
@@ -82,7 +70,7 @@ static void errors_of(const double *m, double *error, int n) {
     }
 }
 
-static void test_the_rank_does_not_hang_on_units(void) {
+TEST(rank, the_rank_does_not_hang_on_units) {
     uint64_t seed = 17;
     int seen[MOST + 1] = {0};
     for (int round = 0; round < 3000; round++) {
@@ -123,7 +111,7 @@ static void test_the_rank_does_not_hang_on_units(void) {
 }
 
 /* [1 1; 1 1 + x]: the pivot of the second row is x. */
-static void test_a_pivot_that_is_rounding_is_none(void) {
+TEST(rank, a_pivot_that_is_rounding_is_none) {
     for (int k = 0; k < 4; k++) {
         const bool symmetric = k % 2 == 0;
         double m[4] = {1.0, 1.0, 1.0, 1.0 + (k < 2 ? 2e-14 : 1e-13)};
@@ -145,7 +133,7 @@ static void test_a_pivot_that_is_rounding_is_none(void) {
 }
 
 /* B Bt + I has all eigenvalues above 0; reducing one row and column too much makes one negative. */
-static void test_what_is_positive_definite(void) {
+TEST(rank, what_is_positive_definite) {
     uint64_t seed = 23;
     for (int round = 0; round < 1000; round++) {
         const int n = 1 + round % MOST;
@@ -182,7 +170,7 @@ static void test_what_is_positive_definite(void) {
 
 /* The report shows the first equation with highest derivatives that follow from earlier ones, or with no highest
  * derivatives. */
-static void test_the_equation_that_depends_is_shown(void) {
+TEST(rank, the_equation_that_depends_is_shown) {
     uint64_t seed = 29;
     int shown = 0;
     for (int round = 0; round < 400; round++) {
@@ -250,13 +238,6 @@ static void test_the_equation_that_depends_is_shown(void) {
     }
     printf("  %d systems, seed 29\n", shown);
     TEST_ASSERT_GREATER_THAN_INT(200, shown);
-}
-
-void suite_rank(void) {
-    RUN_TEST(test_the_rank_does_not_hang_on_units);
-    RUN_TEST(test_a_pivot_that_is_rounding_is_none);
-    RUN_TEST(test_what_is_positive_definite);
-    RUN_TEST(test_the_equation_that_depends_is_shown);
 }
 
 /* === solving ================================================================================== */
@@ -334,7 +315,7 @@ static int check_solution(const derived *d, uint64_t *seed, const char *text) {
     return checked;
 }
 
-static void test_any_regular_system_is_solved(void) {
+TEST(solving, any_regular_system_is_solved) {
     uint64_t seed = 41;
     int checked[6] = {0};
     for (int round = 0; round < 1200; round++) {
@@ -355,7 +336,7 @@ static void test_any_regular_system_is_solved(void) {
 }
 
 /* One equation is a combination of earlier ones, in decimals that are not binary fractions. */
-static void test_the_equation_that_repeats_others_is_named(void) {
+TEST(solving, the_equation_that_repeats_others_is_named) {
     uint64_t seed = 47;
     for (int round = 0; round < 60; round++) {
         const int n = 2 + round % 4;
@@ -398,7 +379,7 @@ static void test_the_equation_that_repeats_others_is_named(void) {
 /* --- long products ---------------------------------------------------------------------------------------- */
 
 /* Products of up to forty factors and powers, alone and in a sum; lowering keeps 24 apart. */
-static void test_long_products_keep_their_value(void) {
+TEST(solving, long_products_keep_their_value) {
     uint64_t seed = 43;
     for (int factors = 20; factors <= 40; factors++) {
         char text[4096];
@@ -428,7 +409,7 @@ static void test_long_products_keep_their_value(void) {
 /* --- turn angles ---------------------------------------------------------------------------------------- */
 
 /* Is q only inside sines and tangents, with integer factors? */
-static void test_what_can_be_a_turn_angle(void) {
+TEST(solving, what_can_be_a_turn_angle) {
     static const struct {
         const char *text;
         bool turns;
@@ -499,13 +480,6 @@ static void test_what_can_be_a_turn_angle(void) {
     }
 }
 
-void suite_solving(void) {
-    RUN_TEST(test_any_regular_system_is_solved);
-    RUN_TEST(test_the_equation_that_repeats_others_is_named);
-    RUN_TEST(test_long_products_keep_their_value);
-    RUN_TEST(test_what_can_be_a_turn_angle);
-}
-
 /* === systems ================================================================================== */
 /* Systems of mixed and high order given as equations (dissertation, appendix A: n-th order to first order), compared
  * with closed forms. Their highest derivatives: test_methods.c; refusals: test_bad_input.c. */
@@ -546,7 +520,7 @@ static double beam_error(double step_s) {
     return worst;
 }
 
-static void test_fourth_order_beam_follows_its_closed_form(void) {
+TEST(systems, fourth_order_beam_follows_its_closed_form) {
     const double coarse = beam_error(0.04);
     const double fine = beam_error(0.01);
     expect_between("beam: error at 40 ms", 1e-8, 1e-5, coarse);
@@ -556,7 +530,7 @@ static void test_fourth_order_beam_follows_its_closed_form(void) {
 
 /* --- ten coupled equations: a rod's third mode ----------------------------------------------------------- */
 
-static void test_ten_coupled_equations_swing_in_one_mode(void) {
+TEST(systems, ten_coupled_equations_swing_in_one_mode) {
     motion m;
     double worst = 0.0;
     /* closed form: consistent mass, w^2 = (6 k/m)(1 - cos a)/(2 + cos a), a = 3 pi/11 */
@@ -580,7 +554,7 @@ static void test_ten_coupled_equations_swing_in_one_mode(void) {
 
 /* --- mixed orders: motor and pendulum --------------------------------------------------------------------- */
 
-static void test_motor_with_inductance_holds_the_pendulum(void) {
+TEST(systems, motor_with_inductance_holds_the_pendulum) {
     motion m;
     open_file(&m, "tests/mechanisms/dc_motor_pendulum.whirl", IN_DOUBLE);
     motion_to(&m, 150.0); /* the pendulum decays at 0.13 per second */
@@ -608,19 +582,12 @@ static void check_shape(const char *path, int unknowns, int components) {
     derived_free(&d);
 }
 
-static void test_as_many_first_order_equations_as_orders(void) {
+TEST(systems, as_many_first_order_equations_as_orders) {
     check_shape("tests/mechanisms/jerk.whirl", 1, 3);
     check_shape("tests/mechanisms/beam.whirl", 1, 4);
     check_shape("tests/mechanisms/dc_motor_pendulum.whirl", 3, 5);
     check_shape("tests/mechanisms/mixed_order.whirl", 3, 6);
     check_shape("tests/mechanisms/coupled_ten.whirl", 10, 20);
-}
-
-void suite_systems(void) {
-    RUN_TEST(test_fourth_order_beam_follows_its_closed_form);
-    RUN_TEST(test_ten_coupled_equations_swing_in_one_mode);
-    RUN_TEST(test_motor_with_inductance_holds_the_pendulum);
-    RUN_TEST(test_as_many_first_order_equations_as_orders);
 }
 
 /* === underivable ============================================================================== */
@@ -640,7 +607,7 @@ static void expect_refused(const char *text, const char *wanted) {
     derived_free(&d);
 }
 
-static void test_singular_and_other_impossible_mechanisms(void) {
+TEST(underivable, singular_and_other_impossible_mechanisms) {
     expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x' + y')^2\n",
                    "t.whirl:1:11: error: singular mass matrix: 'm' cannot be solved");
     expect_refused(
@@ -664,7 +631,7 @@ static void test_singular_and_other_impossible_mechanisms(void) {
                    "have no finite value at any state tried");
 }
 
-static void test_kinetic_energy_must_be_positive(void) {
+TEST(underivable, kinetic_energy_must_be_positive) {
     expect_refused("mechanism m\ncoordinate x [m]\nT = -1 [kg]*x'^2/2\n",
                    "t.whirl:3:1: error: the kinetic energy of 'm' is negative for some motion");
     expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate z [m]\n"
@@ -682,7 +649,7 @@ static void test_kinetic_energy_must_be_positive(void) {
 }
 
 /* Positive, or finite, only in a narrow range: no generic state lies there, but the start does. */
-static void test_the_start_is_tried_too(void) {
+TEST(underivable, the_start_is_tried_too) {
     static const char *const texts[] = {
         "mechanism m\ncoordinate x [m]\n"
         "T = (1 [kg] - 1e12 [kg]*(x/1 [m] - 7)^2)*x'^2/2\nV = 1 [N/m]*x^2/2\n",
@@ -707,7 +674,7 @@ static void test_the_start_is_tried_too(void) {
     }
 }
 
-static void test_constants_that_are_not_finite(void) {
+TEST(underivable, constants_that_are_not_finite) {
     expect_refused("mechanism m\ncoordinate x [m]\nT = 1e-200 [kg]*x'^2/2\n"
                    "V = 1e200 [N/m]*x^2/2\n",
                    "t.whirl:1:11: error: the equations of 'm' contain a number that is not finite");
@@ -716,7 +683,7 @@ static void test_constants_that_are_not_finite(void) {
                    "t.whirl:6:8: error: output 'bad' contains a number that is not finite");
 }
 
-static void test_too_many_components(void) {
+TEST(underivable, too_many_components) {
     char *states = repeated("mechanism m\nstate z\n", "state x#\n", 40, "");
     char *text = repeated(states, "equation 1 [s^2]*x#'' = z\n", 40, "equation 1 [s]*z' = x1\n");
     expect_refused(text, "t.whirl:1:11: error: 'm' has more than 64 components of state");
@@ -725,7 +692,7 @@ static void test_too_many_components(void) {
 }
 
 /* A product of sums of parameters, as in the energies of a long chain. The hint's change makes it derivable. */
-static void test_a_hint_about_parameters_helps(void) {
+TEST(underivable, a_hint_about_parameters_helps) {
     dice d = dice_of("parameters", 2);
     for (unsigned k = 0; k < 3; k++) {
         char text[2][4000];
@@ -757,7 +724,7 @@ static void test_a_hint_about_parameters_helps(void) {
     }
 }
 
-static void test_expressions_that_explode_are_refused(void) {
+TEST(underivable, expressions_that_explode_are_refused) {
     static const char front[] = "mechanism m\ncoordinate x\ncoordinate y\nlet a0 = x + y + 1\n";
     static const char tail[] = "T = 1 [kg*m^2]*(x'^2 + y'^2)\nV = 1 [J]*a30\n";
     static const char *const pieces[] = {"let a# = a@*a@ + x\n",
@@ -810,7 +777,7 @@ static const char two[] = "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoor
                           "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\n";
 
 /* A comparison of an expression with itself never changes; with another number in it, it does. */
-static void test_nothing_is_compared_with_itself(void) {
+TEST(underivable, nothing_is_compared_with_itself) {
     static const char *const statements[] = {
         "stop %s >= %s restitution e\n", "stop %s <= (%s) restitution e\n",
         "hold x while %s > %s\n", "when %s crosses (%s) { set x' = -x' }\n"};
@@ -833,15 +800,4 @@ static void test_nothing_is_compared_with_itself(void) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(same ? 2 : 0, what.status, text);
         TEST_ASSERT_EQUAL_MESSAGE(same, strstr(what.err, "both sides are the same") != NULL, text);
     }
-}
-
-void suite_underivable(void) {
-    RUN_TEST(test_singular_and_other_impossible_mechanisms);
-    RUN_TEST(test_kinetic_energy_must_be_positive);
-    RUN_TEST(test_the_start_is_tried_too);
-    RUN_TEST(test_constants_that_are_not_finite);
-    RUN_TEST(test_too_many_components);
-    RUN_TEST(test_a_hint_about_parameters_helps);
-    RUN_TEST(test_expressions_that_explode_are_refused);
-    RUN_TEST(test_nothing_is_compared_with_itself);
 }

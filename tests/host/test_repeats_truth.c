@@ -1,13 +1,9 @@
 /* test_repeats_truth.c: errors that repeat each turn: a cell that clips, has play or bends, and a torque twice a
  * turn; compared with healthy benches. The rotor is integrated finely in double (rig_orbit.c). Level, side, speed,
  * noise and seed are drawn. WHIRL_FULL=1 (`make rig-truth`) draws more and prints the tallies. */
-#include <math.h>
-#include <stdio.h>
-
 #include "command.h"
 #include "rig_orbit.h"
 #include "tests/scattered.h"
-#include "unity.h"
 
 void suite_repeats_truth(void);
 
@@ -124,19 +120,19 @@ static void check_error(error kind, uint64_t seed, unsigned runs, unsigned least
                      found.seen * 100U >= least_seen * runs);
 }
 
-static void test_a_clipped_cell_is_not_good(void) {
+TEST(repeats_truth, a_clipped_cell_is_not_good) {
     check_error(CLIPS, UINT64_C(0x5eed0a31), few_or_all(usual_or(60, 20), 1000), 5, 40);
 }
 
-static void test_play_is_not_good(void) {
+TEST(repeats_truth, play_is_not_good) {
     check_error(PLAYS, UINT64_C(0x5eed0a32), few_or_all(usual_or(60, 20), 1000), 40, 60);
 }
 
-static void test_a_bent_gain_is_not_good(void) {
+TEST(repeats_truth, a_bent_gain_is_not_good) {
     check_error(BENDS, UINT64_C(0x5eed0a33), few_or_all(usual_or(60, 20), 1000), 5, 40);
 }
 
-static void test_a_torque_twice_a_turn_is_not_good(void) {
+TEST(repeats_truth, a_torque_twice_a_turn_is_not_good) {
     check_error(TWICE, UINT64_C(0x5eed0a34), few_or_all(usual_or(60, 20), 1000), 2, 80);
 }
 
@@ -162,10 +158,10 @@ static void check_healthy(uint64_t seed, unsigned slower) {
     TEST_ASSERT_TRUE(doubtful * 100U <= runs);
 }
 
-static void test_healthy_benches_are_good(void) { check_healthy(UINT64_C(0x5eed0a35), 1U); }
+TEST(repeats_truth, healthy_benches_are_good) { check_healthy(UINT64_C(0x5eed0a35), 1U); }
 
 /* A sample every 8 ms, as on an ATmega2560: 21 a turn at 360 rpm. */
-static void test_healthy_benches_with_few_samples_are_good(void) {
+TEST(repeats_truth, healthy_benches_with_few_samples_are_good) {
     check_healthy(UINT64_C(0x5eed0a36), 4U);
 }
 
@@ -173,10 +169,4 @@ void suite_repeats_truth(void) {
     wh_result_config unused;
     wh_cell_config unused_cell;
     rig_measure_config(&unused, &rotor, &unused_cell);
-    RUN_TEST(test_a_clipped_cell_is_not_good);
-    RUN_TEST(test_play_is_not_good);
-    RUN_TEST(test_a_bent_gain_is_not_good);
-    RUN_TEST(test_a_torque_twice_a_turn_is_not_good);
-    RUN_TEST(test_healthy_benches_are_good);
-    RUN_TEST(test_healthy_benches_with_few_samples_are_good);
 }

@@ -1,14 +1,7 @@
 /* test_resets.c: `reset` and `watchdog-resets` of a plant without firmware: start and length of a reset, no outputs
  * meanwhile, and losses. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "host/pil/fault.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_resets(void);
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 2000U
@@ -103,7 +96,7 @@ static void run_with(const char *words) {
 }
 
 /* A reset starts once, at the first step at or after its instant, even between exchanges, and ends after its length. */
-static void test_instants(void) {
+TEST(resets, instants) {
     for (int i = 0; i < 40; i++) {
         const double at_s = 0.2 + i * 0.01037;
         const double takes_s = 0.0005 + i * 0.0007;
@@ -125,7 +118,7 @@ static void test_instants(void) {
 }
 
 /* Data in transit is lost; the timer restarts. */
-static void test_what_is_lost(void) {
+TEST(resets, what_is_lost) {
     run_with(NULL);
     well = h;
     TEST_ASSERT_EQUAL_INT(4, well.edges);
@@ -144,7 +137,7 @@ static void test_what_is_lost(void) {
 }
 
 /* Without kicks the watchdog cuts, or resets the processor, which must then be restarted. */
-static void test_watchdog(void) {
+TEST(resets, watchdog) {
     run_with("unkicked@0.5");
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[240] > 0.0 && h.push[260] == 0.0);
     run_with("watchdog-resets@0.6"); /* a firmware that kicks is not reset */
@@ -158,10 +151,4 @@ static void test_watchdog(void) {
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == 0.0);
     run_with("watchdog-resets=0,unkicked@0.5"); /* and again, and again */
     TEST_ASSERT_TRUE(h.resets > 50);
-}
-
-void suite_resets(void) {
-    RUN_TEST(test_instants);
-    RUN_TEST(test_what_is_lost);
-    RUN_TEST(test_watchdog);
 }

@@ -8,14 +8,6 @@
 #include "command.h"
 #include "motion.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "unity.h"
-
-void suite_rounding(void);
-
 #define U 0x1p-24
 
 static void expect_within(const char *what, double least, double most, double got) {
@@ -36,7 +28,7 @@ static double error_at(const char *name, const char *time, stepping how) {
  * walk has an error of 9 s / sqrt(3) times the final walk. */
 static double gear_walk(double steps) { return sqrt(steps / 3.0) * 16.0 * U * 9.0 / sqrt(3.0); }
 
-static void test_float_on_the_epicyclic_gear(void) {
+TEST(rounding, float_on_the_epicyclic_gear) {
     const double theta_at_9s = 89.63;
     const double plain = error_at("epicyclic_from_rest", "9.0", IN_FLOAT);
     const double compensated = error_at("epicyclic_from_rest", "9.0", IN_FLOAT_COMPENSATED);
@@ -49,7 +41,7 @@ static void test_float_on_the_epicyclic_gear(void) {
 
 /* The motion amplifies an initial change 6e3-fold by 5 s (test_accuracy.c). theta2' reaches 16 rad/s: each step
  * rounds it by up to 8 U. */
-static void test_float_on_thomson_device(void) {
+TEST(rounding, float_on_thomson_device) {
     const double amplified = 6e3 * U;
     const double plain = error_at("thomson_a", "5.0", IN_FLOAT_STEP(1e-3));
     const double compensated = error_at("thomson_a", "5.0", IN_FLOAT_COMPENSATED_STEP(1e-3));
@@ -104,7 +96,7 @@ static double middle_error(const char *name, double until_s, double step_s) {
 /* The step's constants have two parts, the lists' are floats. The error must not grow as steps shrink, nor with steps
  * that float cannot hold. The gear without its carriage has one rounded constant, 25/9; one operation more cannot
  * remove it. */
-static void test_no_step_is_too_small_for_compensated_sums(void) {
+TEST(rounding, no_step_is_too_small_for_compensated_sums) {
     static const double step_s[] = {1e-3, 0.9e-4, 1e-5};
     const double theta_at_9s = 89.63;
     const unsigned steps = few_or_all(1, sizeof step_s / sizeof step_s[0]);
@@ -148,7 +140,7 @@ static double good_until_s(stepping how) {
 
 /* The motion amplifies an initial change 6e3-fold by 5 s, 2e4-fold by 9 s and 1e9-fold by 10 s. An error of 200 U in
  * all reaches 1e-3 at about 5 s, one of U or less after 9 s. The 1e-11 of double's step cannot reach 10 s either. */
-static void test_how_long_a_chaotic_trajectory_is_good(void) {
+TEST(rounding, how_long_a_chaotic_trajectory_is_good) {
     expect_within("S8 good to 1e-3 until, s: float, 1 ms", 4.0, 8.5,
                   good_until_s(IN_FLOAT_STEP(1e-3)));
     expect_within("S8 good to 1e-3 until, s: float compensated", 8.5, 9.6,
@@ -183,7 +175,7 @@ static double rms_of_float(double step_s, bool compensated) {
 }
 
 /* 64 times as many steps: a random walk goes 8 times as far. */
-static void test_small_steps_cost_plain_sums_precision_only(void) {
+TEST(rounding, small_steps_cost_plain_sums_precision_only) {
     const double coarse = rms_of_float(4e-3, false);
     const double fine = rms_of_float(62.5e-6, false);
     const double coarse_compensated = rms_of_float(4e-3, true);
@@ -196,7 +188,7 @@ static void test_small_steps_cost_plain_sums_precision_only(void) {
                   fine_compensated / coarse_compensated);
 }
 
-static void test_a_million_steps(void) {
+TEST(rounding, a_million_steps) {
     stepping how = IN_FLOAT;
     how.step_s = 9e-6;
     const double plain = error_at("epicyclic_from_rest", "9.0", how);
@@ -219,7 +211,7 @@ static const char rotor[] = "mechanism rotor\n"
 
 /* theta = rate * time: after a million turns the error is that of one product. A sum in float radians resolves only
  * half a radian there. */
-static void test_a_million_turns_at_constant_rate(void) {
+TEST(rounding, a_million_turns_at_constant_rate) {
     const double step_rad = 2500.0 / 1024.0; /* exact in float */
     const unsigned steps = 2573593;
     const double wanted = step_rad * steps;
@@ -258,7 +250,7 @@ static const char started[] = "mechanism started_rotor\n"
 /* theta = a t^2/2 with a = 2^-14 and h = 2^-10 s: every rate is exact, so only the angle is rounded. Rounded to
  * nearest it walks by sqrt(N/12) steps of 1.5e-9 rad. Truncation would lose half of that in each of 1e5 steps, 7e-5
  * rad. The constants of the step add 2 U of the angle. */
-static void test_angle_steps_are_rounded_not_cut(void) {
+TEST(rounding, angle_steps_are_rounded_not_cut) {
     const double N = 1e5;
     const double t = N / 1024.0;
     const double wanted = t * t / 32768.0;
@@ -274,7 +266,7 @@ static void test_angle_steps_are_rounded_not_cut(void) {
 }
 
 /* A gear that starts a million turns on moves like one from zero, to the bit. */
-static void test_motion_after_a_million_turns_is_the_same(void) {
+TEST(rounding, motion_after_a_million_turns_is_the_same) {
     static const char *const others[] = {"X", "theta'", "X'"};
     stepping how = IN_FLOAT;
     motion m;
@@ -294,16 +286,4 @@ static void test_motion_after_a_million_turns_is_the_same(void) {
     TEST_ASSERT_TRUE(motion_value(&m, "theta") > 80.0);
     motion_close(&m);
     motion_close(&turned);
-}
-
-void suite_rounding(void) {
-    RUN_TEST(test_float_on_the_epicyclic_gear);
-    RUN_TEST(test_float_on_thomson_device);
-    RUN_TEST(test_no_step_is_too_small_for_compensated_sums);
-    RUN_TEST(test_how_long_a_chaotic_trajectory_is_good);
-    RUN_TEST(test_small_steps_cost_plain_sums_precision_only);
-    RUN_TEST(test_a_million_steps);
-    RUN_TEST(test_a_million_turns_at_constant_rate);
-    RUN_TEST(test_angle_steps_are_rounded_not_cut);
-    RUN_TEST(test_motion_after_a_million_turns_is_the_same);
 }

@@ -1,15 +1,7 @@
 /* test_running_error.c: bound on a list's round-off, for drawn lists of every operation. By definition it is each
  * operation's own rounding plus the operands' errors times the slopes. Here the slopes are finite differences. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "command.h"
 #include "host/engine/rounding.h"
-
-#include "unity.h"
-
-void suite_running_error(void);
 
 enum { LEAVES = 6, ANGLES = 2, DRAWN = 14, MOST_OPS = 80 };
 
@@ -194,7 +186,7 @@ static void draw_list(dice *d, drawn_list *l) {
     TEST_ASSERT_TRUE(l->list->count <= MOST_OPS);
 }
 
-static void test_drawn_lists(void) {
+TEST(running_error, drawn_lists) {
     dice d = dice_of("running_error", 2315);
     unsigned of_code[OPS] = {0};
     unsigned held = 0;
@@ -234,7 +226,7 @@ static void test_drawn_lists(void) {
 }
 
 /* A sum or root of zero operands is exact: no error, except for underflow. */
-static void test_nothing_is_off_by_nothing(void) {
+TEST(running_error, nothing_is_off_by_nothing) {
     op_list *t = op_list_new(0, 2);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
     const int y = op_list_leaf(t, OP_LINEAR, 1);
@@ -253,7 +245,7 @@ static void test_nothing_is_off_by_nothing(void) {
 }
 
 /* z/(x*y): a product above float's largest number destroys the quotient; double holds it. */
-static void test_what_is_beyond_float(void) {
+TEST(running_error, what_is_beyond_float) {
     dice d = dice_of("running_error", 2316);
     op_list *t = op_list_new(0, 1);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
@@ -282,7 +274,7 @@ static void test_what_is_beyond_float(void) {
 }
 
 /* An infinite bound stays infinite after a division: z/(y + sqrt(x + w)) with a root at zero. */
-static void test_no_bound_stays_none(void) {
+TEST(running_error, no_bound_stays_none) {
     dice d = dice_of("running_error", 2317);
     op_list *t = op_list_new(0, 1);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
@@ -307,11 +299,4 @@ static void test_no_bound_stays_none(void) {
         TEST_ASSERT_TRUE(isinf(error));
     }
     op_list_free(t);
-}
-
-void suite_running_error(void) {
-    RUN_TEST(test_drawn_lists);
-    RUN_TEST(test_nothing_is_off_by_nothing);
-    RUN_TEST(test_what_is_beyond_float);
-    RUN_TEST(test_no_bound_stays_none);
 }

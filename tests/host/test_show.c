@@ -1,12 +1,7 @@
 /* test_show.c: printed expressions: the language's parser reads them back as the same expression, and their LaTeX
  * compiles (latex.h). Random expressions and mechanisms with fixed seeds; SHOW_CASES=N takes N of them instead of
  * some hundreds. Also events. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/emit/emit.h"
 #include "host/show/show.h"
@@ -19,11 +14,6 @@
 #include "parsed.h"
 #include "printed.h"
 #include "reread.h"
-
-#include "unity.h"
-
-void suite_show(void);
-void suite_show_events(void);
 
 /* === show ===================================================================================== */
 
@@ -124,7 +114,7 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
     return compared;
 }
 
-static void test_expressions_are_read_back_as_printed(void) {
+TEST(show, expressions_are_read_back_as_printed) {
     const int wanted = cases(600);
     uint64_t seed = 20;
     int compared = 0;
@@ -264,7 +254,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
     return compared;
 }
 
-static void test_mechanisms_are_read_back_as_printed(void) {
+TEST(show, mechanisms_are_read_back_as_printed) {
     const int wanted = cases(600) / 10;
     uint64_t seed = 21;
     int compared = 0;
@@ -293,7 +283,7 @@ static double q_or_n(void *context, const char *name, int length) {
 
 /* Factored, this right side would contain the expanded square of a large sum, which overflows. Once the print lacked
  * the overflowed part. */
-static void test_printing_outlives_an_overflow(void) {
+TEST(show, printing_outlives_an_overflow) {
     char *source_text =
         repeated("mechanism m\ncoordinate q\nparameter n = 0.1\nlet a0 = q\n",
                  "let a# = exp(-abs(a@*q + a@ + n))\n", 13,
@@ -319,12 +309,6 @@ static void test_printing_outlives_an_overflow(void) {
     free(text);
     derived_free(&d);
     free(source_text);
-}
-
-void suite_show(void) {
-    RUN_TEST(test_expressions_are_read_back_as_printed);
-    RUN_TEST(test_mechanisms_are_read_back_as_printed);
-    RUN_TEST(test_printing_outlives_an_overflow);
 }
 
 /* === show events ============================================================================== */
@@ -381,12 +365,12 @@ static void as_latex(FILE *out, const derived *d) { show_latex(out, d->equations
 
 static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "block.whirl", false); }
 
-static void test_events_stand_beside_the_equations(void) {
+TEST(show_events, events_stand_beside_the_equations) {
     expect(as_text, "", true);
     expect(as_octave, "%", true); /* comments: not part of the function */
 }
 
-static void test_no_events_no_word_of_them(void) {
+TEST(show_events, no_events_no_word_of_them) {
     expect(as_text, "", false);
     expect(as_latex, "", false);
     expect(as_octave, "%", false);
@@ -451,12 +435,6 @@ static int check_scene(const scene *of) {
     return all;
 }
 
-static void test_every_form_names_the_contacts(void) {
+TEST(show_events, every_form_names_the_contacts) {
     TEST_ASSERT_GREATER_THAN_INT(40, each_builtin_scene(check_scene));
-}
-
-void suite_show_events(void) {
-    RUN_TEST(test_events_stand_beside_the_equations);
-    RUN_TEST(test_no_events_no_word_of_them);
-    RUN_TEST(test_every_form_names_the_contacts);
 }

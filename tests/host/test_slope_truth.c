@@ -1,12 +1,8 @@
 /* test_slope_truth.c: the rig's measurement with noise, jitter and motors of another torque slope than configured.
  * The reference is a rotor integrated finely in double (rig_orbit.c). Seeds are fixed; WHIRL_FULL=1 (`make
  * rig-truth`) takes 200 runs of each kind and prints the loads. */
-#include <math.h>
-#include <stdio.h>
-
 #include "command.h"
 #include "rig_orbit.h"
-#include "unity.h"
 
 void suite_slope_truth(void);
 
@@ -58,7 +54,7 @@ static tally measure_many(double cell_N, unsigned runs, uint64_t seed) {
 
 /* A good result is right: always with the cell's own noise. With more noise a 95 % interval misses some, with any
  * motor. The right slope never causes a doubt. */
-static void test_other_slopes(void) {
+TEST(slope_truth, other_slopes) {
     static const double rpms[] = {170.0, 200.0, 260.0, 330.0};
     static const double slopes[] = {0.0, 0.3, 0.5, 0.8, 1.0, 1.3, 1.5};
     static const double cells_N[] = {0.07, 1.0, 3.0};
@@ -90,5 +86,4 @@ void suite_slope_truth(void) {
     wh_result_config unused;
     wh_cell_config unused_cell;
     rig_measure_config(&unused, &rotor, &unused_cell);
-    RUN_TEST(test_other_slopes);
 }

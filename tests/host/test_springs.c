@@ -1,12 +1,6 @@
 /* test_springs.c: the scene springs_ring, with forces of every function of the core. The reference integrates its
  * equations, written by hand, by classic Runge-Kutta in long double with libm. */
-#include <math.h>
-#include <stdio.h>
-
 #include "motion.h"
-#include "unity.h"
-
-void suite_springs(void);
 
 #define PI_L 3.141592653589793238462643383279502884L
 
@@ -74,11 +68,9 @@ static double distance(stepping how) {
     return worst;
 }
 
-static void test_every_law_pushes_as_it_should(void) {
+TEST(springs, every_law_pushes_as_it_should) {
     const double in_double = distance(IN_DOUBLE);
     const double in_float = distance(IN_FLOAT);
     TEST_ASSERT_TRUE(in_double < 1.5e-8);
     TEST_ASSERT_TRUE(in_float < 5e-6 && in_float > 1e-7);
 }
-
-void suite_springs(void) { RUN_TEST(test_every_law_pushes_as_it_should); }

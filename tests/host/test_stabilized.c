@@ -1,18 +1,11 @@
 /* test_stabilized.c: energy restored by --stabilized (core/step/stabilize.h), for drawn chains of pendulums on a
  * cart. The test computes their energy from positions and velocities. Also motions that must not change. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "motion.h"
 
-#include "unity.h"
-
 void suite_stabilized(void);
-void suite_stabilized_beside(void);
 
 /* === stabilized =============================================================================== */
 
@@ -147,7 +140,7 @@ static drift drift_of(const chain *c, stepping how, uint64_t steps) {
 
 /* Each step restores a thousandth of the drift. So the deficit is at most a few times the loss of a thousand steps,
  * in a run of any length. */
-static void test_energy_stays(void) {
+TEST(stabilized, energy_stays) {
     static const struct {
         const engine_kind *kind;
         bool compensated;
@@ -214,7 +207,7 @@ static double way_off(const char *text, const chain *c, stepping how, double end
 }
 
 /* In a driven and damped motion with a right energy balance, the error is about the same with and without. */
-static void test_motion_is_left_alone(void) {
+TEST(stabilized, motion_is_left_alone) {
     dice d = dice_of("stabilized motions", 20261129);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 80)), 4);
     double worst = 0.0;
@@ -244,7 +237,7 @@ static void test_motion_is_left_alone(void) {
 }
 
 /* Without a rate that has energy to give, nothing is restored. */
-static void test_rest_stays_rest(void) {
+TEST(stabilized, rest_stays_rest) {
     dice d = dice_of("stabilized rests", 20261130);
     for (unsigned i = 0; i < 10; i++) {
         chain c = drawn_chain(&d);
@@ -275,7 +268,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
 }
 
 /* Stabilization must not hide a coarse step: a loss of one hundredth in a thousand steps still gives the warning. */
-static void test_coarse_steps_are_told(void) {
+TEST(stabilized, coarse_steps_are_told) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
         const double swing = dice_between(&d, 0.3, 1.5); /* h w */
@@ -295,7 +288,7 @@ static void test_coarse_steps_are_told(void) {
 
 /* Two masses with a slow common swing and a fast relative one, too fast for the step. Its loss is given to both, so
  * the warning must be the same as without. */
-static void test_what_others_lost_is_told(void) {
+TEST(stabilized, what_others_lost_is_told) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
     unsigned told = 0;
@@ -340,7 +333,7 @@ static double apart(const char *text, const char *name, stepping plain, double e
 
 /* A hidden swing, too fast even for half the step, loses energy into one whose period depends on energy. Second, a
  * light pendulum next to one so heavy that its last digits of energy matter to the light one. */
-static void test_what_is_made_wrong_is_not_trusted(void) {
+TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
     unsigned wrong = 0;
@@ -382,15 +375,7 @@ static void test_what_is_made_wrong_is_not_trusted(void) {
     TEST_ASSERT_TRUE(2 * wrong >= cases);
 }
 
-void suite_stabilized(void) {
-    UnitySetTestFile(__FILE__);
-    RUN_TEST(test_energy_stays);
-    RUN_TEST(test_motion_is_left_alone);
-    RUN_TEST(test_rest_stays_rest);
-    RUN_TEST(test_coarse_steps_are_told);
-    RUN_TEST(test_what_others_lost_is_told);
-    RUN_TEST(test_what_is_made_wrong_is_not_trusted);
-}
+void suite_stabilized(void) { UnitySetTestFile(__FILE__); }
 
 /* === stabilized beside ======================================================================== */
 /* Effect of --stabilized on a slow motion next to a swing: a free wheel or cart with little energy. The swing loses
@@ -446,7 +431,7 @@ static double slow_off(const beside *b, stepping how, uint64_t steps) {
     return most;
 }
 
-static void test_what_is_slow_gets_its_part(void) {
+TEST(stabilized_beside, what_is_slow_gets_its_part) {
     dice d = dice_of("stabilized beside", 20261204);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 100)), 4);
     const uint64_t steps = 200000;
@@ -471,5 +456,3 @@ static void test_what_is_slow_gets_its_part(void) {
     printf("  %u pairs: the slow one's rate changes by %.2f to %.2f of the part that is lost\n",
            cases, least, most);
 }
-
-void suite_stabilized_beside(void) { RUN_TEST(test_what_is_slow_gets_its_part); }

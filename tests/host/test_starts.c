@@ -1,19 +1,10 @@
 /* test_starts.c: checks of a start. Drawn scenes have stops, any of which may be passed, and losses, which kick-drift
  * methods do not take. The report has each passed stop with its place and depth, and no other. For losses it has the
  * first coordinate. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "host/engine/start.h"
-
-#include "unity.h"
-
-void suite_starts(void);
 
 enum { MOST = 5, TEXT = 4000 };
 
@@ -36,7 +27,7 @@ static unsigned times(const char *text, const char *what) {
 }
 
 /* Line 2 + i has coordinate i, and line 10 + i its stop, at 0 m or at 1 m. */
-static void test_stops_that_are_passed(void) {
+TEST(starts, stops_that_are_passed) {
     dice d = dice_of("starts", 2316);
     unsigned refused = 0;
     for (unsigned n = few_or_all(60, 600); n > 0; n--) {
@@ -98,7 +89,7 @@ static void test_stops_that_are_passed(void) {
     TEST_ASSERT_TRUE(refused > 20);
 }
 
-static void test_kicks_know_no_rates(void) {
+TEST(starts, kicks_know_no_rates) {
     for (int count = 1; count <= MOST; count++) {
         for (int lossy = -1; lossy < count; lossy++) {
             char text[TEXT] = "mechanism m\n";
@@ -141,7 +132,7 @@ static void test_kicks_know_no_rates(void) {
 
 /* Angles used in sines that start further than float counts turns: the report names each, at its declaration or
  * start, and no other. */
-static void test_angles_that_start_too_far(void) {
+TEST(starts, angles_that_start_too_far) {
     dice d = dice_of("starts", 2317);
     for (unsigned n = few_or_all(60, 600); n > 0; n--) {
         char text[TEXT] = "mechanism m\n";
@@ -188,7 +179,7 @@ static void test_angles_that_start_too_far(void) {
     }
 }
 
-static void test_momenta_are_no_kicks(void) {
+TEST(starts, momenta_are_no_kicks) {
     for (int first = 0; first < 3; first++) {
         char text[TEXT];
         char what[120];
@@ -213,11 +204,4 @@ static void test_momenta_are_no_kicks(void) {
         diags_free(errors);
         derived_free(&made);
     }
-}
-
-void suite_starts(void) {
-    RUN_TEST(test_stops_that_are_passed);
-    RUN_TEST(test_kicks_know_no_rates);
-    RUN_TEST(test_angles_that_start_too_far);
-    RUN_TEST(test_momenta_are_no_kicks);
 }

@@ -1,20 +1,10 @@
 /* test_swings.c: energy warnings of `whirl run` for nonlinear systems. Predator and prey has the invariant H = u - ln
  * u + v - ln v; the warning is compared with its drift, in any method, step and number. Also a forced swing. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "motion.h"
 #include "named_cures.h"
-
-#include "unity.h"
-
-void suite_swings(void);
-void suite_forced_swing(void);
 
 /* === swings =================================================================================== */
 
@@ -80,7 +70,7 @@ static double lost_of(const prey *p, const char *text, double *off) {
     return ran ? fabs(left / kept(p, p->u, 1.0) - 1.0) : (double)NAN;
 }
 
-static void test_predator_and_prey(void) {
+TEST(swings, predator_and_prey) {
     dice d = dice_of("swings", 14004);
     const unsigned cases = dice_cases(few_or_all(16, 100));
     unsigned told = 0;
@@ -125,8 +115,6 @@ static void test_predator_and_prey(void) {
            told, TOLD, silent, SILENT);
     TEST_ASSERT_TRUE(told > cases / 8 && silent > cases / 8);
 }
-
-void suite_swings(void) { RUN_TEST(test_predator_and_prey); }
 
 /* === forced swing ============================================================================= */
 /* A damped or undamped body on a spring, driven by a force that turns 0.3 to 1.8 rad a step. That is fast for the
@@ -284,15 +272,15 @@ static void hold(const char *number, const char *method) {
                      (t.wrong > 0 || cases < 100 || strcmp(method, "rk4") != 0));
 }
 
-static void test_in_float(void) { hold("float", "rk4"); }
-static void test_in_double(void) { hold("double", "rk4"); }
-static void test_other_methods(void) {
+TEST(forced_swing, in_float) { hold("float", "rk4"); }
+TEST(forced_swing, in_double) { hold("double", "rk4"); }
+TEST(forced_swing, other_methods) {
     hold("double", "rk38");
     hold("double", "nystroem5");
 }
 
 /* Whole turns a step, and slightly more or less: the difference aliases into a slow force. */
-static void test_nearly_whole_turns(void) {
+TEST(forced_swing, nearly_whole_turns) {
     static const int turns[] = {1, 2, 3, 4, 5, 6, 8, 12, 16};
     static const char *const methods[] = {"rk4", "nystroem4", "nystroem5", "rk38", "heun"};
     dice d = dice_of("nearly whole turns", 4457);
@@ -321,11 +309,4 @@ static void test_nearly_whole_turns(void) {
         "of, none trusted to the end; %u cures, all silent and right\n",
         cases, t.right, t.wrong, t.told, t.cured);
     TEST_ASSERT_TRUE(t.wrong > cases / 4 && t.cured > cases / 8);
-}
-
-void suite_forced_swing(void) {
-    RUN_TEST(test_in_float);
-    RUN_TEST(test_in_double);
-    RUN_TEST(test_other_methods);
-    RUN_TEST(test_nearly_whole_turns);
 }

@@ -2,16 +2,9 @@
  * some with hidden outside forces. The reference differentiates the energies by its own formulas and takes the rank
  * of their changes at drawn states. Built-in mechanisms: tests/cli/examine.sh. WHIRL_CASES=5000 WHIRL_SEED=... draws
  * more or other cases. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/derive/symmetry.h"
-#include "unity.h"
-
-void suite_symmetry(void);
 
 enum {
     ROWS = 7,
@@ -253,7 +246,7 @@ static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *co
     *conserved = columns - rank_by_hand(a, all_rows, columns);
 }
 
-static void test_particles(void) {
+TEST(symmetry, particles) {
     char text[TEXT];
     char why[TEXT + 100];
     dice die = dice_of("symmetry", 1);
@@ -299,5 +292,3 @@ static void test_particles(void) {
     }
     TEST_ASSERT_TRUE(with_rotation > 0 && with_none > 0);
 }
-
-void suite_symmetry(void) { RUN_TEST(test_particles); }

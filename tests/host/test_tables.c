@@ -1,20 +1,10 @@
 /* test_tables.c: accelerations from tables of one angle's functions (--tables): error of the tables, error and order
  * of the motion, and refusals. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "core/step/table.h"
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "table_check.h"
-#include "unity.h"
-
-void suite_tables(void);
 
 enum { VALUES = 3 * IMAGE_COMPONENTS_MAX, RESULTS = 8 };
 
@@ -75,12 +65,12 @@ static int check_scene(const scene *s) {
     return has;
 }
 
-static void test_tables_are_as_near_as_they_say(void) {
+TEST(tables, tables_are_as_near_as_they_say) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(9, each_builtin_scene(check_scene));
 }
 
 /* Twice the cells divide the error by 4 and by 16. */
-static void test_errors_of_tables_fall_by_their_order(void) {
+TEST(tables, errors_of_tables_fall_by_their_order) {
     derived d = derived_builtin("epicyclic_from_rest");
     for (int f = 0; f < FORMS; f++) {
         for (int cells = 64; cells < 512; cells *= 2) {
@@ -107,7 +97,7 @@ static double piece(const op_list_tables *t, int k, int cell, double y, int deri
     return value;
 }
 
-static void test_pieces_meet_in_values_and_cubic_ones_in_slopes(void) {
+TEST(tables, pieces_meet_in_values_and_cubic_ones_in_slopes) {
     derived d = derived_builtin("halvorson_smooth");
     for (int f = 0; f < FORMS; f++) {
         image *im = tabled_surely(&d, both[f], 32);
@@ -258,7 +248,7 @@ static double compare(const comparison *c, int coordinates, uint64_t *seed, cons
     return worst;
 }
 
-static void test_generated_accelerations_are_as_near_as_the_tables(void) {
+TEST(tables, generated_accelerations_are_as_near_as_the_tables) {
     double worst = 0.0;
     const int cases = (int)dice_cases(few_or_all(8, 40));
     for (int n = 0; n < cases; n++) {
@@ -312,7 +302,7 @@ static int by_size(const void *x, const void *y) {
 
 /* Error of the motion by cell size. The tables have order 2 and 4, but the mean error over a cell vanishes at that
  * order. Only the cells at the start and end of the motion contribute: one order more. */
-static void test_generated_motions_near_the_exact_ones_by_order(void) {
+TEST(tables, generated_motions_near_the_exact_ones_by_order) {
     enum { MOST = 300 };
     double order[MOST];
     const int wanted = (int)dice_cases(few_or_all(6, 24));
@@ -364,7 +354,7 @@ static double order_of(image *im) {
     return order[TIMES / 2];
 }
 
-static void test_straight_pieces_end_the_order_of_the_step(void) {
+TEST(tables, straight_pieces_end_the_order_of_the_step) {
     derived d = derived_scene("mechanism p\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                               "V = -30 [J]*cos(a)\n"
                               "scene s { start a = 1, a' = 9 [rad/s]; step 4 [ms]; until 1 [s] }\n",
@@ -416,7 +406,7 @@ static const struct {
      "V = 1 [J]*cos(a)\nstop x >= 0 [m] restitution 0.5\n",
      "a step with events looks at more than tables hold", "6:1"}};
 
-static void test_what_has_not_that_form_is_refused_with_its_place(void) {
+TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         derived d = derived_text(refused[i].text);
         derived_expect(&d, refused[i].text);
@@ -434,7 +424,7 @@ static void test_what_has_not_that_form_is_refused_with_its_place(void) {
 }
 
 /* Angles that occur only as a difference, or as multiples of one. */
-static void test_one_sum_of_angles_is_one_phase(void) {
+TEST(tables, one_sum_of_angles_is_one_phase) {
     derived d = derived_text("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
                              "T = 1 [kg*m^2]*(a'^2 + b'^2 + a'*b'*cos(4*a - 2*b)/2)\n"
                              "V = 1 [J]*cos(6*a - 3*b + 1)\n");
@@ -452,15 +442,4 @@ static void test_one_sum_of_angles_is_one_phase(void) {
     TEST_ASSERT_EQUAL_INT(1, cells);
     image_free(im);
     derived_free(&d);
-}
-
-void suite_tables(void) {
-    RUN_TEST(test_tables_are_as_near_as_they_say);
-    RUN_TEST(test_errors_of_tables_fall_by_their_order);
-    RUN_TEST(test_pieces_meet_in_values_and_cubic_ones_in_slopes);
-    RUN_TEST(test_generated_accelerations_are_as_near_as_the_tables);
-    RUN_TEST(test_generated_motions_near_the_exact_ones_by_order);
-    RUN_TEST(test_straight_pieces_end_the_order_of_the_step);
-    RUN_TEST(test_what_has_not_that_form_is_refused_with_its_place);
-    RUN_TEST(test_one_sum_of_angles_is_one_phase);
 }

@@ -1,9 +1,5 @@
 /* test_talk.c: a drawn firmware on a line (host/pil/talk.h). Messages received, stored and hashed are compared with
  * those sent, and each error of a firmware has its message. Also tapes. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "core/cobs.h"
@@ -14,8 +10,7 @@
 #include "host/pil/taped.h"
 
 #include "drawn_talk.h"
-
-#include "unity.h"
+#include "test.h"
 
 void suite_talk(void);
 void suite_taped(void);
@@ -28,7 +23,7 @@ static void expect_same(const stream *wanted, const uint8_t *bytes, size_t lengt
 }
 
 /* The hello is requested first; everything goes to a tape; the end is answered by the same word. */
-static void test_heard_and_kept(void) {
+TEST(talk, heard_and_kept) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         static talk t;
         static stream heard;
@@ -130,7 +125,7 @@ static void make_version(uint8_t version, unsigned from) {
     talk_line.length = from + wh_cobs_end(&cobs);
 }
 
-static void test_wrong_words(void) {
+TEST(talk, wrong_words) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 22)); c++) {
         uint8_t payload[WH_ORDERS_BYTES + 4];
         talk_draw();
@@ -197,7 +192,7 @@ static void test_wrong_words(void) {
 }
 
 /* No hello, a malformed one, or one without a clock: the line is closed. Stale words before a good one are ignored. */
-static void test_hellos(void) {
+TEST(talk, hellos) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
         static stream heard;
@@ -231,7 +226,7 @@ static void test_hellos(void) {
     }
 }
 
-static void test_interrupted(void) {
+TEST(talk, interrupted) {
     for (int closed = 0; closed < 2; closed++) {
         static talk t;
         static stream heard;
@@ -254,7 +249,7 @@ static void test_interrupted(void) {
 }
 
 /* A program instead of a line: missing, or silent. */
-static void test_programs(void) {
+TEST(talk, programs) {
     static const char *const programs[] = {"/nowhere/at all", "/bin/true"};
     static const char *const words[] = {
         "/nowhere/at all: error: ", "/bin/true: error: it ended without a hello\nhint: is it made"};
@@ -273,7 +268,7 @@ static void test_programs(void) {
     }
 }
 
-static void test_no_reset(void) {
+TEST(talk, no_reset) {
     static talk t;
     static stream heard;
     talk_draw();
@@ -289,7 +284,7 @@ static void test_no_reset(void) {
 }
 
 /* Every relevant field of a hello makes it different; the name and counts do not. */
-static void test_same_hello(void) {
+TEST(talk, same_hello) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
         wh_signal signal[WH_SIGNALS_MAX];
         talk_draw();
@@ -328,16 +323,7 @@ static void test_same_hello(void) {
     }
 }
 
-void suite_talk(void) {
-    talk_die(dice_of("talk", 49));
-    RUN_TEST(test_heard_and_kept);
-    RUN_TEST(test_wrong_words);
-    RUN_TEST(test_hellos);
-    RUN_TEST(test_interrupted);
-    RUN_TEST(test_programs);
-    RUN_TEST(test_no_reset);
-    RUN_TEST(test_same_hello);
-}
+void suite_talk(void) { talk_die(dice_of("talk", 49)); }
 
 /* === taped ==================================================================================== */
 /* Invalid tapes: channels missing in their hello, words that would break a row, times beyond a wrap of the timer. */

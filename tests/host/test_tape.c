@@ -1,19 +1,12 @@
 /* test_tape.c: operations entered at random (host/image/op_list.c), compared with another evaluation. No operation is
  * duplicated, and each has its canonical form. Finding and dropping are compared with a search over all. Also
  * freedoms and gauges. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/image/op_list.h"
 #include "host/image/op_list_scaling.h"
 
 #include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
-
-#include "unity.h"
 
 void suite_tape_entered(void);
 void suite_tape_freed(void);
@@ -230,7 +223,7 @@ static void expect_found(void) {
     }
 }
 
-static void test_entered_operations_come_to_what_was_asked(void) {
+TEST(tape_entered, entered_operations_come_to_what_was_asked) {
     static double v[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(30, 8), 200)); c++) {
         enter_some();
@@ -283,7 +276,7 @@ static bool is_reciprocal(int i) {
     return is_code(i, OP_DIV) && is_number(list->ops[i].a, &one) && one == 1.0 && uses_of(i) == 1;
 }
 
-static void test_what_no_result_needs_is_dropped(void) {
+TEST(tape_entered, what_no_result_needs_is_dropped) {
     static double v[EVALUATED_MOST];
     const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(40, 10), 200)); c++) {
@@ -324,7 +317,7 @@ static int count_of(op_code code) {
 }
 
 /* By squaring: binary digits plus ones of the exponent, less two. */
-static void test_powers_take_few_products(void) {
+TEST(tape_entered, powers_take_few_products) {
     static double v[EVALUATED_MOST];
     for (int half = 1; half <= 160; half++) {
         for (int sign = 0; sign < 2; sign++) {
@@ -352,7 +345,7 @@ static void test_powers_take_few_products(void) {
 }
 
 /* Only integers in the range of int. */
-static void test_what_turns_a_phase(void) {
+TEST(tape_entered, what_turns_a_phase) {
     static const double whole[] = {0.0, 1.0, -3.0, 2147483647.0, -2147483647.0};
     static const double not_whole[] = {0.5, -1e-9, 2147483648.0, -2147483648.0, 1e300, 3.0000001};
     for (int i = 0; i < 5; i++) {
@@ -363,7 +356,7 @@ static void test_what_turns_a_phase(void) {
     }
 }
 
-static void test_functions_of_constants(void) {
+TEST(tape_entered, functions_of_constants) {
     die = dice_of("functions of constants", 4133);
     list = op_list_new(ANGLES, 1);
     for (int i = 0; i < 200; i++) {
@@ -387,14 +380,7 @@ static void test_functions_of_constants(void) {
     op_list_free(list);
 }
 
-void suite_tape_entered(void) {
-    die = dice_of("tape_entered", 4170);
-    RUN_TEST(test_entered_operations_come_to_what_was_asked);
-    RUN_TEST(test_what_no_result_needs_is_dropped);
-    RUN_TEST(test_powers_take_few_products);
-    RUN_TEST(test_what_turns_a_phase);
-    RUN_TEST(test_functions_of_constants);
-}
+void suite_tape_entered(void) { die = dice_of("tape_entered", 4170); }
 
 /* === tape freed =============================================================================== */
 /* Parts of op_list_gauge() (host/image/op_list_gauge.h). The effect of rounded constants on results has a closed
@@ -409,7 +395,7 @@ enum { RESULTS_MOST = 5, READ = 1, UNREAD_SHARE = 64 };
 
 /* Each result is a constant times a leaf, so its relative error is the constant's. A result not read again counts a
  * 64th. */
-static void test_a_constants_error_is_the_results(void) {
+TEST(tape_freed, a_constants_error_is_the_results) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
         const int angles = (int)dice_one_of(&die, 3);
         const int results = 1 + (int)dice_one_of(&die, RESULTS_MOST);
@@ -484,7 +470,7 @@ static int made_of(op_list *t, int x, unsigned what) {
     return op_list_pow(t, op_list_pow(t, x, op_list_constant(t, 0.125)), op_list_constant(t, 8.0));
 }
 
-static void test_errors_go_through_operations(void) {
+TEST(tape_freed, errors_go_through_operations) {
     for (unsigned what = 0; what < 12; what++) {
         for (int tries = 0; tries < 10; tries++) {
             const double number =
@@ -509,7 +495,7 @@ static void test_errors_go_through_operations(void) {
 }
 
 /* A sine of radians has the error of its angle times its slope. */
-static void test_errors_go_through_phases(void) {
+TEST(tape_freed, errors_go_through_phases) {
     for (int tries = 0; tries < 40; tries++) {
         const double offset = dice_between(&die, 0.1, 1.4);
         const double rad = decimal() / 10.0;
@@ -602,7 +588,7 @@ static int without_raw(const op_list_freedoms *f) {
 }
 
 /* For free numerators and denominators each quotient has one freedom, and a root half of it. */
-static void test_a_quotient_has_one_freedom(void) {
+TEST(tape_freed, a_quotient_has_one_freedom) {
     for (unsigned c = 0; c < dice_cases(60); c++) {
         const int quotients = 1 + (int)dice_one_of(&die, 4);
         op_list *t = op_list_new(0, quotients);
@@ -636,7 +622,7 @@ static void test_a_quotient_has_one_freedom(void) {
 }
 
 /* Raw leaves in the sums are multiplied: up to two are accepted, three are not. */
-static void test_few_raw_values_are_multiplied(void) {
+TEST(tape_freed, few_raw_values_are_multiplied) {
     for (int raws = 0; raws <= 3; raws++) {
         for (int in_denominator = 0; in_denominator < 2; in_denominator++) {
             op_list *t = op_list_new(0, 1);
@@ -711,7 +697,7 @@ static op_list *some_list(void) {
 
 /* Scaled by one, the list is the same. Scaled by an allowed or any other factor, the results are the same, with
  * compensation if needed. */
-static void test_multiplied_lists_compute_the_same(void) {
+TEST(tape_freed, multiplied_lists_compute_the_same) {
     const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
         op_list *t = some_list();
@@ -752,7 +738,7 @@ static int place_of(const op_list *t, double constant) {
 
 /* Products for operands are entered in a fixed order, the second operand's first. So code and hash do not depend on a
  * compiler's order of evaluation. */
-static void test_operands_are_entered_in_one_order(void) {
+TEST(tape_freed, operands_are_entered_in_one_order) {
     for (int what = 0; what < 6; what++) {
         op_list *t = op_list_new(0, 1);
         const int x = op_list_leaf(t, OP_INPUT, 0);
@@ -779,16 +765,7 @@ static void test_operands_are_entered_in_one_order(void) {
     }
 }
 
-void suite_tape_freed(void) {
-    die = dice_of("tape_freed", 4190);
-    RUN_TEST(test_a_constants_error_is_the_results);
-    RUN_TEST(test_errors_go_through_operations);
-    RUN_TEST(test_errors_go_through_phases);
-    RUN_TEST(test_a_quotient_has_one_freedom);
-    RUN_TEST(test_few_raw_values_are_multiplied);
-    RUN_TEST(test_multiplied_lists_compute_the_same);
-    RUN_TEST(test_operands_are_entered_in_one_order);
-}
+void suite_tape_freed(void) { die = dice_of("tape_freed", 4190); }
 
 /* === tape gauged ============================================================================== */
 /* Gauges that op_list_gauge() must find (host/image/op_list_gauge.h). The lists have a factor that makes all
@@ -854,7 +831,7 @@ static bool is_held(double unit) {
 }
 
 /* Integers over powers of five, three and seven, and times such powers, within the search. */
-static void test_decimals_and_thirds_become_whole(void) {
+TEST(tape_gauged, decimals_and_thirds_become_whole) {
     const long blocks = blocks_in_use();
     const unsigned few = few_or_all(usual_or(4, 12), 1);
     for (int fives = -6; fives <= 6; fives++) {
@@ -877,7 +854,7 @@ static void test_decimals_and_thirds_become_whole(void) {
 }
 
 /* A common irrational factor of all constants: without it they are integers. */
-static void test_constants_vanish(void) {
+TEST(tape_gauged, constants_vanish) {
     for (int tries = 0; tries < 20; tries++) {
         const double unit = dice_between(&die, 0.1, 10.0);
         op_list *t = op_list_new(0, 1);
@@ -906,7 +883,7 @@ static void test_constants_vanish(void) {
 }
 
 /* Up to 250 operations, including constants and leaves. */
-static void test_long_lists_are_left_alone(void) {
+TEST(tape_gauged, long_lists_are_left_alone) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;
         op_list *longer = op_list_new(0, 2);
@@ -927,7 +904,7 @@ static void test_long_lists_are_left_alone(void) {
 }
 
 /* One operation more, and one for each forty. */
-static void test_what_a_better_list_may_cost(void) {
+TEST(tape_gauged, what_a_better_list_may_cost) {
     op_list *t = op_list_new(0, 1);
     int sum = op_list_leaf(t, OP_INPUT, 0);
     for (int operations = 0; operations < 200; operations++) {
@@ -938,10 +915,4 @@ static void test_what_a_better_list_may_cost(void) {
     op_list_free(t);
 }
 
-void suite_tape_gauged(void) {
-    die = dice_of("tape_gauged", 4200);
-    RUN_TEST(test_decimals_and_thirds_become_whole);
-    RUN_TEST(test_constants_vanish);
-    RUN_TEST(test_long_lists_are_left_alone);
-    RUN_TEST(test_what_a_better_list_may_cost);
-}
+void suite_tape_gauged(void) { die = dice_of("tape_gauged", 4200); }

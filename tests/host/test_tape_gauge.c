@@ -4,17 +4,9 @@
 #include "host/derive/program.h"
 #include "host/image/op_list_scaling.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "mechanism.h"
-
-#include "unity.h"
-
-void suite_tape_gauge(void);
 
 enum { TEXT = 2000, STATES = 30 };
 
@@ -187,7 +179,7 @@ static void tell(const char *what, const tally *all) {
            all->before / all->changed);
 }
 
-static void test_decimal_mechanisms_lose_their_bias(void) {
+TEST(tape_gauge, decimal_mechanisms_lose_their_bias) {
     const int each = (int)few_or_all(4, 30);
     uint64_t seed = 20061;
     for (unsigned kind = 0; kind < 4; kind++) {
@@ -206,7 +198,7 @@ static void test_decimal_mechanisms_lose_their_bias(void) {
     }
 }
 
-static void test_any_mechanism_keeps_its_results(void) {
+TEST(tape_gauge, any_mechanism_keeps_its_results) {
     const unsigned cases = few_or_all(15, 120);
     tally all = {0};
     for (unsigned k = 0; k < cases; k++) {
@@ -221,7 +213,7 @@ static void test_any_mechanism_keeps_its_results(void) {
 }
 
 /* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: if M may be multiplied, all constants become exact. */
-static void test_a_quotient_gets_whole_numbers(void) {
+TEST(tape_gauge, a_quotient_gets_whole_numbers) {
     op_list *t = op_list_new(1, 1);
     const double one = 1.0;
     const int phase = op_list_phase(t, &one, 0.0, -1);
@@ -248,7 +240,7 @@ static void test_a_quotient_gets_whole_numbers(void) {
     op_list_free(t);
 }
 
-static void test_scenes_have_no_freedom_for_nothing(void) {
+TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
     static const double left[] = {0.1, 0.5}; /* of the bias; op_list_gauge() promises the second */
     for (int k = 0; k < 2; k++) {
@@ -267,7 +259,7 @@ static void test_scenes_have_no_freedom_for_nothing(void) {
 }
 
 /* Lists without constants, with exact constants only, or with one constant that costs a product more. */
-static void test_what_needs_nothing_stays(void) {
+TEST(tape_gauge, what_needs_nothing_stays) {
     static const double number[] = {1.0, 0.375, 0.3};
     for (int k = 0; k < 3; k++) {
         op_list *t = op_list_new(0, 1);
@@ -279,12 +271,4 @@ static void test_what_needs_nothing_stays(void) {
         TEST_ASSERT_TRUE(op_list_hash(t) == hash);
         op_list_free(t);
     }
-}
-
-void suite_tape_gauge(void) {
-    RUN_TEST(test_a_quotient_gets_whole_numbers);
-    RUN_TEST(test_scenes_have_no_freedom_for_nothing);
-    RUN_TEST(test_what_needs_nothing_stays);
-    RUN_TEST(test_decimal_mechanisms_lose_their_bias);
-    RUN_TEST(test_any_mechanism_keeps_its_results);
 }

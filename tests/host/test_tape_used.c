@@ -1,13 +1,10 @@
 /* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, tape_sums.c, image.c). Drawn
  * lists are compared with counts, path searches and comparisons of the test's own. */
-#include <math.h>
-#include <string.h>
-
 #include "blocks.h"
 #include "drawn_scene.h"
 #include "evaluated.h"
 #include "host/base/alloc.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_tape_used(void);
 
@@ -72,7 +69,7 @@ static void each_list(unsigned cases, void (*check)(scene_list *l)) {
 }
 
 static void check_list_counts(scene_list *l) { check_counts(&l->list); }
-static void test_operations_are_counted(void) { each_list(200, check_list_counts); }
+TEST(tape_used, operations_are_counted) { each_list(200, check_list_counts); }
 
 /* Does operation i depend on operation `by`? */
 static bool leads_from(const op_list *t, int i, int by) {
@@ -106,7 +103,7 @@ static void check_finite(scene_list *l) {
     *number = kept;
 }
 
-static void test_what_is_no_number_is_found_in_results(void) { each_list(200, check_finite); }
+TEST(tape_used, what_is_no_number_is_found_in_results) { each_list(200, check_finite); }
 
 static const double fits[] = {0.0, -0.0, 0x1p-126, -0x1p-126, 1.0, 0x1.fffffep127, -3e38};
 static const double fits_not[] = {0x1.fffffep-127,   -1e-40,           0x1.ffffffp127, 1e39,
@@ -125,7 +122,7 @@ static void check_fit(scene_list *l) {
     TEST_ASSERT_TRUE(op_list_out_of_float(t) == wanted);
 }
 
-static void test_what_float_has_no_room_for(void) {
+TEST(tape_used, what_float_has_no_room_for) {
     for (int i = 0; i < 7; i++) {
         TEST_ASSERT_TRUE(fits_float(fits[i]));
         TEST_ASSERT_FALSE(fits_float(fits_not[i]));
@@ -135,7 +132,7 @@ static void test_what_float_has_no_room_for(void) {
 }
 
 /* Lists that move the scene, and its inputs; not lists for output only. */
-static void test_images_know_what_float_has_no_room_for(void) {
+TEST(tape_used, images_know_what_float_has_no_room_for) {
     for (unsigned c = 0; c < dice_cases(300); c++) {
         drawn_scene_draw(&drawn, &die);
         image *im = &drawn.im;
@@ -156,7 +153,7 @@ static void test_images_know_what_float_has_no_room_for(void) {
     }
 }
 
-static void test_images_are_read(void) {
+TEST(tape_used, images_are_read) {
     for (unsigned c = 0; c < dice_cases(100); c++) {
         drawn_scene_draw(&drawn, &die);
         const image *im = &drawn.im;
@@ -237,7 +234,7 @@ static void check_hash(scene_list *l) {
     TEST_ASSERT_TRUE(hash == op_list_hash(t));
 }
 
-static void test_a_hash_is_of_everything(void) { each_list(60, check_hash); }
+TEST(tape_used, a_hash_is_of_everything) { each_list(60, check_hash); }
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
@@ -278,7 +275,7 @@ static int products(const op_list *t) {
     return count;
 }
 
-static void test_sums_share_their_halves(void) {
+TEST(tape_used, sums_share_their_halves) {
     static double before[EVALUATED_MOST];
     static double after[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(300); c++) {
@@ -308,7 +305,7 @@ static void test_sums_share_their_halves(void) {
 }
 
 /* If nothing can be shared, the list stays as it is, including unused operations. */
-static void test_other_lists_are_left_alone(void) {
+TEST(tape_used, other_lists_are_left_alone) {
     for (unsigned way = 3; way < 7; way++) {
         op_list *t = op_list_new(0, 3);
         op_list_leaf(t, OP_TIME, 0);
@@ -322,7 +319,7 @@ static void test_other_lists_are_left_alone(void) {
     }
 }
 
-static void test_lists_are_given_back(void) {
+TEST(tape_used, lists_are_given_back) {
     const long blocks = blocks_in_use();
     for (int size = 1; size < 600; size *= 2) {
         op_list *t = op_list_new(2, 3);
@@ -348,7 +345,7 @@ static void test_lists_are_given_back(void) {
 }
 
 /* An image frees its own lists, and not those shared from another image. */
-static void test_images_are_given_back(void) {
+TEST(tape_used, images_are_given_back) {
     const long blocks = blocks_in_use();
     image_free(NULL);
     struct arena *one = arena_new();
@@ -365,16 +362,4 @@ static void test_images_are_given_back(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-void suite_tape_used(void) {
-    die = dice_of("tape_used", 4180);
-    RUN_TEST(test_operations_are_counted);
-    RUN_TEST(test_what_is_no_number_is_found_in_results);
-    RUN_TEST(test_what_float_has_no_room_for);
-    RUN_TEST(test_images_know_what_float_has_no_room_for);
-    RUN_TEST(test_images_are_read);
-    RUN_TEST(test_a_hash_is_of_everything);
-    RUN_TEST(test_sums_share_their_halves);
-    RUN_TEST(test_other_lists_are_left_alone);
-    RUN_TEST(test_lists_are_given_back);
-    RUN_TEST(test_images_are_given_back);
-}
+void suite_tape_used(void) { die = dice_of("tape_used", 4180); }

@@ -14,17 +14,7 @@
  * a fine step is checked.
  *
  * The program is build/whirl or $WHIRL; run from the root. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "unity.h"
-
-void suite_trajectory(void);
+#include "test.h"
 
 #define REFERENCE "tests/reference/trajectory.txt"
 #define ORDER_LEAST 3.7
@@ -143,30 +133,28 @@ static void check_lines(const char *part, double step_ms, int lines_wanted) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(lines_wanted, lines, "reference lines");
 }
 
-static void test_particle_follows_its_parabola(void) {
+TEST(trajectory, particle_follows_its_parabola) {
     check_lines("/spherical_particle.whirl", 1.0, 3);
 }
 
-static void test_two_masses_follow_the_matrix_exponential(void) {
+TEST(trajectory, two_masses_follow_the_matrix_exponential) {
     check_lines("/two_mass.whirl", 1.0, 8);
 }
 
-static void test_epicyclic_gear_follows_the_reference(void) {
-    check_lines("/epicyclic.whirl", 1.0, 4);
-}
+TEST(trajectory, epicyclic_gear_follows_the_reference) { check_lines("/epicyclic.whirl", 1.0, 4); }
 
-static void test_driven_hinge_follows_the_reference(void) {
+TEST(trajectory, driven_hinge_follows_the_reference) {
     check_lines("/driven_hinge.whirl", 0.25, 2);
 }
 
-static void test_thomson_device_follows_the_reference(void) {
+TEST(trajectory, thomson_device_follows_the_reference) {
     check_lines(":thomson_a | ", 0.25, 2);
     check_lines(":thomson_b | 2.0 ", 0.25, 1);
     check_lines(":thomson_a_spin | ", 0.25, 1);
     check_lines(":thomson_b_spin | ", 0.25, 1);
 }
 
-static void test_thomson_set_b_can_be_followed_for_five_seconds(void) {
+TEST(trajectory, thomson_set_b_can_be_followed_for_five_seconds) {
     const char *part = ":thomson_b | 5.0 | ";
     FILE *file = fopen(REFERENCE, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");
@@ -181,13 +169,4 @@ static void test_thomson_set_b_can_be_followed_for_five_seconds(void) {
     const double error = run_error("core/models/thomson.whirl:thomson_b", "5.0", 0.0625, wanted);
     printf("  thomson_b at 5 s: error %.2g at 0.0625 ms\n", error);
     TEST_ASSERT_TRUE(error <= WORST);
-}
-
-void suite_trajectory(void) {
-    RUN_TEST(test_particle_follows_its_parabola);
-    RUN_TEST(test_two_masses_follow_the_matrix_exponential);
-    RUN_TEST(test_epicyclic_gear_follows_the_reference);
-    RUN_TEST(test_driven_hinge_follows_the_reference);
-    RUN_TEST(test_thomson_device_follows_the_reference);
-    RUN_TEST(test_thomson_set_b_can_be_followed_for_five_seconds);
 }

@@ -1,10 +1,6 @@
 /* test_turned.c: scenes that rotate their sines, and agreement of rotation with table lookup, for generated
  * mechanisms and every built-in scene. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "test.h"
 
 #include "core/step/stage_turn.h"
 
@@ -13,10 +9,6 @@
 #include "host/engine/engine.h"
 #include "host/image/image.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_turned(void);
 
 static bool turns(const char *more, const char *start, image_settings settings) {
     char text[600];
@@ -33,7 +25,7 @@ static bool turns(const char *more, const char *start, image_settings settings) 
     return turned;
 }
 
-static void test_settings_and_lists_choose(void) {
+TEST(turned, settings_and_lists_choose) {
     for (int m = 0; m < WH_METHODS; m++) {
         const image_settings turned = {.method = (wh_method)m, .angles = ANGLES_TURNED};
         const image_settings lookup = {.method = (wh_method)m, .angles = ANGLES_LOOKUP};
@@ -185,19 +177,19 @@ static double share_apart(double within, double drive, double speed) {
     return beyond / (double)cases;
 }
 
-static void test_generated_mechanisms_move_alike(void) {
+TEST(turned, generated_mechanisms_move_alike) {
     TEST_ASSERT_TRUE(share_apart(0.02, 0.1, 3.0) == 0.0);
 }
 
 /* Rates above the small-rotation limit, here at most 100 rad/s, from the start or later: rotation still runs wherever
  * lookup does. The error is that of an unresolved motion. */
-static void test_generated_mechanisms_that_become_fast_go_on(void) {
+TEST(turned, generated_mechanisms_that_become_fast_go_on) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 
 /* First-order systems with rates that depend strongly on the angles, near the stability limit. Stages are far from
  * the initial slope, and half a turn soon leads to another equilibrium. */
-static void test_stiff_angles_of_first_order_move_alike(void) {
+TEST(turned, stiff_angles_of_first_order_move_alike) {
     const unsigned cases = dice_cases(few_or_all(100, 300));
     uint64_t seed = 20261122;
     char text[400];
@@ -227,11 +219,4 @@ static void test_stiff_angles_of_first_order_move_alike(void) {
            worst);
     TEST_ASSERT_TRUE(compared > cases / 2);
     TEST_ASSERT_TRUE(worst < 1e-4);
-}
-
-void suite_turned(void) {
-    RUN_TEST(test_settings_and_lists_choose);
-    RUN_TEST(test_generated_mechanisms_move_alike);
-    RUN_TEST(test_generated_mechanisms_that_become_fast_go_on);
-    RUN_TEST(test_stiff_angles_of_first_order_move_alike);
 }

@@ -3,16 +3,8 @@
  *
  * Distance of the whole state, rates included, SI units, from lookup runs with a sixteenth of the step. In double
  * with compensated sums, so that the errors are the method's. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_turned_errors(void);
 
 enum { VALUES = 3 * IMAGE_COMPONENTS_MAX, FINER = 16 };
 
@@ -44,7 +36,7 @@ static double error_of(const char *name, image_angles angles, double step_s,
     return sum;
 }
 
-static void test_turning_errs_as_looking_up_does(void) {
+TEST(turned_errors, turning_errs_as_looking_up_does) {
     static const char *const scenes[][2] = {
         {"S5", "two_mass_relative"},   {"S6", "epicyclic_from_rest"},
         {"S6", "epicyclic_conserved"}, {"S7", "driven_hinge_from_rest"},
@@ -115,7 +107,7 @@ static double apart(const double *a, const double *b) {
 }
 
 /* Rotation has an error of h^6, not small next to a method of order 5. */
-static void test_turning_beside_the_error_of_each_method(void) {
+TEST(turned_errors, turning_beside_the_error_of_each_method) {
     static const wh_method methods[] = {WH_NYSTROEM3, WH_RK4, WH_RK38, WH_NYSTROEM4, WH_NYSTROEM5};
     static const double step_s[] = {0.05, 0.1, 0.3, 0.5};
     double exact[2 * SWING_POINTS];
@@ -140,9 +132,4 @@ static void test_turning_beside_the_error_of_each_method(void) {
                 wh_methods[methods[k]].word);
         }
     }
-}
-
-void suite_turned_errors(void) {
-    RUN_TEST(test_turning_errs_as_looking_up_does);
-    RUN_TEST(test_turning_beside_the_error_of_each_method);
 }

@@ -1,15 +1,8 @@
 /* test_units.c: every unit compared with the standards. These are the SI Brochure (9th edition, 2019: tables 2, 4, 7
  * and 8), the agreement of 1959 for inch, foot and pound, and the standard gravity of 1901. From host/lang/units.c it
  * reads only names. A unit outside this table that is not an SI prefix with one of its SI symbols fails. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/lang/units.h"
-#include "unity.h"
-
-void suite_units(void);
+#include "test.h"
 
 #define INCH_M 0.0254
 #define FOOT_M (12 * INCH_M)
@@ -98,7 +91,7 @@ static unit_scale parsed(const char *text) {
 
 static bool is_about(double a, double b) { return fabs(a - b) <= 1e-15 * fabs(b); }
 
-static void test_every_unit_is_what_the_standards_say(void) {
+TEST(units, every_unit_is_what_the_standards_say) {
     int count = 0;
     for (const char *name = unit_name(0); name != NULL; name = unit_name(++count)) {
         char said[200];
@@ -121,7 +114,7 @@ static void test_every_unit_is_what_the_standards_say(void) {
 
 /* A factor is an integer ratio if the definition is one over or under a power of ten: 7 [ms] is 7/1000, correctly
  * rounded, like 7e-3. */
-static void test_prefixes_round_as_decimal_numbers_do(void) {
+TEST(units, prefixes_round_as_decimal_numbers_do) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         definition wanted;
         const char *name = unit_name(i);
@@ -142,7 +135,7 @@ static void test_prefixes_round_as_decimal_numbers_do(void) {
 }
 
 /* `whirl list --units` gives each as a number of an SI unit of the same dimension. */
-static void test_every_unit_is_told_in_si(void) {
+TEST(units, every_unit_is_told_in_si) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         char si[DIM_TEXT_SIZE];
         double value = 0.0;
@@ -157,7 +150,7 @@ static void test_every_unit_is_told_in_si(void) {
 }
 
 /* m^1.5 of Hertz's law: decimal exponents equal those written as fractions. */
-static void test_decimal_exponents(void) {
+TEST(units, decimal_exponents) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         for (int halves = -7; halves <= 7; halves++) {
             char decimal[60];
@@ -177,7 +170,7 @@ static void test_decimal_exponents(void) {
     TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error)); /* not a twelfth */
 }
 
-static void test_names_are_apart(void) {
+TEST(units, names_are_apart) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         for (int k = 0; k < i; k++) {
             TEST_ASSERT_TRUE_MESSAGE(strcmp(unit_name(i), unit_name(k)) != 0, unit_name(i));
@@ -189,7 +182,7 @@ static void test_names_are_apart(void) {
     }
 }
 
-static void test_no_unit_is_missing(void) {
+TEST(units, no_unit_is_missing) {
     for (int i = 0; i < DEFINITIONS; i++) {
         bool there = false;
         for (int k = 0; unit_name(k) != NULL; k++) {
@@ -199,7 +192,7 @@ static void test_no_unit_is_missing(void) {
     }
 }
 
-static void test_hints_for_habits_mean_the_same(void) {
+TEST(units, hints_for_habits_mean_the_same) {
     static const definition habits[] = {
         {"Nm", 1, 2, 1, -2, 0, 0, false},
         {"Ns", 1, 1, 1, -1, 0, 0, false},
@@ -250,7 +243,7 @@ static void test_hints_for_habits_mean_the_same(void) {
 }
 
 /* The unit printed for a dimension, in records and hints, is SI, of that dimension, and the usual one if any. */
-static void test_dimensions_are_written_in_their_usual_units(void) {
+TEST(units, dimensions_are_written_in_their_usual_units) {
     static const char *const recorded[] = {"N", "N*m", "W", "N*m*s", "V"};
     static const char *const hinted[] = {"N",       "N*m", "W",   "Pa", "N/m", "N*s/m", "rad/s",
                                          "rad/s^2", "V",   "ohm", "C",  "F",   "H"};
@@ -277,7 +270,7 @@ static void test_dimensions_are_written_in_their_usual_units(void) {
 }
 
 /* Up to 99, down to -99, in each of them. */
-static void test_exponents_end_at_both_ends(void) {
+TEST(units, exponents_end_at_both_ends) {
     for (int i = 0; i < 2 * DIM_BASES; i++) {
         const int sign = i < DIM_BASES ? 1 : -1;
         int one[DIM_BASES] = {0};
@@ -291,16 +284,4 @@ static void test_exponents_end_at_both_ends(void) {
         TEST_ASSERT_FALSE(
             dim_divide(made, dim_of(-one[0], -one[1], -one[2], -one[3], -one[4]), &made));
     }
-}
-
-void suite_units(void) {
-    RUN_TEST(test_exponents_end_at_both_ends);
-    RUN_TEST(test_dimensions_are_written_in_their_usual_units);
-    RUN_TEST(test_every_unit_is_what_the_standards_say);
-    RUN_TEST(test_prefixes_round_as_decimal_numbers_do);
-    RUN_TEST(test_every_unit_is_told_in_si);
-    RUN_TEST(test_names_are_apart);
-    RUN_TEST(test_decimal_exponents);
-    RUN_TEST(test_no_unit_is_missing);
-    RUN_TEST(test_hints_for_habits_mean_the_same);
 }

@@ -3,10 +3,7 @@
  * Models are hashed, and sums ordered, by the places of rows. A row inserted between others would change the hashes
  * of models that never use it, and break sweeps and boards. The lists here are the record: append a new row to both,
  * and never change an existing one. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <stdio.h>
-#include <string.h>
+#include "test.h"
 
 #include "core/contact.h"
 #include "derived.h"
@@ -14,9 +11,6 @@
 #include "host/lang/model.h"
 #include "host/lang/words.h"
 #include "host/number/functions.h"
-#include "unity.h"
-
-void suite_vocabulary(void);
 
 enum { TEXT_SIZE = 600 };
 
@@ -28,7 +22,7 @@ enum { TEXT_SIZE = 600 };
         TEST_ASSERT_EQUAL_STRING_MESSAGE(recorded[index], is, said); \
     } while (0)
 
-static void test_functions_are_in_their_recorded_order(void) {
+TEST(vocabulary, functions_are_in_their_recorded_order) {
     static const char *const recorded[FUNCTIONS] = {"sin",   "cos",  "tan",  "asin", "acos", "atan",
                                                     "atan2", "sqrt", "exp",  "log",  "abs",  "sign",
                                                     "min",   "max",  "sinh", "cosh", "tanh"};
@@ -39,7 +33,7 @@ static void test_functions_are_in_their_recorded_order(void) {
     }
 }
 
-static void test_operations_are_in_their_recorded_order(void) {
+TEST(vocabulary, operations_are_in_their_recorded_order) {
     static const char *const recorded[OPS] = {
         "CONSTANT", "LINEAR", "RATE", "INPUT", "ACCEL", "TIME", "RADIANS", "NOISE", "PHASE",
         "SIN",      "COS",    "ADD",  "SUB",   "MUL",   "DIV",  "NEG",     "SQRT",  "ABS",
@@ -54,7 +48,7 @@ static void test_operations_are_in_their_recorded_order(void) {
 }
 
 /* Not hashed, but the core and the output handle contacts of one time in this order. */
-static void test_contacts_are_in_the_core_s_order(void) {
+TEST(vocabulary, contacts_are_in_the_core_s_order) {
 #define SAME(id, ...) TEST_ASSERT_EQUAL_INT_MESSAGE(WH_##id, CONTACT_##id, #id);
     CONTACT_KIND_ROWS(SAME)
 #undef SAME
@@ -74,7 +68,7 @@ static bool is_among(const char *word, const char *words) {
 
 /* At the start of a line inside a block, these words show that its brace is missing; all others are parsed there, or
  * refused. The block is closed before them, without a second error. */
-static void test_which_words_end_a_block(void) {
+TEST(vocabulary, which_words_end_a_block) {
     static const struct {
         const char *before;
         const char *behind;
@@ -114,7 +108,7 @@ static void expect_report(const char *statements, const char *wanted) {
     TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, text);
 }
 
-static void test_symbols_are_called_what_they_are(void) {
+TEST(vocabulary, symbols_are_called_what_they_are) {
     expect_report("V = m'*x", "'m' is a parameter: it has no derivative");
     expect_report("V = u'*x", "'u' is an input: it has no derivative");
     expect_report("output p = o'", "'o' is an output: it has no derivative");
@@ -123,7 +117,7 @@ static void test_symbols_are_called_what_they_are(void) {
     expect_report("V = F*x", "the dissipation function");
 }
 
-static void test_energies_have_their_dimension(void) {
+TEST(vocabulary, energies_have_their_dimension) {
     expect_report("V = m*x", "potential energy V must be an energy [kg*m^2/s^2]");
     expect_report("T += m*x", "kinetic energy T must be an energy [kg*m^2/s^2]");
     expect_report("F = m*x", "dissipation function F must be a power [kg*m^2/s^3]");
@@ -140,7 +134,7 @@ static void expect_word_hint(const char *form, const char *word) {
 }
 
 /* Words of other languages, in any place, and first attempts: each gets its hint, never a guess by spelling. */
-static void test_first_words_get_a_hint(void) {
+TEST(vocabulary, first_words_get_a_hint) {
     static const char *const words[] = {
         "t",          "time",       "if",      "floor", "heaviside",  "table",
         "constraint", "given",      "tunable", "every", "sgn",        "pow",
@@ -184,7 +178,7 @@ static void test_first_words_get_a_hint(void) {
 }
 
 /* Statements of other languages with drawn names and numbers. The statement changed by the hint is accepted. */
-static void test_other_notations_are_mended(void) {
+TEST(vocabulary, other_notations_are_mended) {
     static const char names[][6] = {"q", "theta", "x_1", "arm"};
     static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};
     static const char calls[][6] = {"sin", "cos", "exp", "tanh", "sqrt"};
@@ -259,7 +253,7 @@ static void test_other_notations_are_mended(void) {
     }
 }
 
-static void test_a_decimal_comma_gets_a_hint(void) {
+TEST(vocabulary, a_decimal_comma_gets_a_hint) {
     static const char *const forms[] = {
         "parameter a = %u,%u [m]", "V = %u,%u [N/m]*x^2", "scene s { step %u,%u [ms] }",
         "scene s { start x = %u,%u [m] }", "scene s { set m = %u,%u [kg] }"};
@@ -270,16 +264,4 @@ static void test_a_decimal_comma_gets_a_hint(void) {
         snprintf(text, sizeof text, forms[i % 5U], drawn >> 28U, drawn >> 20U & 255U);
         expect_report(text, "a decimal point");
     }
-}
-
-void suite_vocabulary(void) {
-    RUN_TEST(test_first_words_get_a_hint);
-    RUN_TEST(test_other_notations_are_mended);
-    RUN_TEST(test_functions_are_in_their_recorded_order);
-    RUN_TEST(test_operations_are_in_their_recorded_order);
-    RUN_TEST(test_contacts_are_in_the_core_s_order);
-    RUN_TEST(test_which_words_end_a_block);
-    RUN_TEST(test_symbols_are_called_what_they_are);
-    RUN_TEST(test_energies_have_their_dimension);
-    RUN_TEST(test_a_decimal_comma_gets_a_hint);
 }

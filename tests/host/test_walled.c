@@ -1,16 +1,8 @@
 /* test_walled.c: a body in a potential well such as -log(1 - (x/l)^2), which the motion never leaves. A coarse step
  * leaves it, to where the potential is undefined. The run fails and names the expression and a remedy, which works. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/cli/commands.h"
 #include "named_cures.h"
-#include "unity.h"
-
-void suite_walled(void);
 
 /* With energy E and length l; each confines a body with 0.9 E. */
 static const char *const potentials[] = {
@@ -36,7 +28,7 @@ static void draw(dice *d, unsigned i, char *text, size_t size) {
              steps * step_s);
 }
 
-static void test_failed_runs_name_a_cure(void) {
+TEST(walled, failed_runs_name_a_cure) {
     dice d = dice_of("walled", 4451);
     const unsigned cases = dice_cases(few_or_all(usual_or(120, 32), 600));
     unsigned failed = 0;
@@ -69,7 +61,7 @@ static void test_failed_runs_name_a_cure(void) {
 
 /* A slider crank with crank and rod of one length: the run ends where they lie flat, and no step is suggested to pass
  * it. */
-static void test_flat_linkages_name_no_step(void) {
+TEST(walled, flat_linkages_name_no_step) {
     dice d = dice_of("flat linkages", 4463);
     const unsigned cases = dice_cases(usual_or(24, 8));
     for (unsigned i = 0; i < cases; i++) {
@@ -95,9 +87,4 @@ static void test_flat_linkages_name_no_step(void) {
         TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "--step"), what.err);
     }
     model_drop();
-}
-
-void suite_walled(void) {
-    RUN_TEST(test_failed_runs_name_a_cure);
-    RUN_TEST(test_flat_linkages_name_no_step);
 }

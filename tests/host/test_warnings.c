@@ -3,19 +3,9 @@
  * removes the warning and the error. Energies come from formulas in this file and closed forms. */
 #include "command.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 #include "motion.h"
 #include "named_cures.h"
-
-#include "unity.h"
-
-void suite_warnings(void);
 
 #define SOUND 1e-4
 #define GONE 1e-2
@@ -186,7 +176,7 @@ static int cure(const made_up *m, const said *warned, wh_method method, double s
     return done;
 }
 
-static void test_energy_that_the_method_takes_is_told(void) {
+TEST(warnings, energy_that_the_method_takes_is_told) {
     dice d = dice_of("warned", 14001);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 40), 300));
     unsigned gone = 0;
@@ -258,7 +248,7 @@ static double flight_off(const char *text, const double end[3], double step_s, b
     return went ? sqrt(x * x + y * y + z * z) : (double)INFINITY;
 }
 
-static void test_passing_a_pole_is_told(void) {
+TEST(warnings, passing_a_pole_is_told) {
     dice d = dice_of("poles", 14002);
     const unsigned cases = dice_cases(few_or_all(20, 50));
     unsigned off_course = 0;
@@ -325,7 +315,7 @@ static void test_passing_a_pole_is_told(void) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-static void test_swings_of_a_system_are_told(void) {
+TEST(warnings, swings_of_a_system_are_told) {
     dice d = dice_of("systems", 14003);
     const unsigned cases = dice_cases(few_or_all(usual_or(20, 15), 60));
     for (unsigned i = 0; i < cases; i++) {
@@ -368,7 +358,7 @@ static void expect_ball_between(said *what, const char **words) {
 }
 
 /* To their ends, in both numbers or alternately. Only one scene, made for it, has a warning. */
-static void test_built_in_scenes_say_nothing(void) {
+TEST(warnings, built_in_scenes_say_nothing) {
     said list;
     said what;
     const char *none[] = {NULL};
@@ -398,11 +388,4 @@ static void test_built_in_scenes_say_nothing(void) {
     }
     TEST_ASSERT_TRUE(scenes > 40);
     printf("  %u scenes, to their ends\n", scenes / each);
-}
-
-void suite_warnings(void) {
-    RUN_TEST(test_energy_that_the_method_takes_is_told);
-    RUN_TEST(test_passing_a_pole_is_told);
-    RUN_TEST(test_swings_of_a_system_are_told);
-    RUN_TEST(test_built_in_scenes_say_nothing);
 }

@@ -1,17 +1,8 @@
 /* test_words.c: words and units of the language follow from their rows: reserved names, hints, refusals in the wrong
  * place, and the lists in docs/language.md. Every row is tested, also new ones. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/lang/model.h"
 #include "host/lang/words.h"
-#include "unity.h"
-
-void suite_words(void);
 
 enum { TEXT_SIZE = 1200, PAGE_SIZE = 200000 };
 
@@ -32,7 +23,7 @@ static void expect_in(const char *report, const char *wanted, const char *text) 
     TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, message);
 }
 
-static void test_reserved_words_name_nothing(void) {
+TEST(words, reserved_words_name_nothing) {
     int reserved = 0;
     for (int i = 0; i < WORD_COUNT; i++) {
         const statement_word *word = word_row((word_id)i);
@@ -56,7 +47,7 @@ static void test_reserved_words_name_nothing(void) {
 }
 
 /* Two swapped neighbours: one mistake away from the word, and no other is as near. */
-static void test_a_misspelt_statement_is_offered_its_word(void) {
+TEST(words, a_misspelt_statement_is_offered_its_word) {
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
         const size_t length = strlen(word->text);
@@ -83,7 +74,7 @@ static void test_a_misspelt_statement_is_offered_its_word(void) {
 }
 
 /* Other names of energies, set or added to, alone and in an effect: the hint has T, V or F. */
-static void test_energies_by_other_names(void) {
+TEST(words, energies_by_other_names) {
     static const char *const meant[][2] = {{"t", "T = ..."},       {"k", "T = ..."},
                                            {"K", "T = ..."},       {"Ekin", "T = ..."},
                                            {"kinetic", "T = ..."}, {"v", "V = ..."},
@@ -105,7 +96,7 @@ static void test_energies_by_other_names(void) {
     }
 }
 
-static void test_a_word_stands_only_where_its_row_says(void) {
+TEST(words, a_word_stands_only_where_its_row_says) {
     static const unsigned places[] = {IN_MECHANISM | IN_FILE, IN_EFFECT, IN_SCENE};
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
@@ -129,7 +120,7 @@ static void test_a_word_stands_only_where_its_row_says(void) {
     }
 }
 
-static void test_forms_are_good_statements(void) {
+TEST(words, forms_are_good_statements) {
     static const word_id tried[] = {WORD_STOP, WORD_FRICTION, WORD_HOLD, WORD_WHEN, WORD_NOISE};
     for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
         const char *text = in_mechanism(word_row(tried[i])->form, "until 1 [s]");
@@ -140,7 +131,7 @@ static void test_forms_are_good_statements(void) {
     }
 }
 
-static void test_kinds_have_words(void) {
+TEST(words, kinds_have_words) {
     for (int i = 0; i < CONTACT_KINDS; i++) {
         const contact_kind kind = (contact_kind)i;
         const int word = word_find(contact_word(kind), strlen(contact_word(kind)));
@@ -170,7 +161,7 @@ static bool listed(const char *word, const char *from, const char *to) {
     return false;
 }
 
-static void test_the_page_lists_every_word(void) {
+TEST(words, the_page_lists_every_word) {
     read_page();
     const char *const end = page + strlen(page);
     const char *const reserved = strstr(page, "These words are reserved");
@@ -186,7 +177,7 @@ static void test_the_page_lists_every_word(void) {
     }
 }
 
-static void test_the_page_lists_every_unit(void) {
+TEST(words, the_page_lists_every_unit) {
     read_page();
     const char *const table = strstr(page, "| quantity | units |");
     TEST_ASSERT_NOT_NULL(table);
@@ -201,15 +192,4 @@ static void test_the_page_lists_every_unit(void) {
     }
     TEST_ASSERT_EQUAL_INT(2 * units, shown);
     TEST_ASSERT_TRUE(units >= 50);
-}
-
-void suite_words(void) {
-    RUN_TEST(test_reserved_words_name_nothing);
-    RUN_TEST(test_a_misspelt_statement_is_offered_its_word);
-    RUN_TEST(test_energies_by_other_names);
-    RUN_TEST(test_a_word_stands_only_where_its_row_says);
-    RUN_TEST(test_forms_are_good_statements);
-    RUN_TEST(test_kinds_have_words);
-    RUN_TEST(test_the_page_lists_every_word);
-    RUN_TEST(test_the_page_lists_every_unit);
 }

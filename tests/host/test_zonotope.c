@@ -1,13 +1,8 @@
 /* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/zonotope.h), under drawn maps. The
  * reference is the support function in long double: the extent of a set in a direction. A convex set contains another
  * if its extent is at least as large in all directions. Bounds of the excess have closed forms. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/prove/zonotope.h"
-#include "unity.h"
 
 void suite_zonotope(void);
 
@@ -115,7 +110,7 @@ static zonotope *drawn_zonotope(int n, int most, unsigned maps) {
     return z;
 }
 
-static void test_new(void) {
+TEST(zonotope, new) {
     for (int n = 1; n <= SIZE; n++) {
         for (int most = 0; most <= MOST; most++) {
             zonotope *z = zonotope_new(n, most);
@@ -134,7 +129,7 @@ static void test_new(void) {
 
 /* The image always contains the exact one, however often it is reduced. Without a reduction the excess is round-off.
  * With one it is at most that of a box over its contents: the shortest generators, each up to sqrt(n) as long. */
-static void test_mapped(void) {
+TEST(zonotope, mapped) {
     unsigned reductions = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(150, 50)); c++) {
         const int n = 1 + (int)dice_one_of(&die, SIZE);
@@ -196,7 +191,7 @@ static void test_mapped(void) {
     TEST_ASSERT_TRUE(reductions > 50);
 }
 
-static void test_longest_are_kept(void) {
+TEST(zonotope, longest_are_kept) {
     for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
         const int n = 2 + (int)dice_one_of(&die, SIZE - 1);
         zonotope *z = zonotope_new(n, MOST);
@@ -243,7 +238,7 @@ static void test_longest_are_kept(void) {
     }
 }
 
-static void test_box(void) {
+TEST(zonotope, box) {
     for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
         const int n = 1 + (int)dice_one_of(&die, SIZE);
         zonotope *z = drawn_zonotope(n, MOST, 1 + dice_one_of(&die, 8));
@@ -338,7 +333,7 @@ static void expect_frame(const zonotope *z) {
     }
 }
 
-static void test_frame(void) {
+TEST(zonotope, frame) {
     for (unsigned c = 0; c < dice_cases(usual_or(80, 25)); c++) {
         const int n = 1 + (int)dice_one_of(&die, SIZE);
         zonotope *z = drawn_zonotope(n, MOST, dice_one_of(&die, 9));
@@ -356,11 +351,4 @@ static void test_frame(void) {
     }
 }
 
-void suite_zonotope(void) {
-    die = dice_of("zonotope", 43);
-    RUN_TEST(test_new);
-    RUN_TEST(test_mapped);
-    RUN_TEST(test_longest_are_kept);
-    RUN_TEST(test_box);
-    RUN_TEST(test_frame);
-}
+void suite_zonotope(void) { die = dice_of("zonotope", 43); }

@@ -2,11 +2,6 @@
  * sine's worst error, the phase unit, one rounding per operation (docs/dev/numerics.md). */
 #include "wave_exprs.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "derived.h"
 
 static const char *const names[WAVE_SYMBOLS] = {"a", "b", "c", "u"};

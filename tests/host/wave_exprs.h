@@ -3,8 +3,7 @@
 #ifndef TESTS_HOST_WAVE_EXPRS_H
 #define TESTS_HOST_WAVE_EXPRS_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "test.h"
 
 /* The angles a, b, c and the number u that the texts name. */
 enum { WAVE_ANGLES = 3, WAVE_SYMBOLS = WAVE_ANGLES + 1 };
