@@ -102,7 +102,7 @@ ifeq ($(SYSTEM),none)
 # The commands that need neither processes nor signals nor a serial line, and the folders that do.
 WHIRL_C := $(filter-out host/cli/% $(addprefix host/,monitor/% pil/% prove/% study/%) \
     $(addprefix host/io/,figure_draw.c gnuplot.c panels.c plot.c plot_run.c vcd.c),$(WHIRL_C)) \
-    $(addprefix host/cli/,accel.c check.c derive.c describe.c examine.c files.c list.c load.c new.c options.c scenes.c target.c)
+    $(addprefix host/cli/,derive.c describe.c examine.c list.c load.c new.c options.c scenes.c target.c)
 endif
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \

@@ -1,5 +1,5 @@
 # settings.mk: the same bits on every board with every setting that `whirl price` tries (host/study/trial.h). The program
-# writes some scenes with every setting that each takes, and the interpreter's hashes (host/cli/emit_settings.c); what is
+# writes some scenes with every setting that each takes, and the interpreter's hashes (host/cli/scenes.c); what is
 # compiled of that, for this machine and for boards, must print the same.
 
 # Between them: a matrix, tables, angles that turn and that are looked up, every method, first order, stops, fixed point.

@@ -20,7 +20,6 @@
 #include "host/io/gnuplot.h"
 #include "host/io/minmax_decimation.h"
 #include "host/io/records.h"
-#include "host/io/traces.h"
 #include "host/number/functions.h"
 #include "run_json.h"
 

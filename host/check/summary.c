@@ -11,7 +11,7 @@
 #include "host/base/diag.h"
 #include "host/check/books_text.h"
 #include "host/check/horizon.h"
-#include "host/io/plot_run.h"
+#include "host/io/plot.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 

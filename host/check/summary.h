@@ -20,7 +20,7 @@ double step_nice_s(double most_s);
 const char *step_text(double step_s, char text[STEP_WORD]);
 
 /* === about ==================================================================================== */
-/* The settings of a run, as lines of TOML for the file next to its records (host/io/plot_run.h).
+/* The settings of a run, as lines of TOML for the file next to its records (host/io/plot.h).
  * Version, scene, step, method, state hash. Free it. */
 
 /* Version, scene, step, method, state hash. Free it. */

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "files.h"
 #include "host/base/atomic_file.h"
 #include "host/cli/load.h"
 #include "host/emit/emit.h"

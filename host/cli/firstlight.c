@@ -11,7 +11,6 @@
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"
 #include "host/cli/commands.h"
-#include "host/cli/files.h"
 #include "host/cli/load.h"
 #include "host/cli/target.h"
 #include "host/engine/loop.h"

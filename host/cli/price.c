@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "files.h"
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"
+#include "host/cli/load.h"
 #include "host/study/price_table.h"
 #include "pricing.h"
 

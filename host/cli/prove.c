@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "files.h"
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"

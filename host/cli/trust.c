@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "files.h"
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"
 #include "host/check/aliasing.h"
@@ -12,6 +11,7 @@
 #include "host/check/horizon.h"
 #include "host/check/nonfinite.h"
 #include "host/check/run_json.h"
+#include "host/cli/load.h"
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"

@@ -1,7 +1,7 @@
 /* c_list.c: an operation list as C. Every operation becomes one statement, so that the compiler and the interpreter
  * have the same operations in the same order. Constants are hexadecimal: the float build rounds the double exactly as
  * the interpreter does. */
-#include "c_list.h"
+#include "host/emit/c_list.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -9,7 +9,46 @@
 
 #include "host/number/decimal.h"
 #include "host/number/phase.h"
-#include "op_text.h"
+
+static void operands(FILE *out, const op_list *t, const op *o, const op_style *style) {
+    style->operand(out, t, o->a);
+    if (o->b >= 0) {
+        fputs(", ", out);
+        style->operand(out, t, o->b);
+    }
+}
+
+/* The test for a NaN; empty for a constant. */
+static void or_no_number(FILE *out, const op_list *t, int b, const op_style *style) {
+    if (t->ops[b].code != OP_CONSTANT) {
+        fputs(" || ", out);
+        style->operand(out, t, b);
+        fputs(" != ", out);
+        style->operand(out, t, b);
+    }
+}
+
+void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style) {
+    for (const char *at = form; *at != '\0'; at++) {
+        if (*at != '$') {
+            fputc(*at, out);
+            continue;
+        }
+        at++;
+        switch (*at) {
+        case 'a': style->operand(out, t, o->a); break;
+        case 'b': style->operand(out, t, o->b); break;
+        case 'f': fputs(function_name(o->function), out); break;
+        case 'o': operands(out, t, o, style); break;
+        case 'n': or_no_number(out, t, o->b, style); break;
+        case 'i': fprintf(out, "%d", o->a); break;
+        case 'v': fprintf(out, "%.0f", o->value); break;
+        default: style->leaf(out, style->context, *at, o->a); break;
+        }
+    }
+}
+
+/* === the list ================================================================================= */
 
 /* A longer list is called at each stage and not inlined. On the Cortex-M4F this costs 7 to 12 % more instructions and
  * saves half of the flash or more. Examples: seven links of a pendulum take 8 and not 15 KB, ten take 14 and not 33. */

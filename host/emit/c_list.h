@@ -6,6 +6,20 @@
 
 #include "host/image/op_list.h"
 
+/* === the right-hand side of an operation from its row (host/image/op_list.h) ================== */
+
+/* The language-dependent parts of the rows. */
+typedef struct op_style {
+    /* Writes operand a. */
+    void (*operand)(FILE *out, const op_list *t, int a);
+    /* Writes the number of a leaf: `what` is l, r or u, `a` its index. NULL if no row needs it. */
+    void (*leaf)(FILE *out, const void *context, char what, int a);
+    const void *context; /* of leaf() */
+} op_style;
+
+/* `form` is the row's text for the language. */
+void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style);
+
 bool c_list_uses(const op_list *t, op_code code);
 bool c_list_uses_phase(const op_list *t);
 /* Has the list so many operations that the compiler should keep their order? */

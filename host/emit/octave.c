@@ -5,7 +5,7 @@
 
 #include "emit.h"
 #include "host/base/alloc.h"
-#include "op_text.h"
+#include "host/emit/c_list.h"
 
 /* y(k), k from 1: values first, then rates, and so on. */
 static int y_number(const image *im, component of) {

@@ -7,8 +7,15 @@
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
-#include "host/fixed/fixed_range.h"
 #include "host/image/image.h"
+#include "host/number/enclosure.h"
+
+/* === the ranges that components and inputs of a scene keep to ================================= */
+
+/* range[reals + inputs] of components, then inputs, as declared. An undeclared range comes from a reference run of the scene
+ * (double, its method). It reaches twice as far from zero as the run; or half as near, if the run stays on one side of zero;
+ * -1 to 1 if it stays zero. False: that run failed (reported), or was interrupted. `progress`: shown on standard error. */
+bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
 /* Binary digits of a value. Values fill at most 2^29, so that twice their round-off fits. Results fill 2^28, since a
  * step adds six of them. The state fills 2^30. */

@@ -5,7 +5,6 @@
 
 #include "core/fixed_scene.h"
 #include "host/fixed/fixed_list.h"
-#include "host/fixed/fixed_range.h"
 #include "host/image/image.h"
 
 /* === statements that fixed point refuses, each at its place =================================== */

@@ -5,10 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gnuplot.h"
 #include "host/base/alloc.h"
-#include "palette.h"
-#include "plot.h"
+#include "host/io/gnuplot.h"
+#include "host/io/plot.h"
 
 enum { FIELDS = 5 };
 

@@ -5,6 +5,62 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+/* === colours and shapes ================================================================================== */
+/* The colours and point shapes of all pictures, on white and dark pages. Every line colour has a contrast of
+ * 3:1 (WCAG 2.1, 1.4.11) with both backgrounds. Any two differ by 11 (CIEDE2000), in normal vision and with each kind
+ * of colour blindness (Machado, Oliveira and Fernandes, 2009). tests/host/test_plot.c computes both.
+ * mk/curves/chart.sh also reads the rows of lines. */
+
+#define PALETTE_LINE_ROWS(X) \
+    X("#0072b2") \
+    X("#d55e00") \
+    X("#709764") \
+    X("#7e79ff") \
+    X("#8d5066") \
+    X("#309eb9") \
+    X("#c2058b") \
+    X("#b87289")
+
+/* Areas from good to bad: distinguished by lightness alone. */
+#define PALETTE_AREA_ROWS(X) \
+    X("#d0e6f0") \
+    X("#8fbf7f") \
+    X("#e08b3c") \
+    X("#8e1420")
+
+#define PALETTE_WHITE "#ffffff"
+#define PALETTE_DARK "#0d1117"
+/* Frames, tics and laws: 3:1 with both backgrounds, as the lines. */
+#define PALETTE_FRAME "#767676"
+#define PALETTE_GRID "#d8d8d8"
+#define PALETTE_SHADE "#e4e4e4"
+
+#define PALETTE_ONE(colour) +1
+#define PALETTE_WORD(colour) colour,
+enum {
+    PALETTE_LINES = PALETTE_LINE_ROWS(PALETTE_ONE),
+    PALETTE_AREAS = PALETTE_AREA_ROWS(PALETTE_ONE)
+};
+
+/* Line i of a picture, from 0. After the last colour they repeat, with another dash. */
+static inline const char *palette_line(int i) {
+    static const char *const lines[] = {PALETTE_LINE_ROWS(PALETTE_WORD)};
+    return lines[i % PALETTE_LINES];
+}
+
+static inline int palette_dash(int i) { return 1 + i / PALETTE_LINES % 5; }
+
+static inline const char *palette_area(int i) {
+    static const char *const areas[] = {PALETTE_AREA_ROWS(PALETTE_WORD)};
+    return areas[i];
+}
+
+/* gnuplot's number of the filled (even) or open shape of point i. */
+static inline int palette_point(int i) {
+    static const int points[] = {7, 5, 9, 11, 13, 15, 1, 2, 3};
+    return points[i % 9];
+}
+
 typedef struct gnuplot {
     FILE *to;      /* its commands */
     FILE *said;    /* its messages, shown after a failure */
@@ -24,7 +80,7 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
 /* False, reported on standard error, if gnuplot is missing. */
 bool gnuplot_is_there(void);
 
-/* Begin a picture of 900 by `height` pixels in `file`, in the common look (palette.h). An SVG gets `title` and the
+/* Begin a picture of 900 by `height` pixels in `file`, in the common look (gnuplot.h). An SVG gets `title` and the
  * alternative `text`; both must live until gnuplot_close(). False, reported, if the file cannot be written or gnuplot
  * is missing. */
 bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text);

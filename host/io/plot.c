@@ -1,16 +1,608 @@
 /* plot.c: gnuplot commands for the curves of runs. */
-#include "plot.h"
+#include "host/io/plot.h"
 
+#include <ctype.h>
+#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-#include "gnuplot.h"
 #include "host/base/alloc.h"
+#include "host/base/atomic_file.h"
+#include "host/base/spelling.h"
+#include "host/io/gnuplot.h"
+#include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "palette.h"
-#include "panels.h"
+
+/* der(der(x)) as x''. Free it. */
+static char *shown_name(const char *name) {
+    size_t length = strlen(name);
+    static const char primes[] = "'''''''''''''''";
+    int order = 0;
+    while (strncmp(name, "der(", 4) == 0 && name[length - 1] == ')' &&
+           order < (int)sizeof primes - 1) {
+        name += 4;
+        length -= 5;
+        order++;
+    }
+    return alloc_words("%.*s%.*s", (int)length, name, order, primes);
+}
+
+static int column_named(const plot_run *run, const char *name) {
+    for (int i = 0; i < run->columns; i++) {
+        char *shown = shown_name(run->column[i].name);
+        const bool is = strcmp(shown, name) == 0 || strcmp(run->column[i].name, name) == 0;
+        free(shown);
+        if (is) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static void say_unknown(const char *command, const char *name, const plot_run *runs, int count) {
+    nearest search = nearest_start(name, strlen(name));
+    char **kept = alloc((int64_t)count * PANELS_QUANTITIES, sizeof *kept);
+    int names = 0;
+    for (int k = 0; k < count; k++) {
+        for (int i = 0; i < runs[k].columns && i < PANELS_QUANTITIES; i++) {
+            kept[names] = shown_name(runs[k].column[i].name);
+            nearest_offer(&search, kept[names++]);
+        }
+    }
+    fprintf(stderr, "whirl %s: error: no quantity is called '%.80s'\n", command, name);
+    if (search.best != NULL) {
+        fprintf(stderr, "hint: did you mean %s?\n", search.best);
+    } else {
+        fputs("hint: the quantities are ", stderr);
+        for (int i = 0; i < runs[0].columns; i++) {
+            fprintf(stderr, "%s%s", i > 0 ? ", " : "", kept[i]);
+        }
+        fputc('\n', stderr);
+    }
+    for (int i = 0; i < names; i++) {
+        free(kept[i]);
+    }
+    free(kept);
+}
+
+static bool same_unit(const char *a, const char *b) {
+    return a != NULL && b != NULL && strcmp(a, b) == 0;
+}
+
+static const char *unit_words(const char *unit) {
+    return unit == NULL ? "a unit that no file tells" : unit;
+}
+
+/* The quantity's columns and its unit. False, reported, if no run has it, or the runs' units differ. */
+static bool find_columns(const char *command, const char *name, const plot_run *runs, int count,
+                         int *column, const char **unit) {
+    int first = -1;
+    for (int k = 0; k < count; k++) {
+        column[k] = column_named(&runs[k], name);
+        if (column[k] < 0) {
+            continue;
+        }
+        const char *own = runs[k].column[column[k]].unit;
+        if (first >= 0 && own != NULL && *unit != NULL && strcmp(own, *unit) != 0) {
+            fprintf(stderr,
+                    "whirl %s: error: %s is in %s in %s, and in %s in %s: one axis has one unit\n"
+                    "hint: draw them in two pictures\n",
+                    command, name, *unit, runs[first].label, own, runs[k].label);
+            return false;
+        }
+        first = first < 0 ? k : first;
+        *unit = *unit == NULL ? own : *unit;
+    }
+    if (first < 0) {
+        say_unknown(command, name, runs, count);
+    }
+    return first >= 0;
+}
+
+/* `panel` below 0: the panel of its unit. */
+static bool add(panels *p, const char *command, const char *name, const plot_run *runs, int panel) {
+    panels_quantity *q = &p->quantity[p->quantities];
+    const char *unit = NULL;
+    if (p->quantities == PANELS_QUANTITIES) {
+        fprintf(stderr, "whirl %s: error: at most %d quantities\nhint: --y NAME,NAME\n", command,
+                PANELS_QUANTITIES);
+        return false;
+    }
+    q->column = alloc(p->runs, sizeof *q->column);
+    q->name = shown_name(name);
+    p->quantities++;
+    if (!find_columns(command, name, runs, p->runs, q->column, &unit)) {
+        return false;
+    }
+    for (int i = 0; panel < 0 && i < p->count; i++) {
+        panel = same_unit(p->unit[i], unit) ? i : panel;
+    }
+    panel = panel < 0 ? p->count : panel;
+    if (panel == PANELS_MOST) {
+        fprintf(stderr, "whirl %s: error: at most %d panels\nhint: --y NAME,NAME\n", command,
+                PANELS_MOST);
+        return false;
+    }
+    if (panel < p->count && !same_unit(p->unit[panel], unit) &&
+        (p->unit[panel] != NULL || unit != NULL)) {
+        const char *other = "";
+        for (int i = 0; i < p->quantities - 1; i++) {
+            other = p->quantity[i].panel == panel ? p->quantity[i].name : other;
+        }
+        fprintf(stderr,
+                "whirl %s: error: %s is in %s, %s in %s: one panel has one unit\n"
+                "hint: --y \"%s, %s\" makes a panel for each unit\n",
+                command, other, unit_words(p->unit[panel]), q->name, unit_words(unit), other,
+                q->name);
+        return false;
+    }
+    if (panel == p->count) {
+        p->unit[p->count++] = unit;
+    }
+    q->panel = panel;
+    return true;
+}
+
+char *panels_next(const char **list) {
+    if (*list == NULL) {
+        return NULL;
+    }
+    const char *from = *list + strspn(*list, " ");
+    size_t length = strcspn(from, ",");
+    *list = from[length] == ',' ? from + length + 1 : NULL;
+    while (length > 0 && from[length - 1] == ' ') {
+        length--;
+    }
+    return alloc_copy(from, length);
+}
+
+static bool add_list(panels *p, const char *command, const char *list, const plot_run *runs,
+                     int panel) {
+    bool good = true;
+    for (char *name = panels_next(&list); name != NULL; name = good ? panels_next(&list) : NULL) {
+        good = add(p, command, name, runs, panel);
+        free(name);
+    }
+    return good;
+}
+
+/* All coordinates and outputs of all runs, each once. */
+static bool add_all(panels *p, const char *command, const plot_run *runs) {
+    for (int k = 0; k < p->runs; k++) {
+        for (int i = 1; i < runs[k].columns; i++) {
+            const char *name = runs[k].column[i].name;
+            bool there = strncmp(name, "der(", 4) == 0;
+            for (int q = 0; q < p->quantities; q++) {
+                there = there || p->quantity[q].column[k] == i;
+            }
+            if (!there && !add(p, command, name, runs, -1)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool name_runs(panels *p, const char *command, const char *legend, const plot_run *runs) {
+    const char *list = legend;
+    for (int k = 0; k < p->runs; k++) {
+        char *label = panels_next(&list);
+        if (label == NULL && legend != NULL) {
+            fprintf(stderr,
+                    "whirl %s: error: --legend names %d of %d runs\n"
+                    "hint: --legend \"first, second\"\n",
+                    command, k, p->runs);
+            return false;
+        }
+        p->label[k] = label != NULL ? label : alloc_words("%s", runs[k].label);
+    }
+    if (list != NULL) {
+        fprintf(stderr,
+                "whirl %s: error: --legend names more than %d run%s\n"
+                "hint: --legend \"first, second\"\n",
+                command, p->runs, p->runs == 1 ? "" : "s");
+    }
+    return list == NULL;
+}
+
+/* An axis without its own label shows quantity and unit; a label without an axis is an error. */
+static bool labels_fit(const panels *p, const char *command, const char *labels) {
+    int more = 0;
+    for (const char *at = labels; at != NULL && *at != '\0'; at++) {
+        more += *at == ',';
+    }
+    if (more >= p->count && p->count > 0) {
+        fprintf(stderr,
+                "whirl %s: error: --ylabel has %d texts for %d panel%s\n"
+                "hint: a comma stands between the texts of two panels\n",
+                command, more + 1, p->count, p->count == 1 ? "" : "s");
+    }
+    return more < p->count || p->count == 0;
+}
+
+bool plot_is_path(const plot_choice *choice) {
+    return choice->x != NULL && strcmp(choice->x, "t") != 0 && strcmp(choice->x, "time") != 0;
+}
+
+bool panels_make(panels *p, const char *command, const plot_choice *choice, const plot_run *runs,
+                 int count) {
+    *p = (panels){.runs = count, .x = alloc(count, sizeof *p->x)};
+    if (!name_runs(p, command, choice->legend, runs)) {
+        return false;
+    }
+    p->x_unit = runs[0].column[0].unit;
+    p->x_name =
+        plot_is_path(choice) ? shown_name(choice->x) : alloc_words("%s", runs[0].column[0].name);
+    if (plot_is_path(choice)) {
+        p->x_unit = NULL;
+        if (!find_columns(command, choice->x, runs, count, p->x, &p->x_unit)) {
+            return false;
+        }
+    }
+    for (int i = 0; i < choice->panels; i++) {
+        if (!add_list(p, command, choice->panel[i], runs, p->count)) {
+            return false;
+        }
+    }
+    const bool chosen = choice->y != NULL || choice->panels > 0;
+    const bool added = !chosen             ? add_all(p, command, runs)
+                       : choice->y != NULL ? add_list(p, command, choice->y, runs, -1)
+                                           : true;
+    return added && labels_fit(p, command, choice->ylabel);
+}
+
+void panels_free(panels *p) {
+    for (int i = 0; i < p->quantities; i++) {
+        free(p->quantity[i].name);
+        free(p->quantity[i].column);
+    }
+    for (int k = 0; k < p->runs; k++) {
+        free(p->label[k]);
+    }
+    free(p->x);
+    free(p->x_name);
+}
+
+bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count) {
+    panels p;
+    const bool fits = panels_make(&p, command, choice, runs, count);
+    panels_free(&p);
+    return fits;
+}
+
+/* === plot run ================================================================================= */
+/* Reading and writing of runs. CSV follows RFC 4180, with comment lines after a #. The description is TOML
+ * 1.0. */
+
+void plot_run_open(plot_run *run, const char *title, const char *label, int columns) {
+    *run = (plot_run){.title = alloc_words("%s", title),
+                      .label = alloc_words("%s", label),
+                      .column = alloc(columns, sizeof *run->column),
+                      .columns = columns};
+}
+
+static void put(char **place, const char *text) {
+    free(*place);
+    *place = text != NULL ? alloc_words("%s", text) : NULL;
+}
+
+void plot_run_name(plot_run *run, int column, const char *name, const char *unit,
+                   const char *text) {
+    plot_column *c = &run->column[column];
+    put(&c->name, name);
+    put(&c->unit, unit);
+    put(&c->text, text);
+}
+
+void plot_run_close(plot_run *run) {
+    for (int i = 0; i < run->columns; i++) {
+        free(run->column[i].name);
+        free(run->column[i].unit);
+        free(run->column[i].text);
+    }
+    free(run->title);
+    free(run->label);
+    free(run->column);
+    free(run->data);
+    free(run->mark_s);
+    *run = (plot_run){0};
+}
+
+/* --- the file about it --------------------------------------------------------------------------------------------- */
+
+char *plot_run_quoted(const char *text) {
+    char *made = NULL;
+    size_t length = 0;
+    FILE *to = alloc_text(&made, &length);
+    fputc('"', to);
+    for (const char *at = text; *at != '\0'; at++) {
+        const unsigned char code = (unsigned char)*at;
+        if (code < 0x20 || code == 0x7f) {
+            fprintf(to, "\\u%04x", (unsigned)code);
+        } else {
+            fprintf(to, "%s%c", *at == '"' || *at == '\\' ? "\\" : "", *at);
+        }
+    }
+    fputc('"', to);
+    alloc_text_end(to);
+    return made;
+}
+
+static void write_texts(FILE *to, const plot_run *run, bool units) {
+    fprintf(to, "\n[%s]\n", units ? "units" : "words");
+    for (int i = 0; i < run->columns; i++) {
+        const plot_column *c = &run->column[i];
+        const char *text = units ? c->unit : c->text;
+        if (text != NULL && text[0] != '\0') {
+            char *name = plot_run_quoted(c->name);
+            char *value = plot_run_quoted(text);
+            fprintf(to, "%s = %s\n", name, value);
+            free(name);
+            free(value);
+        }
+    }
+}
+
+bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables) {
+    char *file = alloc_words("%s.toml", csv);
+    char *title = plot_run_quoted(run->title);
+    char *label = plot_run_quoted(run->label);
+    FILE *to = atomic_file_open(file);
+    bool good = false;
+    if (to != NULL) {
+        fprintf(to, "%stitle = %s\nlabel = %s\n", facts, title, label);
+        if (run->trusted_s > 0.0) {
+            fprintf(to, "trusted_s = %.17g\n", run->trusted_s);
+        }
+        fputs("marks_s = [", to);
+        for (int i = 0; i < run->marks; i++) {
+            fprintf(to, "%s%.17g", i > 0 ? ", " : "", run->mark_s[i]);
+        }
+        fputs("] # events, at most 400\n", to);
+        write_texts(to, run, true);
+        write_texts(to, run, false);
+        fputs(tables, to);
+        good = atomic_file_close(to, file, true);
+    }
+    free(file);
+    free(title);
+    free(label);
+    return good;
+}
+
+/* The string at *at, which advances past it; NULL if it is missing. Free it. */
+static char *string_at(const char **at) {
+    char *made = alloc_words("%s", *at);
+    size_t length = 0;
+    if (*(*at)++ != '"') {
+        free(made);
+        return NULL;
+    }
+    for (; **at != '"' && **at != '\0'; (*at)++) {
+        if (**at == '\\' && (*at)[1] == 'u' && strlen(*at) > 6) {
+            *at += 5; /* a control character: a blank */
+            made[length++] = ' ';
+            continue;
+        }
+        *at += **at == '\\' && (*at)[1] != '\0' ? 1 : 0;
+        made[length++] = **at;
+    }
+    *at += **at == '"' ? 1 : 0;
+    made[length] = '\0';
+    return made;
+}
+
+static void take_marks(plot_run *run, const char *at) {
+    const char *end;
+    while (*at == '[' || *at == ',') {
+        at += 1 + strspn(at + 1, " ");
+        const double mark_s = decimal_read(at, &end);
+        if (end == at) {
+            break;
+        }
+        run->mark_s = alloc_more(run->mark_s, run->marks + 1, sizeof *run->mark_s);
+        run->mark_s[run->marks++] = mark_s;
+        at = end;
+    }
+}
+
+/* "NAME" = "TEXT" of a table. */
+static void take_text(plot_run *run, const char *line, bool units) {
+    char *name = string_at(&line);
+    line += strspn(line, " =");
+    char *text = name != NULL ? string_at(&line) : NULL;
+    for (int i = 0; text != NULL && i < run->columns; i++) {
+        if (strcmp(run->column[i].name, name) == 0) {
+            put(units ? &run->column[i].unit : &run->column[i].text, text);
+        }
+    }
+    free(name);
+    free(text);
+}
+
+static void take_fact(plot_run *run, const char *line) {
+    const size_t length = strcspn(line, " =");
+    const char *at = line + length + strspn(line + length, " =");
+    char **place = strncmp(line, "title ", 6) == 0   ? &run->title
+                   : strncmp(line, "label ", 6) == 0 ? &run->label
+                                                     : NULL;
+    if (place != NULL) {
+        char *text = string_at(&at);
+        if (text != NULL) {
+            put(place, text);
+        }
+        free(text);
+    } else if (strncmp(line, "trusted_s ", 10) == 0) {
+        run->trusted_s = decimal_read(at, NULL);
+    } else if (strncmp(line, "marks_s ", 8) == 0) {
+        take_marks(run, at);
+    }
+}
+
+static void read_about(const char *csv, plot_run *run) {
+    char *file = alloc_words("%s.toml", csv);
+    FILE *from = fopen(file, "rb");
+    char line[16384];
+    char table = '\0';
+    while (from != NULL && fgets(line, sizeof line, from) != NULL) {
+        line[strcspn(line, "\r\n")] = '\0';
+        if (line[0] == '[') {
+            table = line[1];
+        } else if (table == 'u' || table == 'w') {
+            take_text(run, line, table == 'u');
+        } else if (table == '\0') {
+            take_fact(run, line);
+        }
+    }
+    if (from != NULL) {
+        fclose(from);
+    }
+    free(file);
+}
+
+/* --- the numbers ----------------------------------------------------------------------------------------------------- */
+
+/* The next line other than a comment, without its end, as UTF-8 text; false at the file's end. */
+static bool next_line(FILE *from, char **line, size_t *size) {
+    ssize_t length;
+    do {
+        length = getline(line, size, from);
+    } while (length > 0 && (*line)[0] == '#');
+    for (size_t i = 0; length > 0 && i < (size_t)length;) {
+        const size_t one = utf8_length(*line + i, (size_t)length - i);
+        (*line)[i] = one == 0 && (*line)[i] != '\0' ? '?' : (*line)[i];
+        i += one > 0 ? one : 1;
+    }
+    if (length > 0) {
+        (*line)[strcspn(*line, "\r\n")] = '\0';
+    }
+    return length > 0;
+}
+
+/* The next field, without quotes and blanks at its ends; NULL at the line's end. */
+static char *next_field(char **line) {
+    char *at = *line;
+    if (at == NULL) {
+        return NULL;
+    }
+    const bool quoted = *at == '"';
+    at += quoted ? 1 : strspn(at, " ");
+    char *end = at + strcspn(at, quoted ? "\"" : ",");
+    char *comma = end + strcspn(end, ",");
+    *line = *comma == ',' ? comma + 1 : NULL;
+    *comma = '\0';
+    *end = '\0';
+    return at;
+}
+
+static double number_of(const char *field) {
+    const char *end;
+    const double value = decimal_read(field, &end);
+    return end == field || end[strspn(end, " ")] != '\0' ? (double)NAN : value;
+}
+
+/* The spellings of NaN in other programs. */
+static bool is_nan(const char *field) {
+    return strcasecmp(field + (field[0] == '-'), "nan") == 0 || strcmp(field, "NA") == 0;
+}
+
+/* "theta [deg]": name and unit. */
+static void name_columns(plot_run *run, char *line) {
+    for (char *name = next_field(&line); name != NULL; name = next_field(&line)) {
+        char *unit = strrchr(name, '[');
+        char *end = unit != NULL ? strchr(unit, ']') : NULL;
+        if (unit != NULL && unit > name && unit[-1] == ' ' && end != NULL && end[1] == '\0') {
+            unit[-1] = '\0';
+            *end = '\0';
+            unit++;
+        } else {
+            unit = strcmp(name, "time") == 0 ? "s" : NULL;
+        }
+        run->column = alloc_more(run->column, run->columns + 1, sizeof *run->column);
+        run->column[run->columns] = (plot_column){0};
+        plot_run_name(run, run->columns++, name, unit, "");
+    }
+}
+
+/* An empty cell, or a missing one at the end, is an unknown value. */
+static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, plot_run *run) {
+    int64_t most = 0;
+    while (next_line(from, line, size)) {
+        if (run->rows == most) {
+            most = 2 * most + 1024;
+            run->data = alloc_more(run->data, most * run->columns, sizeof *run->data);
+        }
+        double *row = run->data + (size_t)run->rows++ * (size_t)run->columns;
+        char *rest = *line;
+        for (int i = 0; i < run->columns; i++) {
+            const char *field = next_field(&rest);
+            row[i] = field != NULL ? number_of(field) : (double)NAN;
+            if (isnan(row[i]) && field != NULL && field[0] != '\0' && !is_nan(field)) {
+                fprintf(stderr, "%s: error: row %lld, column '%.60s': '%.60s' is no number\n", csv,
+                        (long long)run->rows, run->column[i].name, field);
+                return false;
+            }
+        }
+        if (rest != NULL) {
+            fprintf(stderr, "%s: error: row %lld has more cells than the header has names\n", csv,
+                    (long long)run->rows);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The file's name without folders and ending. */
+static char *name_of(const char *csv) {
+    const char *slash = strrchr(csv, '/');
+    const char *name = slash != NULL ? slash + 1 : csv;
+    const char *dot = strrchr(name, '.');
+    return alloc_copy(name, dot != NULL && dot > name ? (size_t)(dot - name) : strlen(name));
+}
+
+bool plot_run_read(const char *command, const char *csv, plot_run *run) {
+    char *line = NULL;
+    size_t size = 0;
+    char *name = name_of(csv);
+    plot_run_open(run, name, name, 0);
+    free(name);
+    FILE *from = fopen(csv, "rb");
+    bool good = false;
+    if (from == NULL || !next_line(from, &line, &size)) {
+        fprintf(stderr, "%s: error: %s\nhint: whirl run SCENE --csv %s writes one\n", csv,
+                from == NULL ? strerror(errno) : "an empty file", csv);
+    } else if (!isnan(number_of(line)) || isdigit((unsigned char)line[0])) {
+        fprintf(stderr,
+                "%s: error: the first line is no header\n"
+                "hint: begin the file with the names of its columns: time,x,der(x)\n",
+                csv);
+    } else {
+        const char *other = strpbrk(line, ";\t");
+        name_columns(run, line);
+        if (run->columns == 1 && other != NULL) {
+            fprintf(stderr,
+                    "%s: error: the header has no comma, but %s\n"
+                    "hint: separate the columns by commas\n",
+                    csv, *other == ';' ? "';'" : "a tab");
+        } else {
+            good = take_rows(csv, from, &line, &size, run);
+            read_about(csv, run);
+            if (good && run->rows == 0) {
+                fprintf(stderr, "%s: error: no rows: `whirl %s` has nothing to draw\n", csv,
+                        command);
+            }
+        }
+    }
+    if (from != NULL) {
+        fclose(from);
+    }
+    free(line);
+    return good && run->rows > 0;
+}
+
+/* === the plot ================================================================================= */
 
 /* Left margin of all panels, in characters: room for y tics such as -2.5x10^-300 and the axis's label, so that the x
  * axes align. */

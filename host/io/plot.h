@@ -2,9 +2,95 @@
 #ifndef IO_PLOT_H
 #define IO_PLOT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
-#include "panels.h"
+/* === the quantities of one run or sweep, with their units, from memory or from a CSV file ===== */
+
+typedef struct plot_column {
+    char *name; /* x, der(x), der(der(x)), ... */
+    char *unit; /* as declared; NULL: unknown */
+    char *text; /* the quantity in words, or "" */
+} plot_column;
+
+/* Owner of all its data. Column 0 is the time, or the first swept value. */
+typedef struct plot_run {
+    char *title; /* for a picture of this run alone */
+    char *label; /* in the legend of a picture of several runs */
+    plot_column *column;
+    int columns;
+    double *data; /* [rows * columns] row by row; a single row is drawn as points */
+    int rows;
+    double trusted_s; /* the picture is shaded after it; no shade if not above 0 */
+    double *mark_s;   /* [marks] times of events */
+    int marks;
+} plot_run;
+
+/* Columns without names, no data. Texts are copied; `unit` may be NULL. */
+void plot_run_open(plot_run *run, const char *title, const char *label, int columns);
+void plot_run_name(plot_run *run, int column, const char *name, const char *unit, const char *text);
+void plot_run_close(plot_run *run);
+
+/* Read the CSV file, and its description CSV.toml if that exists. A quantity's field that is not a number is NaN. False
+ * is reported; call plot_run_close() in any case. */
+bool plot_run_read(const char *command, const char *csv, plot_run *run);
+
+/* Write CSV.toml, which describes the run: `facts` are lines of TOML for its head, `tables` for its end. False is
+ * reported. */
+bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
+
+/* A TOML string, in quotes. Free it. */
+char *plot_run_quoted(const char *text);
+
+/* === a choice of quantities, resolved to panels and curves ==================================== */
+
+enum { PLOT_PANELS = 16 };
+
+/* The choice of curves. All zero: every coordinate and output, without rates, a panel for each unit. */
+typedef struct plot_choice {
+    const char *x;                  /* a quantity; NULL: column 0 */
+    const char *y;                  /* quantities separated by commas, a panel for each unit; or
+                                     * NULL */
+    const char *panel[PLOT_PANELS]; /* quantities that share a panel */
+    int panels;
+    const char *legend; /* labels of the runs, separated by commas; or NULL */
+    const char *title;
+    const char *xlabel; /* NULL: quantity and unit */
+    const char *ylabel; /* of the panels, separated by commas; default: quantities and unit */
+} plot_choice;
+
+/* Does each name have a quantity, and each panel one unit? Needs columns, no data. False is reported. */
+bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count);
+/* True if x is a quantity other than column 0. */
+bool plot_is_path(const plot_choice *choice);
+
+enum { PANELS_MOST = 64, PANELS_QUANTITIES = 256 };
+
+/* A drawn quantity: its column in each run, or -1. */
+typedef struct panels_quantity {
+    char *name;  /* as displayed: theta' */
+    int *column; /* [runs] */
+    int panel;
+} panels_quantity;
+
+typedef struct panels {
+    panels_quantity quantity[PANELS_QUANTITIES];
+    int quantities;
+    const char *unit[PANELS_MOST]; /* NULL: unknown */
+    int count;
+    int *x; /* [runs] column */
+    const char *x_unit;
+    char *x_name;
+    char *label[PANELS_QUANTITIES]; /* of the runs */
+    int runs;
+} panels;
+
+/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. Free it. */
+char *panels_next(const char **list);
+/* False is reported. Call panels_free() in any case. */
+bool panels_make(panels *p, const char *command, const plot_choice *choice, const plot_run *runs,
+                 int count);
+void panels_free(panels *p);
 
 /* Draw to `file` (gnuplot.h). Titles and names (UTF-8) appear literally, with blanks for control characters. In a unit,
  * the exponent after ^ is raised. Neither they nor the file's name can act as gnuplot commands. False, reported, if the

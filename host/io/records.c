@@ -1,10 +1,14 @@
 /* records.c: writing a run as comma-separated values or plain columns. */
-#include "records.h"
+#include "host/io/records.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/contact.h"
 #include "host/base/alloc.h"
+#include "host/base/diag.h"
+#include "host/io/vcd.h"
 #include "host/number/functions.h"
 
 /* Columns of the unknowns and their derivatives, integrated or recovered. */
@@ -158,4 +162,238 @@ bool records_write(const records *r) {
     const bool csv_written = r->out == NULL || write_row(r, r->out, &csv);
     const bool plain_written = r->plain == NULL || write_row(r, r->plain, &plain);
     return csv_written && plain_written;
+}
+
+/* === traces =================================================================================== */
+
+/* Doubles know whole numbers to twice this. */
+#define TICKS_MOST 0x1p52
+/* Of a step in which events are located. */
+#define TICKS_LEAST 1000.0
+/* Of a ratio's numerator. */
+#define NUMERATOR_MOST ((uint64_t)1 << 60)
+
+struct traces {
+    const records *form;
+    vcd *vcd;
+    FILE *out;
+    whole_ratio step; /* in units */
+    double units_per_s;
+    int *signal;   /* [columns], the time's not used */
+    int *mode_of;  /* [contacts] wires, */
+    int *event_of; /* [contacts] and events, or -1 */
+    int *mode;     /* [contacts] room */
+};
+
+/* --- times ------------------------------------------------------------------------------------------------------ */
+
+/* The step in units of 10^-power s; false if a ratio cannot represent it. */
+static bool step_in_units(whole_ratio step, int power, whole_ratio *in_units) {
+    *in_units = step;
+    for (int k = 0; k < power; k++) { /* ten is two fives */
+        static const uint64_t primes[] = {2, 5};
+        for (int i = 0; i < 2; i++) {
+            if (in_units->denominator % primes[i] == 0) {
+                in_units->denominator /= primes[i];
+            } else if (in_units->numerator < NUMERATOR_MOST / primes[i]) {
+                in_units->numerator *= primes[i];
+            } else {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool traces_power(const image *im, uint64_t every, int *power) {
+    int exact = -1;
+    int nearest = -1;
+    double units_per_s = 1.0;
+    for (int k = 0; k <= VCD_FINEST; k++) {
+        whole_ratio in_units;
+        if (!step_in_units(im->step, k, &in_units) || im->until_s * units_per_s >= TICKS_MOST) {
+            break;
+        }
+        const double step_units = ratio_times(1, in_units);
+        const bool fine = im->contacts == 0 || step_units >= TICKS_LEAST;
+        if (every % in_units.denominator == 0) {
+            exact = k;
+            if (fine) {
+                break;
+            }
+        }
+        nearest = step_units * (double)every >= 1.0 ? k : nearest;
+        units_per_s *= 10.0;
+    }
+    *power = exact >= 0 ? exact : nearest;
+    return *power >= 0;
+}
+
+static int64_t time_of(const traces *w, uint64_t steps) {
+    return (int64_t)(ratio_times(steps, w->step) + 0.5);
+}
+
+/* --- the head ---------------------------------------------------------------------------------------------------- */
+
+static void name_quantity(traces *w, int *signal, const char *name, const char *text,
+                          const image_unit *unit, double value) {
+    char *shown =
+        image_shows_si(unit) ? alloc_words("%s", name) : alloc_words("%s [%s]", name, unit->shown);
+    char *note = alloc_words("%s [%s]%s%s", name, unit->shown, text[0] != '\0' ? ": " : "", text);
+    const int made = vcd_real(w->vcd, shown, note);
+    if (signal != NULL) {
+        *signal = made;
+    } else {
+        vcd_change(w->vcd, made, 0, value);
+    }
+    free(shown);
+    free(note);
+}
+
+static void name_traces(traces *w) {
+    const records *r = w->form;
+    for (int i = 1; i < r->columns; i++) {
+        const record_column *c = &r->column[i];
+        char *name = records_name(c);
+        const int output = i - (r->columns - r->image->own_outputs);
+        const char *text = c->primes > 0     ? ""
+                           : c->unknown >= 0 ? r->image->unknown[c->unknown].text
+                                             : r->image->output[output].text;
+        name_quantity(w, &w->signal[i], name, text, c->unit, 0.0);
+        free(name);
+    }
+}
+
+static void name_inputs(traces *w) {
+    const image *im = w->form->image;
+    if (im->inputs > 0) {
+        vcd_scope(w->vcd, "inputs");
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        const image_quantity *q = &im->input[i];
+        name_quantity(w, NULL, q->name, q->text, &q->unit, image_shown(&q->unit, q->value));
+    }
+}
+
+static void name_contacts(traces *w) {
+    static const struct {
+        const char *does;
+        const char *happens;
+    } words[] = {[WH_STOP] = {"rests", "hit"},
+                 [WH_HOLD] = {"holds", NULL},
+                 [WH_FRICTION] = {"sticks", NULL},
+                 [WH_WHEN] = {"above", "crossed"}};
+    const image *im = w->form->image;
+    int of_kind[WH_CONTACT_KIND_COUNT] = {0};
+    if (im->contacts > 0) {
+        vcd_scope(w->vcd, "contacts");
+    }
+    for (int k = 0; k < im->contacts; k++) {
+        const image_contact *c = &im->contact[k];
+        char statement[STATEMENT_SIZE];
+        statement_text(c->at, statement, sizeof statement);
+        const int number = ++of_kind[c->kind];
+        char *name = alloc_words("%s%d_%s", c->word, number, words[c->kind].does);
+        w->mode_of[k] = vcd_wire(w->vcd, name, statement);
+        free(name);
+        w->event_of[k] = -1;
+        if (words[c->kind].happens != NULL) {
+            name = alloc_words("%s%d_%s", c->word, number, words[c->kind].happens);
+            w->event_of[k] = vcd_event(w->vcd, name, NULL);
+            free(name);
+        }
+    }
+}
+
+traces *traces_open(FILE *out, const records *form, uint64_t every) {
+    const image *im = form->image;
+    traces *w = alloc(1, sizeof *w);
+    int power = 0;
+    if (!traces_power(im, every, &power) || !step_in_units(im->step, power, &w->step)) {
+        abort();
+    }
+    w->form = form;
+    w->out = out;
+    w->units_per_s = 1.0;
+    for (int k = 0; k < power; k++) {
+        w->units_per_s *= 10.0;
+    }
+    w->signal = alloc(form->columns, sizeof *w->signal);
+    w->mode_of = alloc(im->contacts, sizeof *w->mode_of);
+    w->event_of = alloc(im->contacts, sizeof *w->event_of);
+    w->mode = alloc(im->contacts, sizeof *w->mode);
+    char *what = alloc_words("%s%s%s, recorded by whirl run", im->name,
+                             im->title[0] != '\0' ? ": " : "", im->title);
+    w->vcd = vcd_new(out, what, power, im->name, form->kind->digits);
+    free(what);
+    name_traces(w);
+    name_inputs(w);
+    name_contacts(w);
+    return w;
+}
+
+/* --- events ------------------------------------------------------------------------------------------------------ */
+
+/* The value of the wire of a contact in this mode. */
+static double shown_mode(int kind, int mode) {
+    switch ((wh_contact_kind)kind) {
+    case WH_STOP:
+    case WH_HOLD: return mode == WH_ACTIVE ? 1.0 : 0.0;
+    case WH_FRICTION: return mode == WH_STUCK ? 1.0 : 0.0;
+    case WH_WHEN: return mode > 0 ? 1.0 : 0.0;
+    case WH_CONTACT_KIND_COUNT: break;
+    }
+    return (double)NAN;
+}
+
+static void tell_events(traces *w, const void *run, uint64_t steps) {
+    const records *r = w->form;
+    const int64_t begin = time_of(w, steps - 1);
+    const int64_t end = time_of(w, steps);
+    engine_event list[WH_EVENT_LOG];
+    const int count = r->kind->happened(run, list);
+    for (int i = 0; i < count; i++) {
+        const int k = list[i].contact;
+        const int kind = r->image->contact[k].kind;
+        const int64_t at = begin + (int64_t)(list[i].at_s * w->units_per_s + 0.5);
+        const int64_t time = at < end ? at : end;
+        vcd_change(w->vcd, w->mode_of[k], time, shown_mode(kind, list[i].mode));
+        if (kind != WH_STOP || list[i].strikes) {
+            vcd_change(w->vcd, w->event_of[k], time, 1.0);
+        }
+    }
+}
+
+void traces_step(traces *w, const void *run, uint64_t steps) {
+    const image *im = w->form->image;
+    const int64_t time = time_of(w, steps);
+    if (steps > 0) {
+        tell_events(w, run, steps);
+    }
+    w->form->kind->modes(run, w->mode);
+    for (int k = 0; k < im->contacts; k++) {
+        vcd_change(w->vcd, w->mode_of[k], time, shown_mode(im->contact[k].kind, w->mode[k]));
+    }
+    vcd_settle(w->vcd, time);
+}
+
+bool traces_record(traces *w, uint64_t steps) {
+    const records *r = w->form;
+    const int64_t time = time_of(w, steps);
+    for (int i = 1; i < r->columns; i++) {
+        vcd_change(w->vcd, w->signal[i], time, r->row[i]);
+    }
+    vcd_settle(w->vcd, time);
+    return ferror(w->out) == 0;
+}
+
+void traces_close(traces *w) {
+    if (w != NULL) {
+        (void)vcd_end(w->vcd);
+        free(w->signal);
+        free(w->mode_of);
+        free(w->event_of);
+        free(w->mode);
+        free(w);
+    }
 }

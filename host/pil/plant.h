@@ -6,8 +6,57 @@
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 
-#include "bind.h"
-#include "recorded.h"
+#include "core/exchange.h"
+#include "host/image/image.h"
+#include "host/io/records.h"
+
+/* === assignment of a firmware's signals to a scene's quantities, by name and unit ============= */
+
+typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT, BOUND_NOWHERE } bound_place;
+
+typedef struct bound {
+    wh_signal signal; /* its texts belong to the hello */
+    unsigned channel;
+    bound_place place;
+    int index;  /* index of the input, the output or the state component (angles first) */
+    int rate;   /* the component of its rate, or -1 */
+    bool turns; /* an angle: its reading repeats every turn */
+} bound;
+
+typedef struct binding {
+    unsigned count;
+    bound bound[WH_SIGNALS_MAX]; /* as in the hello */
+    unsigned outputs;            /* of the firmware */
+    unsigned edges;
+    unsigned samples;
+    unsigned notes; /* notes are not bound */
+} binding;
+
+/* A readable quantity of that name, an output, coordinate or rate: sets place, index, rate and turns. Returns its unit,
+ * or NULL if there is none. */
+const char *bind_read(bound *b, const image *im, const char *name);
+
+/* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. False, reported. */
+bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames);
+
+/* === records ================================================================================= */
+/* Records of the plant of a run in the loop as comma-separated values, in the columns of
+ * host/io/records.h. */
+
+typedef struct recorded {
+    const char *name; /* of the file; "-": standard output */
+    FILE *file;
+    records *rows;
+    uint64_t every; /* steps between rows */
+} recorded;
+
+/* A row every every_s seconds. Below 0: every millisecond, or each step if a millisecond is not a whole number of
+ * steps. False, reported, if every_s is not a whole number of steps, or the file cannot be written. With `name` NULL
+ * nothing is recorded. */
+bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
+void recorded_enter(recorded *r, void *run, uint64_t steps);
+/* False, reported, if the file is incomplete. */
+bool recorded_close(recorded *r);
 
 #define PLANT_PENDING 64
 

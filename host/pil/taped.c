@@ -12,7 +12,6 @@
 #include "host/base/atomic_file.h"
 #include "host/pil/guest.h"
 #include "host/pil/lockstep.h"
-#include "host/pil/talk.h"
 
 /* === taped ==================================================================================== */
 /* A tape has the frames of the line in order: hello, then readings and orders in turns; hello and a reset after each

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
-#include "reader.h"
+#include "host/prove/graph.h"
 
 typedef struct making {
     reader_symbols symbols;

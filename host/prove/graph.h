@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 
+#include "host/lang/model.h"
 #include "host/number/enclosure.h"
 
 typedef enum node_kind {
@@ -68,5 +69,25 @@ bool graph_is_one(const graph *g, int a);
 int graph_slope(graph *g, int a, int variable);
 /* `a` with 0 in place of the variables from `first` on. */
 int graph_without(graph *g, int a, int first);
+
+/* === reader =================================================================================== */
+/* Conversion of a model's expressions to nodes of a graph. Parameters, inputs and starts are exact decimals,
+ * not doubles. */
+
+typedef struct reader_symbols {
+    graph *graph;
+    const instance *instance;
+    int *
+        first; /* [coordinate_count] the variable of an unknown's value; its rate is the next one */
+    int *
+        order; /* [coordinate_count] of its highest derivative, which is variable highest + unknown */
+    int highest;    /* number of variables of the state */
+    int *parameter; /* [parameter_count] nodes; -1: not yet */
+    int *let;       /* [let_count] the same */
+    diags *errors;
+} reader_symbols;
+
+/* The node, or -1: reported. */
+int read_node(reader_symbols *s, const expr *tree);
 
 #endif

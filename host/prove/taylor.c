@@ -1,11 +1,98 @@
 /* taylor.c: the recurrences of Taylor coefficients. With u and v the operands of a node, coefficient k follows from
  * theirs up to k and from its own below k. */
-#include "taylor.h"
+#include "host/prove/taylor.h"
 
 #include <stdlib.h>
 
-#include "dual.h"
 #include "host/base/alloc.h"
+#include "host/number/enclosure.h"
+
+/* === dual ===================================================================================== */
+/* An enclosure with its derivatives by all states: entry 0 is the value, then come `width` - 1 derivatives.
+ * With width 1 it is the value alone. Entries that are exactly zero cost almost nothing. */
+
+static void dual_zero(enclosure *to, int width) {
+    for (int j = 0; j < width; j++) {
+        to[j] = enclosure_of(0.0);
+    }
+}
+
+/* to += a */
+static void dual_add(enclosure *to, const enclosure *a, int width) {
+    for (int j = 0; j < width; j++) {
+        to[j] = enclosure_add(to[j], a[j]);
+    }
+}
+
+/* to = a - to */
+static void dual_take_from(enclosure *to, const enclosure *a, int width) {
+    for (int j = 0; j < width; j++) {
+        to[j] = enclosure_sub(a[j], to[j]);
+    }
+}
+
+/* to += a b; zeros are skipped */
+static void add_product(enclosure *to, enclosure a, enclosure b) {
+    if (!enclosure_is_zero(a) && !enclosure_is_zero(b)) {
+        *to = enclosure_add(*to, enclosure_mul(a, b));
+    }
+}
+
+/* to += number a */
+static void dual_add_multiple(enclosure *to, enclosure number, const enclosure *a, int width) {
+    for (int j = 0; j < width; j++) {
+        add_product(&to[j], number, a[j]);
+    }
+}
+
+/* to += a b; to += number a b */
+static void dual_add_product(enclosure *to, const enclosure *a, const enclosure *b, int width) {
+    const enclosure x = a[0];
+    const enclosure y = b[0];
+    add_product(&to[0], x, y);
+    for (int j = 1; j < width; j++) {
+        add_product(&to[j], a[j], y);
+        add_product(&to[j], x, b[j]);
+    }
+}
+
+static void dual_add_products(enclosure *to, enclosure number, const enclosure *a,
+                              const enclosure *b, int width) {
+    const enclosure x = enclosure_mul(number, a[0]);
+    const enclosure y = enclosure_mul(number, b[0]);
+    add_product(&to[0], x, b[0]);
+    for (int j = 1; j < width; j++) {
+        add_product(&to[j], a[j], y);
+        add_product(&to[j], x, b[j]);
+    }
+}
+
+/* to = number to */
+static void dual_scale(enclosure *to, enclosure number, int width) {
+    for (int j = 0; j < width; j++) {
+        to[j] = enclosure_mul(to[j], number);
+    }
+}
+
+/* to /= a
+ *
+ * (u / v)' = (u' - (u / v) v') / v */
+static void dual_divide(enclosure *to, const enclosure *a, int width) {
+    const enclosure by = a[0];
+    to[0] = enclosure_div(to[0], by);
+    for (int j = 1; j < width; j++) {
+        to[j] = enclosure_div(enclosure_sub(to[j], enclosure_mul(to[0], a[j])), by);
+    }
+}
+
+/* The derivatives of a function of `a` with value to[0] and derivative `slope` there. */
+static void dual_chain(enclosure *to, enclosure slope, const enclosure *a, int width) {
+    for (int j = 1; j < width; j++) {
+        to[j] = enclosure_mul(slope, a[j]);
+    }
+}
+
+/* === Taylor coefficients ====================================================================== */
 
 taylor *taylor_new(const exact_motion *m, int order, int slopes_to) {
     taylor *t = alloc(1, sizeof *t);

@@ -4,7 +4,7 @@
 #ifndef PROVE_TAYLOR_H
 #define PROVE_TAYLOR_H
 
-#include "exact_motion.h"
+#include "host/prove/exact_motion.h"
 
 typedef struct taylor {
     const exact_motion *motion;

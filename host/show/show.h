@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "host/algebra/poly.h"
+#include "host/derive/equations.h"
 #include "host/derive/lower.h"
 
 typedef enum show_style { SHOW_TEXT, SHOW_LATEX } show_style;
@@ -80,6 +81,8 @@ struct show_lets {
     let_row row[];
 };
 
+/* From now on, sums and functions with a name in the file (`let`) are printed as that name. */
+void show_lets_begin(show *s, const equations *e);
 /* The let that equals *ratio times a part of p (`whole`: all of p), and *rest of p without it; or NULL. */
 const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest, double *ratio);
 /* The let that equals this power. */

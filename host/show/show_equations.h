@@ -8,6 +8,15 @@
 #include "host/derive/equations.h"
 #include "host/show/show.h"
 
+/* === stops, frictions, holds and crossings, for readers ======================================= */
+
+/* A heading, then a line for each active contact, in the order of simultaneous events; nothing without contacts. Every
+ * line begins with `prefix`. */
+void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
+
+/* The same after the equations, in the style of `s` and with its names for sums. */
+void show_contacts(const show *s, const equations *e);
+
 /* The equations of motion, one for each coordinate, with terms collected by second derivative and factored; then the
  * first-order form. */
 void show_text(FILE *out, const equations *e);
@@ -16,8 +25,6 @@ void show_latex(FILE *out, const equations *e);
 /* One equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
 void show_equation(const show *s, const equations *e, int i);
 
-/* From now on, sums and functions with a name in the file (`let`) are printed as that name. */
-void show_lets_begin(show *s, const equations *e);
 /* The definitions of the printed names: `heading`, rows separated by `behind`, `footing`; nothing if no name was used. */
 void show_lets_end(show *s, const char *heading, const char *behind, const char *footing);
 

@@ -10,7 +10,6 @@
 #include "host/check/horizon.h"
 #include "host/check/run_json.h"
 #include "host/io/gnuplot.h"
-#include "host/io/palette.h"
 #include "host/lang/value.h"
 #include "host/number/functions.h"
 #include "host/study/session.h"

@@ -4,7 +4,7 @@
 #   awk -F, -v scene=SCENE -v fronts="BOARD..." -f words.awk -f chart.awk PRICE.csv   one panel: the boards' fronts alone
 #
 # A panel shows the front and the seven settings with the most rows on it: each method with its colour and shape
-# (host/io/palette.h), each number with its dash, by steps from coarse to fine, in the cheapest form of the other
+# (host/io/gnuplot.h), each number with its dash, by steps from coarse to fine, in the cheapest form of the other
 # choices. ROWS.csv is of curves.sh, PRICE.csv of published.awk. Text to draw: `title`.
 
 BEGIN {
@@ -64,7 +64,7 @@ function axes(what) {
     print "set yrange [1e-10:1]"
 }
 
-# Colour and shape of a method (host/io/palette.h).
+# Colour and shape of a method (host/io/gnuplot.h).
 function look(name) {
     return "pt " point[(place[name] - 1) % shape_count + 1] " lc rgb '" colour[(place[name] - 1) % colour_count + 1] "'"
 }

@@ -8,8 +8,8 @@ height=460
 [ "$kind" = fronts ] || height=$((60 + 400 * $#))
 mkdir -p "$(dirname "$svg")"
 # The palette of all pictures: a colour and a shape for each method, in the order of core/method.h.
-colours=$(sed -n '/PALETTE_LINE_ROWS/,/^$/s/.*X("\(#[0-9a-f]*\)").*/\1/p' host/io/palette.h)
-shapes=$(sed -n 's/.*int points\[\] = {\(.*\)};/\1/p' host/io/palette.h | tr -d ,)
+colours=$(sed -n '/PALETTE_LINE_ROWS/,/^$/s/.*X("\(#[0-9a-f]*\)").*/\1/p' host/io/gnuplot.h)
+shapes=$(sed -n 's/.*int points\[\] = {\(.*\)};/\1/p' host/io/gnuplot.h | tr -d ,)
 methods=$(sed -n 's/.*X(WH_[A-Z0-9_]*, "\([a-z0-9-]*\)".*/\1/p' core/method.h)
 words=$(sed -n "s/^scene ${scene%+*} \"\([^\"]*\)\".*/\1/p" core/models/*.whirl)
 title="Error against price: ${scene%+*}, $words"

@@ -109,7 +109,7 @@ verdict $? "4000 swings in 400000 steps: drawn as the band that they fill ($(cat
 check "a single point is drawn" grep -q "<use xlink:href='#gpPt6'.*/>" "$scratch/point.svg"
 
 # --- the pictures of the pages: the palette's colours alone, a title and a text in words ----------------------------------
-allowed=$(grep -o '"#[0-9a-f]\{6\}"' host/io/palette.h | tr -d '"#')
+allowed=$(grep -o '"#[0-9a-f]\{6\}"' host/io/gnuplot.h | tr -d '"#')
 [ "$(echo "$allowed" | wc -l)" -ge 15 ]
 verdict $? "the palette is read" /dev/null
 # of one picture: each colour that no palette has, and what is missing

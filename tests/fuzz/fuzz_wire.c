@@ -11,7 +11,6 @@
 #include "core/cobs.h"
 #include "core/frame.h"
 #include "host/monitor/recording.h"
-#include "host/monitor/schema.h"
 #include "host/monitor/wire.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

@@ -5,7 +5,6 @@
 #include "host/engine/engine.h"
 #include "host/lang/builtin.h"
 #include "host/show/show_equations.h"
-#include "host/show/show_events.h"
 
 const image_settings plainly = IMAGE_SETTINGS_DEFAULT;
 

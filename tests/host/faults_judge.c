@@ -1,6 +1,6 @@
 /* faults_judge.c: verdict on a run from the plant's truth, not from the firmware's messages. */
 #include "faults.h"
-#include "host/pil/talk.h"
+#include "host/pil/lockstep.h"
 #include "test.h"
 
 #define TURN_RAD 6.283185307179586477

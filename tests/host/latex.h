@@ -8,7 +8,7 @@
  * outside all braces. */
 const char *latex_problem(const char *text, const char **at);
 
-/* Width in points of the widest row, in Computer Modern of 10 pt; independent of host/show/show_break.c. */
+/* Width in points of the widest row, in Computer Modern of 10 pt; independent of host/show/show_equations.c. */
 int latex_width(const char *text);
 
 /* The text with each `aligned` joined, so that each equation is a line; to be freed. */

@@ -5,7 +5,6 @@
 
 #include <unistd.h>
 
-#include "host/cli/files.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
 

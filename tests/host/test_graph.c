@@ -2,7 +2,7 @@
  * complex-step derivatives; graphs without some variables; one node for equal expressions; simplification. */
 #include "host/base/alloc.h"
 #include "host/lang/model.h"
-#include "host/prove/reader.h"
+#include "host/prove/graph.h"
 #include "host/prove/taylor.h"
 
 #include "derived.h"
@@ -402,7 +402,7 @@ TEST(graph, inverse_functions_of_numbers) {
 void suite_graph(void) { die = dice_of("graph", 41); }
 
 /* === reader =================================================================================== */
-/* A model's expressions as nodes of a graph (host/prove/reader.h). Random formulas have their long double values, and
+/* A model's expressions as nodes of a graph (host/prove/graph.h). Random formulas have their long double values, and
  * numbers are enclosures. Derivatives are the right variables. Unsupported functions are reported once, at their
  * place. */
 

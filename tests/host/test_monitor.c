@@ -2,7 +2,6 @@
  * losses, clock wraps and restarts are compared with the test's own files. */
 #include "host/base/alloc.h"
 #include "host/monitor/recording.h"
-#include "host/monitor/schema.h"
 
 #include "command.h"
 
@@ -480,7 +479,7 @@ TEST(recording, without_files) {
 void suite_recording(void) { die = dice_of("recording", 48); }
 
 /* === schema =================================================================================== */
-/* Schema lines of a rig (host/monitor/schema.h): drawn channels, states and rates are parsed as written. A line with
+/* Schema lines of a rig (host/monitor/recording.h): drawn channels, states and rates are parsed as written. A line with
  * a missing or wrong part is refused and changes nothing. */
 
 enum { LINE = 600, PIECES = 5 };

@@ -225,19 +225,19 @@ static void question(const dialogue *d, rig *r) {
 }
 
 /* Lines sometimes come after the timeout, when the question has been repeated. */
-static void converse(dialogue *talk, rig *r, dice *d) {
+static void converse(dialogue *link, rig *r, dice *d) {
     hear(r, "\n");
-    question(talk, r);
-    for (int turns = 0; !talk->done && turns < 4 * LINES; turns++) {
+    question(link, r);
+    for (int turns = 0; !link->done && turns < 4 * LINES; turns++) {
         if (r->begin == r->end || (!r->refuses_rate && dice_one_of(d, 6) == 0)) {
-            question(talk, r);
+            question(link, r);
             continue;
         }
-        const int asked = talk->asked;
-        (void)dialogue_answer(talk, r->said[r->begin++]);
-        TEST_ASSERT_TRUE(talk->asked == asked || talk->asked == asked + 1);
-        if (talk->asked > asked) {
-            question(talk, r);
+        const int asked = link->asked;
+        (void)dialogue_answer(link, r->said[r->begin++]);
+        TEST_ASSERT_TRUE(link->asked == asked || link->asked == asked + 1);
+        if (link->asked > asked) {
+            question(link, r);
         }
     }
 }
@@ -245,16 +245,16 @@ static void converse(dialogue *talk, rig *r, dice *d) {
 static void one_case(dice *d) {
     static rig r;
     r = (rig){.refuses_rate = dice_one_of(d, 4) == 0};
-    dialogue talk = {.rate = 125};
+    dialogue link = {.rate = 125};
     leave(&r, d);
-    converse(&talk, &r, d);
-    TEST_ASSERT_TRUE(talk.done);
-    TEST_ASSERT_TRUE(talk.was_off); /* by the rig's own list; stale answers disagree */
-    TEST_ASSERT_EQUAL(r.refuses_rate, talk.rate_refused);
+    converse(&link, &r, d);
+    TEST_ASSERT_TRUE(link.done);
+    TEST_ASSERT_TRUE(link.was_off); /* by the rig's own list; stale answers disagree */
+    TEST_ASSERT_EQUAL(r.refuses_rate, link.rate_refused);
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
-                             talk.refused);
-    TEST_ASSERT_EQUAL(10, talk.asked);
-    TEST_ASSERT_FALSE(dialogue_answer(&talk, "OK")); /* for another program */
+                             link.refused);
+    TEST_ASSERT_EQUAL(10, link.asked);
+    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* for another program */
 }
 
 TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {

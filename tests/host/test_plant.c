@@ -1,8 +1,8 @@
 /* test_plant.c: sensors and actuators of a scene, compared with closed forms: times of edges, samples, effect of
  * orders, watchdog; and the binding of signals to quantities. */
 #include "derived.h"
+#include "host/pil/lockstep.h"
 #include "host/pil/plant.h"
-#include "host/pil/talk.h"
 #include "motion.h"
 
 #define TICKS_PER_S 1000000U

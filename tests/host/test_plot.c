@@ -4,7 +4,6 @@
 
 #include "host/io/gnuplot.h"
 #include "host/io/minmax_decimation.h"
-#include "host/io/palette.h"
 #include "host/io/plot.h"
 #include "host/monitor/recording.h"
 
@@ -363,7 +362,7 @@ TEST(envelope, at_every_moment_all_is_there) {
 }
 
 /* === palette ================================================================================== */
-/* Contrast and distance of the colours of pictures (host/io/palette.h): WCAG 2.1's contrast ratio, and CIEDE2000
+/* Contrast and distance of the colours of pictures (host/io/gnuplot.h): WCAG 2.1's contrast ratio, and CIEDE2000
  * (Sharma, Wu and Dalal, 2005). Eyes are without and with colour blindness (Machado, Oliveira and Fernandes, 2009,
  * severity 1). */
 

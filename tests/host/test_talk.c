@@ -1,4 +1,4 @@
-/* test_talk.c: a drawn firmware on a line (host/pil/talk.h). Messages received, stored and hashed are compared with
+/* test_talk.c: a drawn firmware on a line (host/pil/lockstep.h). Messages received, stored and hashed are compared with
  * those sent, and each error of a firmware has its message. Also tapes. */
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include "core/exchange.h"
 #include "host/base/alloc.h"
 #include "host/base/interrupts.h"
-#include "host/pil/talk.h"
+#include "host/pil/lockstep.h"
 #include "host/pil/taped.h"
 
 #include "drawn_talk.h"

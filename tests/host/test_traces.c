@@ -1,4 +1,4 @@
-/* test_traces.c: waveform files of a run (host/io/traces.h). The unit of time is compared with integers, names with
+/* test_traces.c: waveform files of a run (host/io/records.h). The unit of time is compared with integers, names with
  * drawn scenes, and times of contacts with closed forms, to one unit. Also VCD. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -10,7 +10,7 @@
 
 #include "host/base/alloc.h"
 #include "host/check/simulate.h"
-#include "host/io/traces.h"
+#include "host/io/records.h"
 #include "host/io/vcd.h"
 
 #include "blocks.h"

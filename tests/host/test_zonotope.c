@@ -1,8 +1,8 @@
-/* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/zonotope.h), under drawn maps. The
+/* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/flowpipe.h), under drawn maps. The
  * reference is the support function in long double: the extent of a set in a direction. A convex set contains another
  * if its extent is at least as large in all directions. Bounds of the excess have closed forms. */
 #include "command.h"
-#include "host/prove/zonotope.h"
+#include "host/prove/flowpipe.h"
 
 void suite_zonotope(void);
 
