@@ -98,16 +98,20 @@ PREFIX ?= /usr/local
 INSTALLED = $(DESTDIR)$(PREFIX)
 CORE_ROOMS := core core/contact core/number core/step
 .PHONY: install uninstall
-install: $(B)/whirl ## the program and the core's sources into PREFIX (/usr/local), below DESTDIR
+install: $(B)/whirl ## the program, its man pages and the core's sources into PREFIX (/usr/local), below DESTDIR
 	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/boards/shared" \
 	    $(CORE_ROOMS:%="$(INSTALLED)/share/whirl/%")
 	$(Q)install -m 755 $(B)/whirl "$(INSTALLED)/bin/whirl"
+	$(Q)WHIRL=$(B)/whirl sh mk/commands.sh man "$(INSTALLED)/share/man/man1"
 	$(Q)for room in $(CORE_ROOMS); do install -m 644 $$room/*.[ch] "$(INSTALLED)/share/whirl/$$room" || exit 1; done
 	$(Q)install -m 644 boards/shared/mem.c "$(INSTALLED)/share/whirl/boards/shared"
 	$(Q)install -m 644 LICENSE README.md "$(INSTALLED)/share/whirl"
 uninstall: ## remove what `make install` put there
-	$(Q)rm -f "$(INSTALLED)/bin/whirl"
+	$(Q)rm -f "$(INSTALLED)/bin/whirl" "$(INSTALLED)"/share/man/man1/whirl*.1
 	$(Q)rm -rf "$(INSTALLED)/share/whirl"
+.PHONY: man
+man: $(B)/whirl ##- the man pages into build/man: man -l build/man/whirl-run.1
+	$(Q)WHIRL=$(B)/whirl sh mk/commands.sh man $(B)/man
 
 ##@ Tests and quality
 

@@ -271,6 +271,7 @@ docs-all: docs-programs ##- the commands of all pages, also the slow ones, print
 
 docs-renew: docs-programs ##- all pages with what their commands print now: DOC_PAGES=docs/pil.md
 	@sh tests/docs.sh renew $(DOC_PAGES)
+	@sh mk/commands.sh page >build/commands.md && cp build/commands.md docs/commands.md
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 # In the gate, and by `make hashes-all`.

@@ -18,13 +18,14 @@
 static const char head[] =
     "usage: whirl choose SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --error E [options]\n"
     "\n"
-    "Two answers: the method, number, form and step that keep an error on a board with a margin of 2\n"
-    "and take the fewest cycles, and those with the least flash; their costs, and the lines that run,\n"
-    "write and count them. They are rows of the table that `whirl price` prints.\n"
-    "In Whirl's source tree, with the board's compiler and emulator, their steps are counted; of a scene\n"
-    "with contacts, all steps to the horizon. Elsewhere they are predicted, and no scene with contacts\n"
-    "has an answer.\n"
+    "Finds two settings of method, number type, form and step that keep an error on a board with a\n"
+    "margin of 2: the one with the fewest cycles, and the one with the least flash. Prints their costs,\n"
+    "and the commands that run, generate and count them.\n"
+    "\n"
+    "In Whirl's source tree, with the board's compiler and emulator, the steps are counted. Elsewhere\n"
+    "they are predicted; a scene with contacts then has no answer.\n"
     "\n";
+
 static bool fits(const pricing *p) {
     if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
         fputs("whirl choose: error: --measure and --predict: one of the two\n", stderr);

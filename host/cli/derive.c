@@ -100,7 +100,7 @@ static const form_row forms[] = {
      .print = text,
      .print_steps = steps,
      .shows = true,
-     .text = "one equation a coordinate, as in a textbook, and the first-order form (default)"},
+     .text = "one equation a coordinate, its events, and the first-order form (default)"},
     {.word = "latex",
      .print = latex,
      .print_steps = latex_steps,
@@ -111,13 +111,13 @@ static const form_row forms[] = {
      .print_folded = folded_octave,
      .name_taken_by = taken_in_octave,
      .comment = EMIT_OCTAVE_COMMENT,
-     .text = "a function file that Octave and Matlab integrate as it stands"},
+     .text = "a function file for Octave and Matlab; events are listed only"},
     {.word = "c",
      .print = c,
      .runs = true,
      .name_taken_by = taken_in_c,
      .print_header = emit_c_header,
-     .text = "the scene as C for the core"},
+     .text = "the scene as C for the core (docs/howto/firmware.md)"},
 };
 enum { FORMS = sizeof forms / sizeof forms[0], FORMS_TEXT_SIZE = 16 + 16 * FORMS };
 
@@ -150,8 +150,8 @@ static const command_usage usage = {
     .head =
         "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as FORM] [options]\n"
         "\n"
-        "Prints the equations of motion of a mechanism (or of a scene, with its effects), of a FILE or\n"
-        "built in (`whirl list`):\n",
+        "Prints the equations of motion of a mechanism, or of a scene with its effects; or its code.\n"
+        "\n",
     .tail = ""};
 static const command_usage options_of_derive = {.head = "",
                                                 .groups = OPTIONS_CHANGE | OPTIONS_STEP |
@@ -175,21 +175,17 @@ static void print_usage(FILE *out) {
         out, "--steps", has_derivation,
         "the derivation: the Lagrangian, and of each coordinate dL/dq', its time derivative, "
         "dL/dq, dF/dq' and Q");
-    print_option(out, "--folded", has_folded,
-                 "values in place of names, one operation a line, as the C has them");
-    print_option(
-        out, "--header FILE", has_a_header,
-        "its header, for C and C++: names of components, inputs and outputs, their units, the "
-        "memory that it takes");
+    print_option(out, "--folded", has_folded, "values instead of names, one operation a line");
+    print_option(out, "--header FILE", has_a_header,
+                 "its header, for C and C++: names, units, memory (docs/embedding.md)");
     print_option(out, "--name NAME", has_a_name,
-                 "what the scene is called there, so that one program can hold it twice: with and "
-                 "without an effect, compensated and not");
+                 "the scene's name in the code, so that one program can have it twice");
     options_usage(out, &options_of_derive);
     fprintf(
         out,
-        "The method matters to %s only, and so does --number fixed:\n"
-        "what is generated else is of float and double alike. With --matrix, every form has the\n"
-        "matrix: octave in place of the equations, to the last digit.\n",
+        "The method matters to %s only, and so does --number fixed;\n"
+        "other code is the same for float and double. With --matrix every form shows the matrix;\n"
+        "octave has it instead of the equations.\n",
         forms_with(has_steps, said));
 }
 

@@ -19,18 +19,20 @@
 
 static const command_usage accel_usage = {
     .head =
-        "accel_usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
+        "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
         "\n"
-        "Prints the accelerations at one state, a line each, 17 significant digits:\n"
-        "    whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
-        "Coordinates, their rates, inputs and parameters can be set, each once; values are SI, or carry\n"
-        "a unit: \"theta'=330 [rpm]\". What is left out is 0, or has its declared value. The results are SI.\n"
-        "SCENE and MECHANISM are built in (`whirl list`). A scene brings its effects, whose parameters can\n"
-        "be set then.\n",
+        "Prints the accelerations at one state, a line each, in SI with 17 significant digits.\n"
+        "\n"
+        "  whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
+        "\n"
+        "Coordinates, rates, inputs and parameters may be set, each once. A value is SI, or has a unit:\n"
+        "\"theta'=330 [rpm]\". A bare number is refused if the declared unit is not SI. Without a value, a\n"
+        "state is 0, and an input or parameter has its declared value. A scene brings its effects and their\n"
+        "parameters.\n",
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "they are not finite numbers there; it says which expression is not",
+                "an acceleration is not a finite number; the message names the expression",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = ""}};
 
 static bool is_finite(const image *im, const double *result) {
@@ -129,10 +131,10 @@ int command_accel(int count, char **words) {
 
 static const command_usage check_usage = {
     .head =
-        "check_usage: whirl check FILE|MECHANISM ...\n"
+        "usage: whirl check FILE|MECHANISM ...\n"
         "\n"
-        "Reads each FILE and derives its mechanisms and scenes, without running anything. Errors stand\n"
-        "on standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
+        "Reads each FILE and derives its mechanisms and scenes, without running anything. Errors go to\n"
+        "standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "every scene of every file can be run",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "a file has an error, or cannot be read"}};
@@ -204,10 +206,10 @@ static const command_usage usage = {
     .head =
         "usage: whirl describe FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--json] [options]\n"
         "\n"
-        "Says what a scene holds: names, units, indices, start values, step, method, contacts, ledger,\n"
-        "memory, costs and the model's hash; all that runs and all generated code is made of the same.\n"
-        "Values are SI.\n"
-        "  --json       the same for programs: one JSON object (docs/describe.md)\n",
+        "Prints what a scene contains: names, units, indices, start values, step, method, contacts, ledger,\n"
+        "memory, costs and the hash of the model. Values are SI.\n"
+        "\n"
+        "  --json               one JSON object instead, for programs (docs/describe.md)\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
     .described = false,
     .tail = ""};

@@ -20,20 +20,20 @@ static const command_usage usage = {
     .head =
         "usage: whirl effects SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "How far each effect of a scene moves each coordinate, the effect's price on a board, and\n"
-        "whether an error allows to leave it out. Then the smallest set of effects that keeps the\n"
-        "error, and its command line. Motions are compared at every step, in double. Prices are the\n"
-        "predictions of `whirl price`, in float. An effect that did not act is not judged.\n"
-        "What is run is named as for `whirl run`.\n"
+        "Prints how far each effect of a scene moves each coordinate, its cost on a board, and whether the\n"
+        "allowed error permits leaving it out. Then it prints the smallest set of effects that keeps the\n"
+        "error, as a command (docs/effects.md). It compares motions at every step, in double; costs are\n"
+        "predictions in float. It does not judge an effect that did not act.\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP,
     .tail =
-        "  --error X=1mm,...    allowed errors of coordinates, rates or outputs: others are free. A bare\n"
-        "                       number is SI (default: 0.1 % of each coordinate's range)\n"
-        "  --board B            whose price: an emulated board of docs/boards.md, or host (mps2-an386,\n"
-        "                       a Cortex-M4F)\n",
+        "  --error X=1mm,...    allowed errors of coordinates, rates or outputs; the others may move freely.\n"
+        "                       A bare number is SI, and refused if the declared unit is not. Default: 0.1 %\n"
+        "                       of each coordinate's range.\n"
+        "  --board B            the board of the costs: an emulated board of docs/boards.md, or host\n"
+        "                       (default: mps2-an386, a Cortex-M4F, also for an STM32F405)\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "with all its effects the run diverged",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run with all effects diverged",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as a scene without effects"}};
 
 typedef struct effects_options {

@@ -16,10 +16,15 @@ static const command_usage usage = {
         "\n"
         "Finds every symmetry q -> q + e*(A q + b) of the kinetic energy, with constant A and b: the\n"
         "directions and rotations of the mechanism. Prints the momentum of each as a formula, and the\n"
-        "forces that change it. A momentum that no force changes is conserved: nothing inside the\n"
-        "mechanism can push it that way.\n"
-        "  --as text    for readers (default)\n"
-        "  --as latex   for a paper (with amsmath)\n",
+        "forces that change it, with their lines. If no force changes a momentum, it is conserved: nothing\n"
+        "inside the mechanism can push it that way.\n"
+        "\n"
+        "Other symmetries are reported as not decided. The answer is for the present values of the\n"
+        "parameters. A direction that shifts two lengths differently gets a remark: its momentum is not the\n"
+        "total one.\n"
+        "\n"
+        "  --as text            for readers (default)\n"
+        "  --as latex           for a paper (with amsmath)\n",
     .groups = OPTIONS_CHANGE,
     .described = false,
     .tail = ""};

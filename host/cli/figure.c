@@ -23,19 +23,18 @@ enum { RUNS_MOST = 64 };
 
 static const command_usage plot_usage = {
     .head =
-        "plot_usage: whirl plot FILE.csv|SCENE|FILE[:SCENE] ... --out FILE.svg|.pdf|.png [options]\n"
+        "usage: whirl plot FILE.csv|SCENE|FILE[:SCENE] ... --out FILE.svg|.pdf|.png [options]\n"
         "\n"
-        "Curves of one run or of several over each other. A FILE.csv is of `whirl run --csv` or\n"
-        "`whirl sweep --csv`, or any with a line of names. Scenes are run; they take the options of\n"
-        "`whirl run` that change a scene or how it is integrated.\n"
+        "Draws one run, or several over each other (docs/plot.md). FILE.csv is from `whirl run --csv` or\n"
+        "`whirl sweep --csv`, or any CSV file with a line of names. Whirl runs the scenes, with those\n"
+        "options of `whirl run` that change a scene or its integration.\n"
         "\n"
         "  whirl plot light.csv heavy.csv --y \"X', theta\" --out both.svg\n"
         "\n"
         "  --out FILE           the picture, drawn by gnuplot: .svg, .pdf or .png\n" RUN_CHOICE_HELP
-        "  --legend NAMES       of the runs, between commas, in place of their titles\n"
+        "  --legend NAMES       of the runs, between commas, instead of their titles\n"
         "\n"
-        "Crosses at the foot of a panel mark events. The shade begins where single values cannot be\n"
-        "trusted any more (docs/plot.md).\n",
+        "Crosses at the foot of a panel mark events. The shade begins at the trusted time of the run.\n",
     .tail = "",
     .why = OPTIONS_WHY_DRAWS};
 
@@ -200,15 +199,14 @@ static const command_usage usage = {
     .head =
         "usage: whirl figure NUMBER|FINDING|FILE.fig [options]\n"
         "\n"
-        "Draws a figure of the dissertation (`whirl list --figures`). Its runs take the options of\n"
-        "`whirl run` that change a scene or how it is integrated: --set m=2kg, --start theta=1,\n"
-        "--with drag, --until 5s, --step 1ms, --method M, ... (`whirl run --help`). A varied figure has\n"
-        "no marks of what the dissertation reads.\n"
+        "Draws a figure of the dissertation (`whirl list --figures`), as it is or varied. Its runs take\n"
+        "those options of `whirl run` that change a scene or its integration, such as --set m=2kg. A varied\n"
+        "figure has no marks of the values in the dissertation.\n"
         "\n"
         "  whirl figure 51 --set=M=-1\n"
         "\n"
         "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
-        "  --data NAME=FILE     the records called NAME, which then need no run (repeatable)\n",
+        "  --data NAME=FILE     use these records as NAME instead of a run (repeatable)\n",
     .tail = "",
     .why = OPTIONS_WHY_DRAWS};
 

@@ -228,23 +228,21 @@ static const command_usage firstlight_usage = {
     .head =
         "usage: whirl firstlight FILE|PORT [options]\n"
         "\n"
-        "Reads the record that the image firstlight prints, from a file or a serial line. Compares each\n"
-        "field with the interpreter's runs of the same scenes, and appends a row to the table of\n" LIGHT_PAGE
-        ".\n"
-        "A field that the board or emulator cannot give is `none`, and is named.\n"
+        "Reads the record of the image firstlight from a file or a serial line (docs/firstlight.md), and\n"
+        "compares each field with runs of the interpreter in float. It names unknown fields, `none`.\n"
         "\n",
     .tail =
-        "  --board B         the record is to be of this board\n"
-        "  --emulated FILE   the emulator's record of the same image: board, compiler and stack beside it\n"
-        "  --page FILE       the page that gets the row (default: " LIGHT_PAGE
-        ", of silicon alone)\n"
-        "  --keep FILE       the record, as it was read\n"
-        "  --wait S          so many seconds for a record on a line (default: 60)\n"
-        "  --baud B          the line's speed (default: 115200)\n",
+        "  --board B            the record must be of this board\n"
+        "  --emulated FILE      the emulator's record of the same image: board and compiler must be equal\n"
+        "  --page FILE          the page whose table gets a row, if the record has cycles (default:\n"
+        "                       " LIGHT_PAGE ")\n"
+        "  --keep FILE          keep the record, as it was read\n"
+        "  --wait S             seconds to wait for a record on a line (default: 60)\n"
+        "  --baud B             the speed of the line, 9600 to 230400 (default: 115200)\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "no field differs",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
                 "a field differs, no record came, or the row could not be written",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "no whole record, too",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as an incomplete record",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 /* --- the record ------------------------------------------------------------------------------------------------- */

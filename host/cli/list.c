@@ -50,17 +50,18 @@ static const command_usage usage = {
         "usage: whirl list [FILE ...] [--as text|table]\n"
         "       whirl list --units|--hard|--figures\n"
         "\n"
-        "The mechanisms and scenes of FILEs, or the built-in ones:\n"
-        "  --as text    a line each: kind, name, title (default)\n"
-        "  --as table   for programs: also the effects, a line each, fields between tabs, the names of the\n"
-        "               fields first; '-' stands for nothing; \\t, \\n, \\r, \\\\ for what would end a field.\n"
-        "               What it holds is terms, contacts, noise and conserve; lines are those of its\n"
-        "               block, of a mechanism the one of its name.\n"
-        "  --units      every unit that a file may write, what it is in SI and how much of it; a line each,\n"
-        "               fields between tabs\n"
-        "  --hard       the hard cases of docs/hard_cases.md: where the theory ends, and whether Whirl is\n"
-        "               right there; 'told' is a warning, 'refused' an error\n"
-        "  --figures    what `whirl figure` draws: name and title\n",
+        "Lists the mechanisms and scenes of FILEs, or the built-in ones.\n"
+        "\n"
+        "  --as text            a line each: kind, name, title (default)\n"
+        "  --as table           for programs: mechanisms, effects and scenes, a line each, with tabs between\n"
+        "                       the fields. The first line names the fields. '-' is an empty field; \\t, \\n,\n"
+        "                       \\r and \\\\ are escapes. `first_line` and `last_line` bound the block, and\n"
+        "                       `holds` lists terms, contacts, noise and conserve.\n"
+        "  --units              every unit: its name, its SI unit and its value there, with tabs between\n"
+        "                       them\n"
+        "  --hard               the hard cases of docs/hard_cases.md. 'told' means a warning, 'refused' an\n"
+        "                       error.\n"
+        "  --figures            the figures that `whirl figure` draws: name and title\n",
     .tail = ""};
 
 enum { OUTSIDE = -1 }; /* outside every effect */

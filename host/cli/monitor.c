@@ -39,26 +39,28 @@ const command_usage monitor_usage = {
     .head =
         "usage: whirl monitor PORT [options]\n"
         "\n"
-        "A rig's console on a serial line or a pseudo-terminal: what is typed goes to the rig, what it says\n"
-        "is shown, and its telemetry is recorded, until Ctrl-C. Where the line goes away it is waited for.\n"
-        "PORT may be a file that --raw has kept: what it holds is recorded, and that is all.\n"
+        "A terminal for the console of a rig, on a serial line or a pseudo-terminal (docs/console.md). It\n"
+        "sends your input, shows the answers, and records the telemetry until Ctrl-C. It waits for a line\n"
+        "that goes away. An empty line goes to the rig each 0.3 s, so that a run does not lose its host.\n"
+        "PORT may be a file of --raw.\n"
         "\n",
     .tail =
-        "  --csv FILE           samples, as records: time, then what the rig says it tells, with its units;\n"
-        "                       - is standard output (what the rig says then goes to standard error)\n"
+        "  --csv FILE           the samples: `time` in seconds since the first, then the rig's quantities\n"
+        "                       with units; unknown cells are empty. - is standard output (the answers then\n"
+        "                       go to standard error).\n"
         "  --vcd FILE           samples as real numbers, slot pulses as wires, for waveform viewers\n"
-        "  --ring FILE          what `tel ring read` brings, as records\n"
-        "  --plot FILE.svg|.png samples over time, drawn by gnuplot at the end\n"
+        "  --ring FILE          the records of `tel ring read`\n"
+        "  --plot FILE.svg|.png the samples over time, drawn by gnuplot at the end\n"
         "  --raw FILE           all bytes that come, as they come\n"
-        "  --rate N             samples a second (default: 500)\n"
-        "  --for S              end after so many seconds\n"
-        "  --baud B             the line's speed (default: 115200)\n"
-        "  --strict             fail when anything was lost\n"
+        "  --rate N             samples a second, a part of the rate of the cell (default: 500)\n"
+        "  --for S              end after this many seconds\n"
+        "  --baud B             the speed of the line, 9600 to 230400 (default: 115200)\n"
+        "  --strict             fail if samples were lost\n"
         "  --quiet              no summary\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "Ctrl-C, --for, or the end of a file",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "nothing could be recorded, or what was could not be written, or --strict and\n"
-                "       something was lost",
+                "no answer, --rate refused, a file not written or not read to its end, or\n"
+                "       samples lost with --strict",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = NULL}};
 

@@ -14,8 +14,8 @@ static const command_usage usage = {
     .head =
         "usage: whirl new NAME\n"
         "\n"
-        "Writes NAME.whirl: a pendulum on a cart, with a comment on every line, to be changed into a\n"
-        "mechanism of your own. A file that exists stays as it is.\n",
+        "Writes NAME.whirl: a pendulum on a cart, with a comment on every line. Change it into your own\n"
+        "mechanism. Whirl never overwrites an existing file.\n",
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the file cannot be written whole",

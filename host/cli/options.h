@@ -13,38 +13,41 @@
  * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
-      "a parameter or an input; a bare number is SI, and refused where the\n" \
-      "declared unit is not (repeatable, each name once)") \
+      "a parameter or an input, each once (repeatable). A bare number is SI, and refused if" \
+      " the declared unit is not. Parameters of effects need --with.") \
     X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
-      "a coordinate or a rate: --start \"theta'=330 [rpm]\" (repeatable)") \
+      "a start value: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
-      "effects to add, or all; 'ledger': books of energy and momentum") \
+      "effects to add; 'ledger' keeps books of energy and momentum; all: every effect but " \
+      "the ledger. all comes first: `--without all --with drag` is drag alone.") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
       "effects to leave out, or all; 'conserve': integrate every coordinate") \
-    X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "fixed step") \
-    X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, "end of the run") \
+    X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "the fixed step") \
+    X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, \
+      "the end of the run: the nearest whole number of steps; 0 takes no step") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
-      "double (default, the reference) or float (the boards, to the bit); fixed, of " \
-      "`whirl run` and `whirl derive --as c`: 32-bit integers (the boards without " \
-      "an FPU, to the bit)") \
+      "double (default, the reference) or float (the arithmetic of the boards, to the bit);" \
+      " fixed, for `whirl run` and `whirl derive --as c`: 32-bit integers, for smooth " \
+      "mechanisms on chips without an FPU, to the bit") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
-      "carry the rounding error of every sum along") \
+      "compensated sums, which carry their round-off") \
     X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
-      "give back along the rates, a little each step, what the energy drifts by:\n" \
-      "for very long runs of what nothing drives or damps; keeps the books") \
+      "return the drift of the energy along the rates, a 1024th each step: for very long " \
+      "runs without drive and damping. It keeps the ledger.") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
-      "turned (default): sines are looked up once a step where the angles' rates\n" \
-      "allow it; lookup: at each stage, for angles that turn far in a step") \
+      "turned (default): look up sines once a step and turn them on at the stages; lookup: " \
+      "look up the sines of each stage, for angles that turn up to half a turn a step") \
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
-      "a whole step as one constant matrix, of a linear mechanism without events:\n" \
-      "exact: the motion itself, inputs held over the step; rk4: what that method " \
-      "makes of it; none (default): stages") \
+      "a whole step as one product with a constant matrix, for a linear mechanism without " \
+      "events. exact: the motion itself, with inputs held over the step; rk4: that of RK4; " \
+      "none (default): stages.") \
     X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
-      "linear, cubic: what the accelerations owe to one turn angle, sines and\n" \
-      "divisions, is looked up in tables in flash; none (default): computed") \
+      "tables in flash, of one turn angle, instead of sines and divisions. linear: the " \
+      "cheapest without an FPU; cubic: nearly exact; none (default).") \
     X(OPTION_CELLS, "--cells", "N", OPTIONS_ENGINE, \
-      "entries of such a table: a power of two (default: linear 256, cubic 64)")
+      "cells of such a table: a power of two from 8 to 65536 (default: linear 256, cubic " \
+      "64)")
 
 #define OPTION_NAME(which, word, value, group, text) which,
 typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
@@ -110,8 +113,8 @@ bool options_number(const char *command, const char *option, const char *text, d
 /* --strict, --strict=off or --strict=LIMIT, for run_checks_fails(); false for another word. */
 bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
 #define OPTIONS_STRICT_HELP \
-    "  --strict=off         exit status 0 also if a warning is against a run (default: 1)\n" \
-    "  --strict=LIMIT       allow this part of the largest entry of the energy books to be left over\n"
+    "  --strict=off         exit status 0 also with a warning (default: 1)\n" \
+    "  --strict=LIMIT       the allowed energy residual, as a part of the books' largest entry\n"
 
 /* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {

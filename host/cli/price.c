@@ -14,13 +14,13 @@
 static const char head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
-    "Tries methods, numbers, forms, matrices, tables and many steps on a scene, as far as it takes\n"
-    "them, and prints how far each is off a reference of higher precision, beside what it costs on a\n"
-    "board: cycles a simulated second, or instructions if cycles are not counted there; flash, RAM and\n"
-    "stack. It shows at most 12 rows of the front: no other row is as cheap and errs less. Each figure\n"
-    "has a letter that tells how it is known.\n"
-    "What is run is named as for `whirl run`.\n"
+    "Tries methods, number types, forms, matrices, tables and many step sizes on a scene\n"
+    "(docs/price.md). Prints the error of each, compared with a reference of higher precision, and its\n"
+    "cost on a board: cycles a simulated second, flash, RAM and stack. Boards without cycle counts have\n"
+    "instructions. The table has at most 12 rows of the Pareto front. A letter after each figure shows\n"
+    "its source.\n"
     "\n";
+
 static void show_progress(void *context, int done, int of) {
     (void)context;
     fprintf(stderr, "\r%3d of %d settings ", done, of);

@@ -14,45 +14,48 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
 /* X(id, commands, word, its value or NULL, text). */
 #define PRICING_OPTION_ROWS(X) \
     X(PRICING_BOARD, BOTH, "--board", "B", \
-      "whose price: an emulated board of docs/boards.md, or host (default: mps2-an386, a " \
-      "Cortex-M4F, also for an STM32F405)") \
+      "the board of the costs: an emulated board of docs/boards.md, or host (default: " \
+      "mps2-an386, a Cortex-M4F, also for an STM32F405)") \
     X(PRICING_OF, BOTH, "--of", "X", \
-      "the error of one output, coordinate or rate, in its own unit; without it each " \
-      "coordinate and rate as a part of its largest value, the worst of them") \
+      "the error of one output, coordinate or rate, in its declared unit (default: the " \
+      "worst coordinate or rate, as a part of its largest value)") \
     X(PRICING_ERROR, BOTH, "--error", "0.1mm", \
-      "the error that is allowed; a bare number is SI; X=0.1mm is --of X as well") \
+      "the allowed error: a quantity of --of, or a part of the largest value; X=0.1mm is " \
+      "--of X as well. A bare number is SI, and refused if the declared unit is not.") \
     X(PRICING_HORIZON, BOTH, "--horizon", "T", \
-      "look at errors until then (default: the scene's end)") \
+      "compare errors until then (default: the scene's end). A chaotic motion cuts it " \
+      "shorter, and the output says so.") \
     X(PRICING_VARY, BOTH, "--vary", "RANGE", \
-      "the worst of sampled places of a parameter, an input or a start value: duty=0.2..0.8 " \
-      "samples three, the ends among them, duty=0.2..0.8:5 five. Repeatable: all " \
-      "combinations. The scene's own values are always sampled too") \
+      "the worst of sampled places of a parameter, an input or a start value: duty=0.2..0.8" \
+      " samples three, the ends among them, duty=0.2..0.8:5 five. Repeatable: all " \
+      "combinations, at most 64. The scene's own values are always sampled too.") \
     X(PRICING_METHOD, BOTH, "--method", "M,...", \
-      "try these methods in place of rk4,nystroem3,nystroem4,nystroem5, beside which others " \
-      "save nothing in the median; all: every one") \
+      "try these methods instead of rk4,nystroem3,nystroem4,nystroem5; all: every method") \
     X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
-      "operations that all trials may evaluate: 1e9 take about 5 s of a processor") \
+      "operations that all trials may evaluate: 1e9 take about 5 s of a processor. Longer " \
+      "steps are left out and counted.") \
     X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
     X(PRICING_CSV, PRICE, "--csv", "FILE", \
-      "every row, with the command lines that do it again; - is standard output (the table " \
-      "then goes to standard error)") \
+      "every row, with its command lines; - is standard output (the table then goes to " \
+      "standard error)") \
     X(PRICING_JSON, BOTH, "--json", NULL, \
-      "one JSON object on standard output in place of words (docs/warnings.md)") \
+      "one JSON object on standard output instead of words (docs/warnings.md)") \
     X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
-      "how often the firmware steps: a period takes whole steps (default: any step will do)") \
+      "the rate of the firmware: a period takes whole steps (default: any step)") \
     X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \
-      "of the processor: the longest steps must fit into the period (default: the board's " \
-      "own, if it has one)") \
+      "the processor's clock: the longest steps must fit into the period (default: the " \
+      "board's own, if it is one chip)") \
     X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
-      "what the firmware may take; K, KB and KiB are 1024 bytes (default: what the board has, " \
-      "if it is one chip)") \
-    X(PRICING_RAM, CHOOSE, "--ram", "2KB", "the same of its memory and stack") \
+      "the flash that the firmware may take; K, KB and KiB are 1024 bytes (default: the " \
+      "board's, if it is one chip)") \
+    X(PRICING_RAM, CHOOSE, "--ram", "2KB", "the same for RAM with stack") \
     X(PRICING_PREDICT, CHOOSE, "--predict", NULL, \
-      "predict what steps take, though it could be counted: a few seconds less") \
+      "predict steps instead of counting them, which saves a few seconds; not for scenes " \
+      "with contacts") \
     X(PRICING_MEASURE, BOTH, "--measure", NULL, \
-      "count, or fail where that cannot be: in Whirl's source tree, with the board's compiler " \
-      "and emulator. price counts its front, which takes minutes") \
-    X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; of price no table, either")
+      "count the steps, or fail with exit status 2: in Whirl's source tree, with the " \
+      "board's compiler and emulator. `whirl price` counts its front, which takes minutes.") \
+    X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; `whirl price` prints no table")
 #define PRICING_OPTION_ID(id, who, word, value, text) id,
 typedef enum pricing_option {
     PRICING_OPTION_ROWS(PRICING_OPTION_ID) PRICING_OPTIONS

@@ -26,26 +26,26 @@ static const command_usage usage = {
     .head =
         "usage: whirl prove SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "Until when each coordinate and rate of a run is within a tolerance of the exact motion, proved:\n"
-        "a tube in which the exact motion lies is computed from the energies, with parameters as the\n"
-        "decimals that are written, in intervals that are rounded outwards, and every step's end of the\n"
-        "run is held against it. For smooth scenes: no stops, holds, dry friction or whens. The options\n"
-        "are those of `whirl run`, and tell the run that is asked about.\n"
+        "Proves the time until which each coordinate and rate of a run is within a tolerance of the exact\n"
+        "motion (docs/stability.md). It encloses the exact motion in a flowpipe, computed from the energies\n"
+        "in intervals that are rounded outwards. Parameters are the decimals of the file. It compares the\n"
+        "end of every step with this enclosure. The scene must be smooth: no stops, holds, dry friction or\n"
+        "whens; no --number fixed.\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .tail =
-        "  --within X=1mm       what a coordinate or rate is to be within (repeatable, each name once)\n"
-        "  --tolerance 1e-3     of the others: part of the range that each has in the run (default: 1e-3)\n"
-        "  --csv FILE           a row for each step: the time, and of each coordinate and rate, in SI, the\n"
-        "                       least and the most that the exact motion may be, and the run's; - is\n"
-        "                       standard output, and the words then go to standard error\n"
-        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. When it is\n"
-        "                       spent, what is proved until there is told\n"
-        "  --quiet              no progress, and no words beside --csv\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also where it is proved until some time only",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged: what is proved before that is told",
+        "  --within X=1mm       the allowed distance of a coordinate or rate (repeatable, each name once)\n"
+        "  --tolerance 1e-3     for the others: this part of the range of each over the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each step: the time and, of each coordinate and rate, in SI, the\n"
+        "                       least and the most of the exact motion, and the run's value. - is standard\n"
+        "                       output; the words then go to standard error.\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. Then it prints\n"
+        "                       the proof so far.\n"
+        "  --quiet              no progress; no words if there is --csv\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also if the proof ends before the run",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged; the proof until then is printed",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "what is proved until then is told"}};
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "the proof so far is printed"}};
 
 typedef struct prove_options {
     common_options common;

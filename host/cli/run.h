@@ -6,13 +6,13 @@
 
 /* The options of the choice of curves, for help texts. */
 #define RUN_CHOICE_HELP \
-    "  --y NAMES            quantities between commas, a panel for each unit: --y \"X', theta\"\n" \
-    "                       (default: coordinates and outputs)\n" \
+    "  --y NAMES            quantities between commas, a panel for each unit: --y \"X', theta\" (default:\n" \
+    "                       coordinates and outputs)\n" \
     "  --panel NAMES        quantities that share a panel (repeatable)\n" \
-    "  --x NAME             over this quantity in place of the time\n" \
-    "  --title TEXT         above the picture\n" \
-    "  --xlabel TEXT        below it, in place of quantity and unit; --ylabel TEXTS: of the panels,\n" \
-    "                       between commas\n"
+    "  --x NAME             the horizontal axis (default: the time)\n" \
+    "  --title TEXT         the title\n" \
+    "  --xlabel TEXT        the label of the horizontal axis\n" \
+    "  --ylabel TEXTS       the labels of the panels, between commas\n"
 #define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title", "--xlabel", "--ylabel"
 
 /* If words[*at] is one of these, take it and advance *at past it. An error is reported and sets *bad. */

@@ -36,24 +36,21 @@ static const command_usage sweep_usage = {
         "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
         "                   [options]\n"
         "\n"
-        "Runs a scene at every point of a grid and writes a row of measures for each.\n"
-        "What is run is named as for `whirl run`.\n"
+        "Runs a scene at every point of a grid, and writes a row of measures for each (docs/sweeps.md).\n"
         "\n"
-        "  --over RANGE         COUNT values of a parameter, an input, a start value or the step;\n"
-        "                       a bare number is SI: \"r=10..60 [mm]:11\", \"theta'=1..4 [rpm]:7\",\n"
-        "                       \"step=0.1..10 [ms]:9,log\". Repeatable: the full grid, the last one\n"
-        "                       fastest\n"
-        "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR),\n"
-        "                       mean(EXPR), period(EXPR) over the run. Repeatable; without it the\n"
-        "                       final state and the outputs. A quantity stands in its declared\n"
-        "                       unit, an expression in SI\n"
-        "  --from TIME          measure only from then on (final values stay those of the end)\n"
-        "  --csv FILE           rows by rising point; - is standard output (default). The same\n"
-        "                       command goes on with the FILE of a sweep that was broken off\n"
-        "  --fresh              start FILE anew instead\n"
-        "  --jobs N             processes (default: one a processor); the rows do not depend on it\n"
-        "  --shard K/N          the K-th of N parts: their files, in order, are the whole file\n" OPTIONS_STRICT_HELP
-        "  --json               one JSON object on standard output in place of rows (docs/warnings.md)\n"
+        "  --over RANGE         COUNT values of a parameter, an input, a start value or the step: \"r=10..60\n"
+        "                       [mm]:11\", \"theta'=1..4 [rpm]:7\", \"step=0.1..10 [ms]:9,log\". A bare number is\n"
+        "                       SI. Repeatable: the full grid, the last range fastest.\n"
+        "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR), mean(EXPR),\n"
+        "                       period(EXPR) over the run. Repeatable. Default: the final state and the\n"
+        "                       outputs. A quantity has its declared unit, an expression is SI.\n"
+        "  --from TIME          evaluate the measures over the run from this time on\n"
+        "  --csv FILE           the rows, in the order of the grid; - is standard output (default). The same\n"
+        "                       command continues the FILE of an interrupted sweep.\n"
+        "  --fresh              start FILE again from the first row\n"
+        "  --jobs N             processes (default: one a processor). The rows do not depend on it.\n"
+        "  --shard K/N          only part K of N. The files of all parts, in order, are the whole file.\n" OPTIONS_STRICT_HELP
+        "  --json               one JSON object on standard output instead of the rows (docs/warnings.md)\n"
         "  --quiet              no progress, no summary\n"
         "\n",
     .groups = OPTIONS_SCENE,
@@ -61,9 +58,9 @@ static const command_usage sweep_usage = {
     .why = {
         [EXIT_ROW_OF(EXIT_DONE)] = "",
         [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-            "points did (their measures are empty; the others are there), a warning is against\n"
-            "       one (see --strict), or the file could not be written",
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as the FILE of another sweep",
+            "a point failed (its measures are empty), a warning applies (see --strict), or the\n"
+            "       file could not be written",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as a FILE from another sweep",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static const command_usage map_usage = {
@@ -71,24 +68,25 @@ static const command_usage map_usage = {
         "usage: whirl map SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log]\n"
         "                 --over NAME=FROM..TO:COUNT[,log] [options]\n"
         "\n"
-        "A stability map: the scene is run for each pair of two swept values, one of which may be the\n"
-        "step, and a mark tells what became of it: right to the tolerance, off by more, its energy not\n"
-        "kept, or out of all bounds.\n"
+        "Draws a stability map: runs the scene for each pair of two swept values, one of which may be the\n"
+        "step. A mark shows the result: right to the tolerance, a larger error, an unbalanced energy, or\n"
+        "diverged (docs/stability.md).\n"
         "\n"
         "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
         "\n"
-        "  --over RANGE         twice: COUNT values of a parameter, an input, a start value or the\n"
-        "                       step, even or even in the logarithm; a bare number is SI\n",
+        "  --over RANGE         twice: as in `whirl sweep`. A swept name takes no --set, --start or --step.\n",
     .groups = OPTIONS_SCENE,
     .tail =
-        "  --tolerance 1e-3     part of the range that a coordinate has in a run (default: 1e-3)\n"
-        "  --csv FILE           a row for each pair; - is standard output, and the map then goes to\n"
-        "                       standard error\n"
-        "  --json               one JSON object on standard output in place of the map (docs/warnings.md)\n"
-        "  --plot FILE.svg|.png a square for each pair\n"
+        "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
+        "                       (default: 1e-3)\n"
+        "  --csv FILE           a row for each pair: both values, the verdict, the times until which the run\n"
+        "                       is right and finite, the missing part of the energy. - is standard output;\n"
+        "                       the map then goes to standard error.\n"
+        "  --json               one JSON object on standard output instead of the map (docs/warnings.md)\n"
+        "  --plot FILE.svg|.png a rectangle for each pair\n"
         "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
-        "  --quiet              no progress, and no map beside --csv or --plot\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "whatever became of the runs",
+        "  --quiet              no progress; no map if there is --csv or --plot\n",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also if runs diverged",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};

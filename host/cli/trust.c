@@ -26,24 +26,27 @@ static const command_usage usage = {
     .head =
         "usage: whirl trust SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "Until when each coordinate and rate of a run is right to a tolerance: the run with half its\n"
-        "step, in double with compensated sums, is run beside it, and the first time is told at which\n"
-        "they differ by more. In a chaotic motion that time comes soon, whatever the step; behind it\n"
-        "energy and momenta are all that a run can be asked for. The options are those of `whirl run`,\n"
-        "and tell the run that is asked about.\n"
+        "Prints the time until which each coordinate and rate of a run is right to a tolerance\n"
+        "(docs/stability.md). It compares the run with one of half the step, in double with compensated\n"
+        "sums, and takes the first time at which they differ by more. In a chaotic motion that time comes\n"
+        "soon, whatever the step. After it, only energy and momenta are meaningful.\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .tail =
-        "  --proved             as `whirl prove`, with its options\n"
-        "  --tolerance 1e-3     part of the range that a coordinate has in the run (default: 1e-3)\n"
-        "  --csv FILE           a row for each coordinate and rate; - is standard output, and the words then\n"
-        "                       go to standard error\n"
-        "  --json               one JSON object on standard output in place of words (docs/warnings.md)\n"
-        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute\n"
-        "  --quiet              no progress, and no words beside --csv\n",
+        "  --proved             the same as `whirl prove`, with its options\n"
+        "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
+        "                       (default: 1e-3)\n"
+        "  --csv FILE           a row for each coordinate and rate: name, unit, verdict, trusted time,\n"
+        "                       range, largest error. Verdicts: end, until, still (it does not move),\n"
+        "                       rounding (only round-off moves it), untold (double has too few digits). - is\n"
+        "                       standard output; the words then go to standard error.\n"
+        "  --json               one JSON object on standard output instead of words (docs/warnings.md)\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. It refuses\n"
+        "                       longer work.\n"
+        "  --quiet              no progress; no words if there is --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "the run diverged: it says when, and until when it could be trusted",
+                "the run diverged; the output has the time, and the trusted time",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 

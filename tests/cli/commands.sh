@@ -11,6 +11,14 @@ verdict $? "whirl --help"
 sed -n 's/^  whirl \([a-z-]*\) .*/\1/p' "$scratch/help" | diff "$scratch/commands" - >"$scratch/err"
 verdict $? "whirl --help lists every command, and no other"
 
+WHIRL=$whirl sh mk/commands.sh page 2>&1 | diff docs/commands.md - >"$scratch/err"
+verdict $? "docs/commands.md is what make docs-renew DOC_PAGES=docs/commands.md writes"
+sh mk/commands.sh man "$scratch/man" 2>"$scratch/err"
+find "$scratch/man" -name '*-*.1' | sed 's/.*whirl-//; s/[.]1$//' | sort >"$scratch/paged"
+sort "$scratch/commands" | diff - "$scratch/paged" >"$scratch/err" &&
+    { ! command -v groff >"$scratch/shown" || groff -man -ww -Tutf8 "$scratch"/man/*.1 2>"$scratch/err" >"$scratch/shown"; } && [ ! -s "$scratch/err" ]
+verdict $? "a man page for each command, without warnings"
+
 option_rows >"$scratch/rows"
 [ "$(wc -l <"$scratch/rows")" -eq "$(grep -c '^ *X(OPTION_' host/cli/options.h)" ]
 verdict $? "the rows of options.h are read" "$scratch/rows"
@@ -21,8 +29,6 @@ while read -r command; do
             [ ! -s "$scratch/err" ]
         verdict $? "whirl $command $ask" "$scratch/text"
     done
-    grep -q "^| \`whirl $command[ \`]" docs/language.md
-    verdict $? "docs/language.md tells of whirl $command"
     "$whirl" "${command}x" 2>&1 | grep -q "^hint: did you mean '$command'?"
     verdict $? "and whirl ${command}x is led to it"
     ! grep -n '.\{100\}' "$scratch/text" >"$scratch/err"
@@ -31,8 +37,7 @@ while read -r command; do
     # all that begin a line are read; these commands have none
     case $command in accel | new | check) true ;; *) [ -s "$scratch/options" ] ;; esac
     verdict $? "its options are read"
-    { sed -n "/^### .whirl $command/,/^##* [^#]/p" docs/language.md && cat docs/describe.md docs/sweeps.md &&
-        grep "^| .whirl $command" docs/language.md; } >"$scratch/documents"
+    sed -n "/^## .whirl $command\`/,/^Exit status/p" docs/commands.md >"$scratch/documents"
     while read -r word value; do
         "$whirl" "$command" $word >"$scratch/out" 2>"$scratch/err" </dev/null
         if [ -n "$value" ]; then

@@ -10,9 +10,6 @@ sed -n 's/^ *{*\.word = "\(.*\)",$/\1/p; s/^ *{\.word = "\([a-z0-9]*\)", .*/\1/p
 verdict $? "help tells of every form"
 "$whirl" derive thomson_a --as x 2>&1 | sed -n 's/^hint: one of //p' | tr -d ',' | tr ' ' '\n' | diff "$scratch/forms" - >"$scratch/err"
 verdict $? "and so does the hint to a wrong one"
-listed=$(sed -n 's/^| `whirl derive FILE \[--as \(.*\)\]` .*/\1/p' docs/language.md)
-[ "$listed" = "$(sed 's/$/\\|/' "$scratch/forms" | tr -d '\n' | sed 's/..$//')" ]
-verdict $? "docs/language.md lists them: $listed"
 
 cat >"$scratch/it.whirl" <<'END'
 mechanism it "a ball on a spring, with a stop"
@@ -44,13 +41,13 @@ only_with() {
         [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && [ "$(those_with "error: $1 goes with" "$scratch/err")" = "$4" ]
     fi
     verdict $? "--as $3 with $1, which is for: $4"
-    sed -n "/^### .whirl derive/,/^### /p" docs/language.md | grep -F -- "| \`$1" >"$scratch/told"
-    ! is_one_of "$3" "$4" || grep -q "\`\(--as \)*$3\`" "$scratch/told"
-    verdict $? "docs/language.md tells of it" "$scratch/told"
+    sed -n "/^## .whirl derive/,/^## .whirl desc/p" docs/commands.md | grep -F -- "| \`$1" >"$scratch/told"
+    ! is_one_of "$3" "$4" || grep -qw "with --as .*$3" "$scratch/told"
+    verdict $? "docs/commands.md tells of it" "$scratch/told"
 }
 while read -r form; do
-    grep -q "^| \`--as $form\` | [^ ]" docs/language.md
-    verdict $? "docs/language.md describes --as $form"
+    grep -q "^| \`--as $form\` | [^ ]" docs/commands.md
+    verdict $? "docs/commands.md describes --as $form"
     ask "$form" && [ -s "$scratch/out" ] && ! grep -q '(null)' "$scratch/out" && [ ! -s "$scratch/err" ]
     verdict $? "--as $form: it is printed"
     cp "$scratch/out" "$scratch/plain"

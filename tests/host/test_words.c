@@ -1,5 +1,5 @@
 /* test_words.c: words and units of the language follow from their rows: reserved names, hints, refusals in the wrong
- * place, and the lists in docs/language.md. Every row is tested, also new ones. */
+ * place, and the lists in docs/language.md and events.md. Every row is tested, also new ones. */
 #include "derived.h"
 #include "host/lang/model.h"
 #include "host/lang/words.h"
@@ -143,10 +143,14 @@ TEST(words, kinds_have_words) {
 static char page[PAGE_SIZE];
 
 static void read_page(void) {
-    FILE *in = fopen("docs/language.md", "rb");
-    TEST_ASSERT_NOT_NULL_MESSAGE(in, "run from the root of the project");
-    page[fread(page, 1, sizeof page - 1, in)] = '\0';
-    fclose(in);
+    size_t length = 0;
+    for (int i = 0; i < 2; i++) {
+        FILE *in = fopen(i == 0 ? "docs/language.md" : "docs/events.md", "rb");
+        TEST_ASSERT_NOT_NULL_MESSAGE(in, "run from the root of the project");
+        length += fread(page + length, 1, sizeof page - 1 - length, in);
+        fclose(in);
+    }
+    page[length] = '\0';
 }
 
 /* Is `word` in the page between `from` and `to`, at the start of a text in backticks? */
