@@ -1,8 +1,8 @@
 # rows.awk: splits claims.rows, whose format stands at its head, into files below `into`:
-#   N.command        a command; a command of several rows comes once
-#   N.take           a row's awk program, the functions and rules below first
-#   list             a line a row: its number, and the names of what its commands say
-#   rows             a line a row, fields between tabs: section, claim, theirs, within, digits, verdict, note, commands
+#   N.command   a command; a command of several rows comes once
+#   N.take      a row's awk program, the functions and rules below first
+#   list        a line a row: its number, and the names of what its commands say
+#   rows        a line a row, fields between tabs: section, claim, theirs, within, digits, verdict, note, commands
 BEGIN {
     known = " section claim theirs within digits run take verdict note "
     prelude = \
@@ -21,41 +21,45 @@ BEGIN {
         "/^[-0-9.e+]+,/ { rows++; n = split($0, part, \",\"); for (i = 1; i <= n; i++) cell[run, rows, i] = part[i] }\n"
 }
 function fail(why) { print "error: " FILENAME ":" NR ": " why > "/dev/stderr"; bad = 1; exit 1 }
-function finish(    program, i, one) {
-    if (!("section" in f)) return
-    if (!("claim" in f) || !("theirs" in f)) fail("a row needs section, claim and theirs")
+function finish(    i, one, names, count) {
+    if (!("claim" in f)) return
+    if (section == "" || !("theirs" in f)) fail("a row needs section, claim and theirs")
     if (("verdict" in f) == ("take" in f)) fail("a row needs either take, or a verdict that no number decides")
     if ("verdict" in f && f["verdict"] != "opinion" && f["verdict"] != "not yet") fail("a verdict is computed, or opinion, or not yet")
-    if ("take" in f && !("run" in f)) fail("take without run")
+    if ("take" in f && !("run" in f)) f["run"] = before
+    if ("take" in f && f["run"] == "") fail("take without run")
+    if ("run" in f) before = f["run"]
     row++
-    names = ""
+    if (!("digits" in f)) f["digits"] = f["theirs"] !~ /[1-9]/ && f["within"] !~ /%/ && f["within"] + 0 < 1e-7 ? 2 : 4
     count = split(f["run"], one, "\n")
     for (i = 1; i <= count; i++) {
         if (!(one[i] in number)) {
-            number[one[i]] = ++commands
-            file = into sprintf("%04d.command", commands)
-            print one[i] > file
-            close(file)
+            number[one[i]] = sprintf("%04d.command", ++commands)
+            print one[i] > (into number[one[i]])
+            close(into number[one[i]])
         }
-        names = names " " sprintf("%04d.command.said", number[one[i]])
+        names = names " " number[one[i]] ".said"
     }
-    if ("take" in f) {
-        print prelude f["take"] > (into row ".take")
-        close(into row ".take")
-    } else names = ""
-    print row names > (into "list")
+    if ("take" in f) print prelude f["take"] > (into row ".take")
+    close(into row ".take")
+    print row ("take" in f ? names : "") > (into "list")
     gsub(/\n/, "`<br>`", f["run"])
-    printf "%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n", f["section"], f["claim"], f["theirs"], f["within"], f["digits"], f["verdict"], f["note"],
+    printf "%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n", section, f["claim"], f["theirs"], f["within"], f["digits"], f["verdict"], f["note"],
         f["run"] > (into "rows")
     split("", f)
 }
-/^#/ { next }
-NF == 0 { finish(); next }
+/^#/ || NF == 0 { next }
 {
     key = $1
     text = $0
     sub(/^[a-z]+ +/, "", text)
     if (index(known, " " key " ") == 0) fail("no such field: " key)
+    if (key == "section" || (key == "claim" && "theirs" in f)) finish()
+    if (key == "section") { section = text; next }
+    if (key == "theirs" && match(text, / within /)) {
+        f["within"] = substr(text, RSTART + RLENGTH)
+        text = substr(text, 1, RSTART - 1)
+    }
     if (!(key in f)) f[key] = text
     else if (key == "claim" || key == "note") f[key] = f[key] " " text
     else if (key == "run" || key == "take") f[key] = f[key] "\n" text
