@@ -70,17 +70,11 @@ $(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \
 $(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes station rig whirl)
 	$(link)
 
-# Drivers of the STM32F405 on played registers (tests/host/test_f405_*.c), with one board's data.
-FAKED_C := $(addprefix boards/stm32f4/,cell.c clock.c flash.c motor.c pins.c ring.c slots.c stop.c time_base.c watchdog.c)
-$(B)/host/boards/stm32f4/%.o: FILE_FLAGS = -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2
-# The motor's tests say themselves what the supply is.
-$(B)/host/boards/stm32f4/cell.o: FILE_FLAGS = -DBOARD_REGISTERS_FAKED=1 -Iboards/netduinoplus2 -Dhal_motor_supply_V=converted_supply_V
-
-$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS) $(FAKED_C)) $(LIB_HOST) \
+$(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
     $(call libraries,float,scenes rig whirl) $(LIB_DOUBLE) | $(B)/pil_cart
 	$(link)
 
-# The same drivers, all of them, on a chip that is played from its manual (tests/chip), which takes interrupts and resets: the
+# The drivers of the STM32F405 on a chip that is played from its manual (tests/chip), which takes interrupts and resets: the
 # drivers' variables are in sections of their own, so that a start of the chip can put them back to what the image has.
 CHIP_TEST_C := tests/main.c $(sort $(wildcard tests/chip/*.c))
 CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c $(addprefix boards/shared/,reset_words.c rig_time.c wait.c) $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c ring.c \

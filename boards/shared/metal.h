@@ -7,7 +7,7 @@
 /* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Access to one; on the PC, tests replace it and see every access in its order (tests/host/fake_registers.h, tests/chip). */
+/* Access to one; on the PC, tests replace it and see every access in its order (tests/chip). */
 #ifndef BOARD_REGISTERS_FAKED
 #define BOARD_REGISTERS_FAKED 0
 #endif

@@ -1,6 +1,6 @@
 /* test_scenes.c: the generated scenes: end states against the reference, books, outputs, and equal bits in a second run.
  *
- * One source for double and float, on the PC and on boards. Tolerances in double are the step's (tests/host/test_accuracy.c has
+ * One source for double and float, on the PC and on boards. Tolerances in double are the step's (tests/host/test_trajectory.c has
  * them to the digit). In float, round-off adds: a sum of N steps walks by sqrt(N/3) U of its power of two, U = 2^-24, at
  * random. */
 #include "build/gen/scenes.h"

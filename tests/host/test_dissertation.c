@@ -2,7 +2,7 @@
  * source. "dissertation" is its text or a figure's caption. The others are a closed form, or "independent": computed
  * without Whirl by matrix exponential, or by high-order integration of equations derived with SymPy.
  *
- * test_devices.c has the patents' devices and the plane; test_accuracy.c and test_convergence.c check accuracy. */
+ * test_devices.c has the patents' devices and the plane; test_trajectory.c checks accuracy. */
 #include "ranges.h"
 #include "test.h"
 
@@ -240,4 +240,14 @@ TEST(dissertation, figure_46_the_swing_falls_without_a_loss) {
     const double early_s = at_s[2] - at_s[1];
     const double late_s = at_s[peaks - 1] - at_s[peaks - 2];
     expect_between("fig 46: first half swing / last half swing", 4.0, 10.0, early_s / late_s);
+}
+
+/* The dissertation has theta1' = -8.5 and X' = 0 at 9.4 s; its equations give -5.24 and 2.66. */
+TEST(dissertation, thomson_at_9_4s) {
+    motion m;
+    motion_open(&m, "thomson_a", IN_DOUBLE_STEP(0.125e-3));
+    motion_to(&m, 9.4);
+    TEST_ASSERT_DOUBLE_WITHIN(0.005, -5.24, motion_value(&m, "theta1'"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.005, 2.66, motion_value(&m, "X'"));
+    motion_close(&m);
 }

@@ -10,71 +10,6 @@ static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool 
     return (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix};
 }
 
-/* Example 2, case 2 of the dissertation in its own pounds and inches, which cancel: X'' and Y'' of the stretches. */
-static linear two_masses(void) {
-    const quad m1 = (quad)72 / 100;
-    const quad m2 = (quad)136 / 100;
-    linear of = {.coordinates = 2, .states = 4, .columns = 5};
-    const quad first[4] = {-50 / m1, 50 / m1, 0, 1 / m1};
-    const quad second[4] = {0, -50 / m2, -1 / m2, -2 / m2};
-    of.rate[0][2] = 1;
-    of.rate[1][3] = 1;
-    for (int k = 0; k < 4; k++) {
-        of.rate[2][k] = first[k];
-        of.rate[3][k] = second[k] - first[k];
-    }
-    return of;
-}
-
-/* Every half second the state is compared with exp(S t). Returns the largest error in units of round-off, relative to
- * the initial amplitude. */
-static double two_masses_off(stepping how, double unit) {
-    static quad step[LINEAR_STATES][LINEAR_COLUMNS];
-    linear of = two_masses();
-    motion m;
-    double worst = 0.0;
-    motion_open(&m, "two_mass_relative", how);
-    for (int half = 1; half <= 10; half++) {
-        quad x[LINEAR_STATES] = {0, 0, 0, 0};
-        double real[4];
-        double angle[1];
-        x[1] = how.kind == &engine_float ? (quad)(float)0.0127 : (quad)0.0127;
-        of.h = (quad)half / 2;
-        linear_step(&of, 0, step);
-        linear_move(&of, step, NULL, x);
-        motion_to(&m, 0.5 * half);
-        how.kind->state(m.run, angle, real);
-        for (int i = 0; i < 4; i++) {
-            const double scale =
-                i < 2 ? 0.0127 : 0.0127 * 8.0; /* the masses swing at about 8 rad/s */
-            worst = fmax(worst, (double)quad_size((quad)real[i] - x[i]) / scale / unit);
-        }
-    }
-    motion_close(&m);
-    return worst;
-}
-
-TEST(matrix_runs, two_masses_are_their_exponential) {
-    static const struct {
-        const engine_kind *kind;
-        bool compensated;
-        double unit;
-        double most;
-    } ways[] = {{&engine_double, false, DBL_EPSILON, 40.0},
-                {&engine_double, true, DBL_EPSILON, 8.0},
-                {&engine_float, false, (double)FLT_EPSILON, 40.0},
-                {&engine_float, true, (double)FLT_EPSILON, 2.0}};
-    for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
-        const stepping exact = as_matrix(ways[w].kind, MATRIX_EXACT, ways[w].compensated);
-        const stepping rk4 = as_matrix(ways[w].kind, MATRIX_NONE, ways[w].compensated);
-        const double off = two_masses_off(exact, ways[w].unit);
-        const double stages = two_masses_off(rk4, ways[w].unit);
-        printf("  two_mass_relative over 5 s in %s%s: off by %.3g units of rounding (RK4: %.3g)\n",
-               ways[w].kind->name, ways[w].compensated ? ", compensated" : "", off, stages);
-        TEST_ASSERT_TRUE(off <= ways[w].most);
-    }
-}
-
 enum { MILLION = 1000000 };
 
 /* Error after a million steps of an oscillator, and the largest on the way, relative to its amplitude. */
@@ -215,28 +150,6 @@ TEST(matrix_runs, systems_of_first_order) {
         TEST_ASSERT_TRUE(fabs(turned - (1.0 + 3.0 + 2.0 + 8.0 * 0.25 * (1.0 - exp(-4.0)))) <=
                          most * 8.0);
         TEST_ASSERT_TRUE(fabs(real[m.image->reals - 1] - (2.0 + 8.0 * exp(-4.0))) <= most);
-        motion_close(&m);
-    }
-}
-
-/* x' = c y, y' = 0: x moves by y alone, however weak c is. Finite constants of all sizes. */
-TEST(matrix_runs, weak_couplings) {
-    for (int exponent = -280; exponent <= 0; exponent += 20) {
-        char text[400];
-        motion m;
-        double angle[1];
-        double real[2];
-        const double weak = 3.0 * pow(10.0, exponent);
-        snprintf(text, sizeof text,
-                 "mechanism m\nstate x [m]\nstate y [m]\nparameter c = %.17g [1/s]\n"
-                 "equation x' = c*y\nequation y' = 0 [m/s]\n"
-                 "scene s { start y = 7 [m]; step 250 [ms]; until 10 [s] }\n",
-                 weak);
-        motion_open_text(&m, text, as_matrix(&engine_double, MATRIX_EXACT, false));
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 16));
-        m.kind->state(m.run, angle, real);
-        TEST_ASSERT_TRUE_MESSAGE(fabs(real[0] / (weak * 28.0) - 1.0) < 1e-14, text);
-        TEST_ASSERT_TRUE(real[1] == 7.0);
         motion_close(&m);
     }
 }
