@@ -2,47 +2,21 @@
 # program: lines "place file:line file:line ...", the place that of the byte, from 1, that reach.c sets when the block is reached.
 # A block's lines are those from one call at a block's head to the next. The objects may have been another folder's (ccache):
 # a path counts from where it is one of FILES.
-BEGIN {
-    for (i = 0; i < 16; i++) {
-        digit[substr("0123456789abcdef", i + 1, 1)] = i
-    }
-}
-
-FILENAME == ARGV[1] {
-    is_file[$0] = 1
-    next
-}
-
+FILENAME == ARGV[1] { is_file[$0]; next }
 /^\// {
     at = $1
-    if (!(at in place)) {
-        place[at] = place_of(at)
-    }
+    if (!(at in place)) place[at] = place_of(at)
     enter(place[at])
     next
 }
-
 # The head of a function: what stands before its first call belongs to its first block.
-/^[0-9a-f]+ <.*>:$/ {
-    tell()
-    begins = 1
-    next
-}
-
-called {
-    address = substr($1, 1, length($1) - 1)
-    called = 0
-}
-
+/^[0-9a-f]+ <.*>:$/ { tell(); begins = 1; next }
+called && /^ *[0-9a-f]+:/ { address = substr($1, 1, length($1) - 1); called = 0 }
 /call .*<__sanitizer_cov_trace_pc>/ {
-    if (!begins) {
-        tell()
-        enter(place[at])
-    }
+    if (!begins) { tell(); enter(place[at]) }
     begins = 0
     called = 1
 }
-
 END { tell() }
 
 function place_of(path,    line, from) {
@@ -51,33 +25,20 @@ function place_of(path,    line, from) {
     path = substr(path, 2, RSTART - 2)
     while (!(path in is_file)) {
         from = index(path, "/")
-        if (from == 0) {
-            return ""
-        }
+        if (from == 0) return ""
         path = substr(path, from + 1)
     }
     return path line
 }
-
 function enter(what) {
-    if (what != "" && !(what in entered)) {
-        entered[what] = 1
-        lines = lines " " what
-    }
+    if (what != "" && !(what in entered)) { entered[what]; lines = lines " " what }
 }
-
 function decimal(hex,    i, n) {
-    for (i = 1; i <= length(hex); i++) {
-        n = 16 * n + digit[substr(hex, i, 1)]
-    }
+    for (i = 1; i <= length(hex); i++) n = 16 * n + index("0123456789abcdef", substr(hex, i, 1)) - 1
     return n
 }
-
 function tell() {
-    if (address != "" && lines != "") {
-        print decimal(address) + 1 lines
-    }
-    address = ""
-    lines = ""
+    if (address != "" && lines != "") print decimal(address) + 1 lines
+    address = lines = ""
     split("", entered)
 }

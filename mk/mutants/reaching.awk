@@ -6,54 +6,26 @@
 # where the nearest line with code before it or behind it in its function is; one outside functions, such as a table,
 # where any line of its file is. Where a function, or a file, has no code of its own: all.
 FILENAME == ARGV[1] {
-    if (!inside && /^[A-Za-z_]/ && !/^extern "C"/) {
-        begins = FNR
-        inside = 0
-    }
-    if (begins && !inside && /\{$/) {
-        inside = 1
-        is_function = /\) \{$/
-    }
+    if (!inside && /^[A-Za-z_]/ && !/^extern "C"/) begins = FNR
+    if (begins && !inside && /\{$/) { inside = 1; is_function = /\) \{$/ }
     if (/^}/) {
-        if (inside && is_function && begins <= line && line <= FNR) {
-            first = begins
-            last = FNR
-        }
-        begins = 0
-        inside = 0
+        if (inside && is_function && begins <= line && line <= FNR) { first = begins; last = FNR }
+        begins = inside = 0
     }
     next
 }
-
-{
-    split($1, part, ":")
-    if (part[2] != file) {
-        next
-    }
-}
-
+{ split($1, part, ":") }
+part[2] != file { next }
 part[1] == "counted" {
-    known = 1
-    before = behind = 0
-    for (i = 2; i <= NF; i++) {
-        if ($i + 0 == line) {
-            before = behind = line
-            break
-        }
-        if (first <= $i && $i < line && $i > before) {
-            before = $i + 0
-        }
-        if (line < $i && $i <= last && (!behind || $i < behind)) {
-            behind = $i + 0
-        }
+    for (i = 2; i <= NF && before != line; i++) {
+        if ($i + 0 == line) before = behind = line
+        else if (first <= $i && $i < line && $i > before) before = $i + 0
+        else if (line < $i && $i <= last && (!behind || $i < behind)) behind = $i + 0
     }
     outside = before != line && !first
-    if (!outside && !before && !behind) {
-        known = 0
-    }
+    known = outside || before || behind
     next
 }
-
 known {
     for (i = 2; i <= NF; i++) {
         if (outside || $i + 0 == before || $i + 0 == behind) {
@@ -63,9 +35,4 @@ known {
         }
     }
 }
-
-END {
-    if (!known) {
-        print "all"
-    }
-}
+END { if (!known) print "all" }

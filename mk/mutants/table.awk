@@ -1,57 +1,33 @@
 # table.awk -v wanted=N -v row=NAME DRAWN FOUND: the score of one row, of the first N mutants in the order drawn,
 # and those that survived. What no test can see (equivalents) counts as survived.
 BEGIN { FS = "\t" }
-
 FILENAME == ARGV[1] {
     file[$1] = $2; line[$1] = $3; column[$1] = $4; size[$1] = $5; text[$1] = $6; kind[$1] = $7
     drawn = $1
     next
 }
-
 { came[$1] = $2; by[$1] = $3 }
-
 END {
-    for (n = 1; n <= drawn && mutants < wanted; n++) {
-        if (came[n] == "refused") {
-            refused++
-        } else if (came[n] == "same") {
-            same++
-        } else if (came[n] == "killed" || came[n] == "survived") {
-            mutants++
-            of_kind[kind[n]]++
-            if (came[n] == "killed") {
-                killed++
-                if (by[n] ~ /no end/) { endless++ }
-                if (by[n] ~ /crash/) { crashed++ }
-            } else {
-                left[++survived] = n
-            }
-        }
+    for (n = 1; n <= drawn && of["killed"] + of["survived"] < wanted; n++) {
+        of[came[n]]++
+        if (came[n] == "killed") { endless += by[n] ~ /no end/; crashed += by[n] ~ /crash/ }
+        if (came[n] == "survived") left[of["survived"]] = n
     }
-    printf "%s: %d mutants, %d killed (%d by a crash, %d by a time limit), %d survived: %.1f %%" \
-           " (not compiled %d, same objects %d)\n", row, mutants, killed, crashed, endless, survived,
-           mutants ? 100 * killed / mutants : 0, refused, same
-    for (i = 1; i <= survived; i++) {
+    mutants = of["killed"] + of["survived"]
+    printf "%s: %d mutants, %d killed (%d by a crash, %d by a time limit), %d survived: %.1f %% (not compiled %d, same objects %d)\n",
+        row, mutants, of["killed"], crashed, endless, of["survived"], mutants ? 100 * of["killed"] / mutants : 0, of["refused"],
+        of["same"]
+    for (i = 1; i <= of["survived"]; i++) {
         n = left[i]
         printf "  %s:%d: %s: %s (%s)\n", file[n], line[n], kind[n], shown(n), by[n] == "0 asked" ? "not reached" : by[n]
     }
 }
-
 # The changed line, the change between brackets.
-function shown(n,    all, i, was) {
-    for (i = 0; i < line[n]; i++) {
-        if ((getline all < file[n]) <= 0) {
-            return ""
-        }
-    }
+function shown(n,    all, i) {
+    for (i = 0; i < line[n]; i++) if ((getline all < file[n]) <= 0) return ""
     close(file[n])
-    was = substr(all, column[n], size[n])
-    sub(/^ +/, "", was)
-    i = all
-    sub(/^ +/, "", i)
     all = all " "
-    i = substr(all, 1, column[n] - 1) "[" substr(all, column[n], size[n]) " -> " text[n] "]" \
-        substr(all, column[n] + size[n])
-    sub(/^ +/, "", i)
-    return i
+    all = substr(all, 1, column[n] - 1) "[" substr(all, column[n], size[n]) " -> " text[n] "]" substr(all, column[n] + size[n])
+    sub(/^ +/, "", all)
+    return all
 }
