@@ -266,11 +266,6 @@ conclusions: ## the dissertation's claims beside Whirl's numbers, with a verdict
 	@CC="$(CC)" mk/setup/deps.sh host
 	@$(MAKE) conclusions-now
 
-.PHONY: octave-check
-octave-check: ##- the generated Octave files under ode45, against whirl run (installs Octave, large)
-	@CC="$(CC)" mk/setup/deps.sh host octave
-	@$(MAKE) octave-check-now
-
 .PHONY: stability
 stability: ##- the stability maps of docs/stability.md, anew: every script of mk/stability (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host plot

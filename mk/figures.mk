@@ -1,9 +1,9 @@
-# figures.mk: the dissertation's figures, findings and claims, and the generated Octave files under Octave.
+# figures.mk: the dissertation's figures, findings and claims.
 
 FIGS := $(sort $(wildcard mk/figures/fig*.fig))
 FINDINGS := $(sort $(wildcard mk/figures/finding_*.fig))
 
-.PHONY: figures-now figures-docs octave-check-now
+.PHONY: figures-now figures-docs
 figures-now: build/whirl build/pil_rig build/pil_carriage
 	@$(call need,gnuplot)
 	@rm -rf $(FIGURES)/data
@@ -23,6 +23,3 @@ conclusions-now: build/whirl build/firmware
 	@sh mk/conclusions/table.sh print
 conclusions-renew: build/whirl build/firmware ##- the same, written into docs/conclusions.md
 	@sh mk/conclusions/table.sh renew docs/conclusions.md
-
-octave-check-now: build/whirl
-	@sh mk/octave/check.sh build/whirl build/octave
