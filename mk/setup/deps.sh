@@ -3,7 +3,7 @@
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (those of all processors) or a folder of
 # boards/ with a packages.sh (its own), tests, quality (linters, sanitizers), bench; hosts (other compilers, C libraries and
-# processors), flash (programmers and a debugger), octave and peers (other solvers) only when they are named.
+# processors), flash (programmers and a debugger) and peers (other solvers) only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
@@ -17,151 +17,89 @@ part=""    # what needs the group in hand
 
 # want PACKAGE "what for" TEST...: note the package as missing when the test fails.
 want() {
-    package=$1
-    what=$2
+    package=$1 what=$2
     shift 2
     "$@" && return 0
-    case " $missing " in
-    *" $package "*) return 0 ;;
-    esac
+    case " $missing " in *" $package "*) return 0 ;; esac
     missing="$missing $package"
     told="$told$(printf '    %-26s %-14s %s' "$package" "$part" "$what")
 "
 }
-
 have() { command -v "$1" >/dev/null 2>&1; }
-
 # True when the pattern names at least one file.
 have_file() {
-    for file in "$@"; do
-        [ -e "$file" ] && return 0
-    done
+    for file in "$@"; do [ ! -e "$file" ] || return 0; done
     return 1
 }
-
-host() {
-    want gcc "the C compiler" have "${CC:-gcc}"
-    want binutils "ar, objdump and size" have ar
-    want libc6-dev "the C library's headers" have_file /usr/include/stdio.h /usr/lib/musl/include/stdio.h
-}
-
-plot() {
-    want gnuplot-nox "plots" have gnuplot
-}
-
+# gcc-multilib would do for -m32, but cannot be installed beside the cross compilers.
+can_m32() { have gcc && echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o /dev/null 2>/dev/null; }
+have_sympy() { /usr/bin/python3 -c 'import sympy' 2>/dev/null; }
 # What a family of boards takes is in its folder: `want` lines.
 family() {
     # shellcheck source=/dev/null
     . "$boards/$1/packages.sh"
 }
 
-firmware() {
-    family cortexm
-}
-
-boards() {
-    for packages in "$boards"/*/packages.sh; do
-        # shellcheck source=/dev/null
-        . "$packages"
-    done
-}
-
-tests() {
-    if [ -z "${UNITY:-}" ]; then
-        want xz-utils "unpacking the Unity test framework" have xz
-    fi
-    want g++ "embedding scenes in C++" have g++
-}
-
-quality() {
-    want clang "the second compiler" have clang
-    want libclang-rt-dev "clang's sanitizers and fuzzer" \
-        have_file /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer*
-    want clang-format "the layout gate" have clang-format
-    want clang-tidy "the lint gate" have clang-tidy
-    want cppcheck "the second lint gate" have cppcheck
-    want musl-tools "another C library" have musl-gcc
-    wasm
-}
-
-# Building for WebAssembly and running it.
-wasm() {
-    want wasi-libc "the C library of WebAssembly" have_file /usr/lib/wasm32-wasi/libc.a
-    want libclang-rt-dev-wasm32 "clang's support code for WebAssembly" \
-        have_file /usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a
-    want llvm "its archiver" have llvm-ar
-    want lld "the linker for WebAssembly" have wasm-ld
-    want nodejs "running WebAssembly" have node
-}
-
-bench() {
-    want valgrind "instruction counts on the PC" have valgrind
-}
-
-# The compilers and emulators of `make hosts`. gcc-multilib would do for -m32, but cannot be installed beside the
-# cross compilers.
-can_m32() {
-    have gcc && echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o /dev/null 2>/dev/null
-}
-
-hosts() {
-    major=$(gcc -dumpversion 2>/dev/null | cut -d . -f 1)
-    want "lib32gcc-${major:-12}-dev" "32-bit programs" can_m32
-    want libc6-dev-i386 "32-bit programs" can_m32
-    want gcc-aarch64-linux-gnu "the compiler for aarch64" have aarch64-linux-gnu-gcc
-    want libc6-dev-arm64-cross "its C library" have_file /usr/aarch64-linux-gnu/lib/libc.a
-    want gcc-arm-linux-gnueabihf "the compiler for armhf" have arm-linux-gnueabihf-gcc
-    want libc6-dev-armhf-cross "its C library" have_file /usr/arm-linux-gnueabihf/lib/libc.a
-    want qemu-user "running programs for these" have qemu-aarch64
-}
-
-flash() {
-    want openocd "programming and debugging through a probe" have openocd
-    want dfu-util "programming through USB" have dfu-util
-    want gdb-multiarch "the debugger" have gdb-multiarch
-}
-
-octave() {
-    want octave "running the generated Octave files" have octave-cli
-}
-
-# What `make bench-peers` races against.
-have_sympy() { /usr/bin/python3 -c 'import sympy' 2>/dev/null; }
-
-peers() {
-    want libgsl-dev "the GNU Scientific Library" have_file /usr/include/gsl/gsl_odeiv2.h
-    want libsundials-dev "SUNDIALS, with ARKODE" have_file /usr/include/arkode/arkode_arkstep.h
-    want libboost-dev "Boost, with odeint" have_file /usr/include/boost/numeric/odeint.hpp
-    want python3-sympy "SymPy" have_sympy
-    octave
-}
-
-[ $# -gt 0 ] || set -- host plot firmware boards tests quality bench
-for group in "$@"; do
-    case $group in
-    host) part="whirl" ;;
-    plot) part="plots" ;;
-    firmware) part="boards" ;;
-    boards) part="make check" ;;
-    tests) part="make test" ;;
-    quality) part="make check" ;;
-    bench) part="make bench" ;;
-    hosts) part="make hosts" ;;
-    flash) part="make flash" ;;
-    octave) part="octave-check" ;;
-    peers) part="bench-peers" ;;
-    *)
-        [ -e "$boards/$group/packages.sh" ] || {
-            echo "deps.sh: no such group: $group" >&2
-            exit 2
-        }
-        part="boards"
-        family "$group"
-        continue
-        ;;
+group() {
+    case $1 in
+    host) part="whirl"
+        want gcc "the C compiler" have "${CC:-gcc}"
+        want binutils "ar, objdump and size" have ar
+        want libc6-dev "the C library's headers" have_file /usr/include/stdio.h /usr/lib/musl/include/stdio.h ;;
+    plot) part="plots"
+        want gnuplot-nox "plots" have gnuplot ;;
+    firmware) part="boards"
+        family cortexm ;;
+    boards) part="make check"
+        for packages in "$boards"/*/packages.sh; do
+            # shellcheck source=/dev/null
+            . "$packages"
+        done ;;
+    tests) part="make test"
+        [ -n "${UNITY:-}" ] || want xz-utils "unpacking the Unity test framework" have xz
+        want g++ "embedding scenes in C++" have g++ ;;
+    quality) part="make check"
+        want clang "the second compiler" have clang
+        want libclang-rt-dev "clang's sanitizers and fuzzer" \
+            have_file /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer*
+        want clang-format "the layout gate" have clang-format
+        want clang-tidy "the lint gate" have clang-tidy
+        want cppcheck "the second lint gate" have cppcheck
+        want musl-tools "another C library" have musl-gcc
+        want wasi-libc "the C library of WebAssembly" have_file /usr/lib/wasm32-wasi/libc.a
+        want libclang-rt-dev-wasm32 "clang's support code for WebAssembly" \
+            have_file /usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a
+        want llvm "its archiver" have llvm-ar
+        want lld "the linker for WebAssembly" have wasm-ld
+        want nodejs "running WebAssembly" have node ;;
+    bench) part="make bench"
+        want valgrind "instruction counts on the PC" have valgrind ;;
+    hosts) part="make hosts"
+        major=$(gcc -dumpversion 2>/dev/null | cut -d . -f 1)
+        want "lib32gcc-${major:-12}-dev" "32-bit programs" can_m32
+        want libc6-dev-i386 "32-bit programs" can_m32
+        want gcc-aarch64-linux-gnu "the compiler for aarch64" have aarch64-linux-gnu-gcc
+        want libc6-dev-arm64-cross "its C library" have_file /usr/aarch64-linux-gnu/lib/libc.a
+        want gcc-arm-linux-gnueabihf "the compiler for armhf" have arm-linux-gnueabihf-gcc
+        want libc6-dev-armhf-cross "its C library" have_file /usr/arm-linux-gnueabihf/lib/libc.a
+        want qemu-user "running programs for these" have qemu-aarch64 ;;
+    flash) part="make flash"
+        want openocd "programming and debugging through a probe" have openocd
+        want dfu-util "programming through USB" have dfu-util
+        want gdb-multiarch "the debugger" have gdb-multiarch ;;
+    peers) part="bench-peers"
+        want libgsl-dev "the GNU Scientific Library" have_file /usr/include/gsl/gsl_odeiv2.h
+        want libsundials-dev "SUNDIALS, with ARKODE" have_file /usr/include/arkode/arkode_arkstep.h
+        want libboost-dev "Boost, with odeint" have_file /usr/include/boost/numeric/odeint.hpp
+        want python3-sympy "SymPy" have_sympy
+        want octave "running the generated Octave files" have octave-cli ;;
+    *) part="boards"
+        [ -e "$boards/$1/packages.sh" ] || { echo "deps.sh: no such group: $1" >&2; exit 2; }
+        family "$1" ;;
     esac
-    "$group"
-done
+}
+[ $# -gt 0 ] || set -- host plot firmware boards tests quality bench
+for name in "$@"; do group "$name"; done
 
 [ -n "$missing" ] || exit 0
 line="apt-get install --no-install-recommends -y$missing"
@@ -170,12 +108,9 @@ printf '%s' "$told"
 [ -z "${DEPS_DRY_RUN:-}" ] || exit 1
 
 give_up() {
-    echo "$1 Please have this done, then try again:" >&2
-    echo >&2
-    echo "    $line" >&2
+    printf '%s Please have this done, then try again:\n\n    %s\n\n' "$1" "$line" >&2
     exit 1
 }
-
 have apt-get || give_up "This is no Debian: these are the packages' names there."
 
 # What it comes to with all that these packages need themselves; fails when they are not in the package lists.
@@ -184,7 +119,6 @@ size() {
     LC_ALL=C apt-get install --no-install-recommends -o Debug::NoLocking=1 --print-uris $missing 2>/dev/null </dev/null |
         sed -n 's/^Need to get /To be fetched: /p; s/^After this operation, /On disk: /p' | grep .
 }
-
 if [ "$(id -u)" -eq 0 ]; then
     as_root=""
 elif have sudo && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
@@ -197,32 +131,16 @@ fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 trap 'exit 1' HUP INT TERM
-
 update() {
     echo "Updating the package lists (apt-get update)"
     $as_root apt-get update >"$log" 2>&1 </dev/null || true
 }
-
-install() {
-    # shellcheck disable=SC2086 # $line and $as_root are lists of words
-    $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev/null
-}
+# shellcheck disable=SC2086 # $line and $as_root are lists of words
+install() { $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev/null; }
 
 # The package lists are fetched only when they are absent or too old to install from.
-if ! size; then
-    update
-    size || true
-fi
+size || { update && size; } || true
 echo "Installing them: $as_root${as_root:+ }$line"
-if ! install; then
-    update
-    if ! install; then
-        tail -n 5 "$log" >&2
-        give_up "Installing did not work."
-    fi
-fi
-
+install || { update && install; } || { tail -n 5 "$log" >&2; give_up "Installing did not work."; }
 # Believe the tools, not the package manager.
-if ! DEPS_DRY_RUN=1 "$0" "$@"; then
-    give_up "Still missing after installing."
-fi
+DEPS_DRY_RUN=1 "$0" "$@" || give_up "Still missing after installing."

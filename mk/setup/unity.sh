@@ -25,37 +25,28 @@ fail() {
 install_from() {
     for file in unity.c unity.h unity_internals.h; do
         [ -f "$1/$file" ] || fail "no $file in $1"
-    done
-    for file in unity.c unity.h unity_internals.h; do
         cmp -s "$1/$file" "$dir/$file" || cp "$1/$file" "$dir/$file"
     done
+    exit 0
 }
-
 pinned() {
-    [ -f "$1/unity.c" ] && [ -f "$1/unity.h" ] && [ -f "$1/unity_internals.h" ] &&
-        printf '%s  %s\n' "$sum_c" "$1/unity.c" "$sum_h" "$1/unity.h" \
-            "$sum_internals" "$1/unity_internals.h" | sha256sum --check --status
+    printf '%s  %s\n' "$sum_c" "$1/unity.c" "$sum_h" "$1/unity.h" "$sum_internals" "$1/unity_internals.h" |
+        sha256sum --check --status 2>/dev/null
 }
 
 if [ -n "${UNITY:-}" ]; then
-    if [ -f "$UNITY/src/unity.c" ]; then
-        install_from "$UNITY/src"
-    else
-        install_from "$UNITY"
-    fi
-    exit 0
+    [ ! -f "$UNITY/src/unity.c" ] || install_from "$UNITY/src"
+    install_from "$UNITY"
 fi
-if pinned "$dir"; then
-    exit 0
-fi
+! pinned "$dir" || exit 0
 command -v apt-get >/dev/null || fail "this is no Debian: there is no apt-get"
 command -v xz >/dev/null || fail "xz is missing (package xz-utils)"
 
 echo "  GET   Unity, the test framework, into $dir (from Debian's source package $package, a few MB; installs nothing)"
 rm -rf "$work"
-mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/sources" "$work/src"
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
+mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/sources" "$work/src" "$work/unity"
 
 # The machine's sources, one-line and deb822 style, with deb turned into deb-src.
 etc=/etc/apt
@@ -76,17 +67,14 @@ apt() {
 }
 
 log=$work/log
-if ! apt update >"$log" 2>&1; then
-    # One unreachable extra source must not matter as long as ours answers.
-    echo "unity.sh: note: apt-get update complained; trying what it got" >&2
-fi
-if ! (cd "$work/src" && apt source --download-only "$package") >>"$log" 2>&1; then
+# One unreachable extra source must not matter as long as ours answers.
+apt update >"$log" 2>&1 || echo "unity.sh: note: apt-get update complained; trying what it got" >&2
+(cd "$work/src" && apt source --download-only "$package") >>"$log" 2>&1 || {
     tail -n 5 "$log" >&2
     fail "apt could not fetch the source package $package"
-fi
+}
 tarball=$(find "$work/src" -name "${package}_*.orig.tar.*" ! -name '*.asc' | head -n 1)
 [ -n "$tarball" ] || fail "the source package $package has no original tarball"
-mkdir "$work/unity"
 tar -xf "$tarball" -C "$work/unity" --strip-components=1 --wildcards '*/tests/unity/*' ||
     fail "the source package $package no longer carries tests/unity"
 found=$(find "$work/unity" -name unity.c | head -n 1)
