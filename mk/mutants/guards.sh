@@ -12,50 +12,39 @@ set -eu
 here=mk/mutants
 : "${MAKE:=make}" "${ROWS:=$here/guards.rows}" "${TOP:=build/guards}" "${PROGRAM:=build/tests/host}"
 : "${SUITES:=}" "${LAST:=}" "${MORE:=}" "${HELD:=100}"
-top=$TOP
-mkdir -p "$top"
-sh "$here/tree.sh" "$top/tree"
+mkdir -p "$TOP"
+sh "$here/tree.sh" "$TOP/tree"
 # shellcheck disable=SC2086 # lists
-build() { (cd "$top/tree" && $MAKE "$PROGRAM" $MORE) >"$top/build.log" 2>&1; }
-build || { tail "$top/build.log" >&2; exit 1; }
+build() { (cd "$TOP/tree" && $MAKE "$PROGRAM" $MORE) >"$TOP/build.log" 2>&1; }
+asked() { (cd "$TOP/tree" && sh tests/limit.sh 300 "$@") >"$TOP/asked.log" 2>&1; }
+build || { tail "$TOP/build.log" >&2; exit 1; }
 
-bad=0
-number=0
-tried=0
-caught=0
+bad=0 number=0 tried=0 caught=0
 while IFS='@' read -r name file change suites; do
     case $name in '#'* | '') continue ;; esac
     number=$((number + 1))
     case " $* " in "  " | *" $number "*) ;; *) continue ;; esac
     file=$(echo "$file" | tr -d ' ')
-    change=$(echo "$change" | sed 's/^ *//; s/ *$//')
-    verdict="held by nothing"
     held=""
     tried=$((tried + 1))
-    : "${suites:=$SUITES}"
-    cp -p "$file" "$top/kept"
-    sed "$change" "$file" >"$top/tree/$file"
-    if cmp -s "$file" "$top/tree/$file"; then
-        verdict="its line is not there"
+    cp -p "$file" "$TOP/kept"
+    sed "$(echo "$change" | sed 's/^ *//; s/ *$//')" "$file" >"$TOP/tree/$file"
+    if cmp -s "$file" "$TOP/tree/$file"; then
+        verdict="its line is not there" bad=1
     elif ! build; then
-        verdict="does not compile: $(grep -m 1 error "$top/build.log")"
+        verdict="does not compile: $(grep -m 1 error "$TOP/build.log")" bad=1
     else
-        for suite in $suites; do
-            (cd "$top/tree" && sh tests/limit.sh 300 "$PROGRAM" "$suite") >"$top/$suite.log" 2>&1 ||
-                held="$held, $suite ($(grep -o '[a-z_0-9]*:FAIL' "$top/$suite.log" | sed 's/:FAIL//' | head -n 1))"
+        for suite in ${suites:-$SUITES}; do
+            asked "$PROGRAM" "$suite" ||
+                held="$held, $suite ($(grep -o '[a-z_0-9]*:FAIL' "$TOP/asked.log" | sed 's/:FAIL//' | head -n 1))"
         done
-        if [ -z "$held" ] && [ -n "$LAST" ]; then
-            (cd "$top/tree" && sh tests/limit.sh 300 sh -c "$LAST") >"$top/last.log" 2>&1 || held=", the last resort"
-        fi
-        [ -z "$held" ] || verdict="held by ${held#, }"
+        if [ -z "$held" ] && [ -n "$LAST" ]; then asked sh -c "$LAST" || held=", the last resort"; fi
+        [ -z "$held" ] || caught=$((caught + 1))
+        verdict="held by ${held:-, nothing}"
+        verdict="held by ${verdict#held by , }"
     fi
-    cp -p "$top/kept" "$top/tree/$file"
-    touch "$top/tree/$file"
-    case $verdict in
-    its* | does*) bad=1 ;;
-    "held by nothing") ;;
-    *) caught=$((caught + 1)) ;;
-    esac
+    cp -p "$TOP/kept" "$TOP/tree/$file"
+    touch "$TOP/tree/$file"
     printf '%2d %s: %s\n' "$number" "$(echo "$name" | sed 's/ *$//')" "$verdict"
 done <"$ROWS"
 echo "$caught of $tried caught"

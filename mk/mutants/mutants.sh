@@ -40,19 +40,17 @@ export JOBS LONGEST PATIENCE SLACK REACH ALWAYS NEVER STAGES CORE LAST LAST_BUIL
 # --- copies -------------------------------------------------------------------------------------------
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
 # others, one a job, are put back from it after each change.
-sum_of() { cat "$@" | cksum | tr -d ' '; }
 sum_of_all() { find "$@" -type f ! -path docs/dev/testing.md ! -path docs/dev/mutants.md | sort | xargs cat | cksum | tr -d ' '; }
 sum=$(sum_of_all Makefile core hal boards host tests docs)
+is() { [ "$(cat "$1" 2>/dev/null || true)" = "$2" ]; } # is FILE TEXT
 made() { # made TREE COMMAND...: run there, quietly
-    tree=$1
-    shift
-    (cd "$tree" && "$@") >"$top/build.log" 2>&1 || {
+    (cd "$1" && shift && "$@") >"$top/build.log" 2>&1 || {
         tail "$top/build.log" >&2
         exit 1
     }
 }
 mkdir -p "$top"
-if [ "$(cat "$top/sum" 2>/dev/null || true)" != "$sum" ]; then
+if ! is "$top/sum" "$sum"; then
     rm -rf "$top/sum" "$top"/src[0-9]*
     sh "$here/tree.sh" "$top/src"
     made "$top/src" sh -c "$MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE $BUILDS"
@@ -68,13 +66,11 @@ done
 
 # --- what every test takes on the tree as it is, and what it reaches --------------------------------------
 # A copy whose programs mark what they reach; the lines that each block of them has code of.
-if [ -n "$REACH" ] && [ "$(cat "$top/reach/sum" 2>/dev/null || true)" != "$sum" ]; then
+if [ -n "$REACH" ] && ! is "$top/reach/sum" "$sum"; then
     mkdir -p "$top/reach"
     if [ ! -d "$top/reaching" ]; then
         cp -a "$top/src" "$top/reaching.new"
-        for part in core host tests; do
-            rm -rf "$top/reaching.new"/build/*/"$part"
-        done
+        rm -rf "$top"/reaching.new/build/*/core "$top"/reaching.new/build/*/host "$top"/reaching.new/build/*/tests
         mv "$top/reaching.new" "$top/reaching"
     fi
     sh "$here/tree.sh" "$top/reaching"
@@ -89,14 +85,13 @@ if [ -n "$REACH" ] && [ "$(cat "$top/reach/sum" 2>/dev/null || true)" != "$sum" 
     echo "$sum" >"$top/reach/sum"
 fi
 # Lines: seconds of a processor, "host", "float", "double" or "cli", the suite's or script's name, a sum.
-if [ "$(cat "$top/times.sum" 2>/dev/null || true)" != "$sum.$asked" ]; then
+if ! is "$top/times.sum" "$sum.$asked"; then
     touch "$top/times"
     nice -n "$NICE" sh "$here/times.sh" "$top/src" "$PWD/$top/times" >"$top/times.new"
     mv "$top/times.new" "$top/times"
     echo "$sum.$asked" >"$top/times.sum"
 fi
-# What survived is tried again when there are other tests or more of them; what a test killed that is not to be asked,
-# too.
+# What survived is tried again when there are other tests or more of them; what a test killed that is not to be asked, too.
 tests_sum=$(sum_of_all tests).$(echo "$asked" | cksum | tr -d ' ')
 
 # --- the draw, the work, the table ----------------------------------------------------------------------
@@ -104,18 +99,17 @@ echo "Mutants drawn with SEED=$SEED, $MUTANTS a folder; tests of up to $LONGEST 
 tables=""
 set -f # patterns among the rows stay what they are
 patterns=$(printf '%s\n' $FOLDERS | grep -F '*' || true)
+files_of() { set +f && ls -d $1 | grep -E '\.[ch]$' && set -f; }
 for row in $FOLDERS; do
     case $row in
-    *'*'*) files=$(set +f && ls $row | grep -E '\.[ch]$') ;;
+    *'*'*) files=$(files_of "$row") ;;
     *)
-        files=$(set +f && ls -d "$row"/* | grep -E '\.[ch]$')
-        for pattern in $patterns; do
-            files=$(printf '%s\n' $files | grep -vxF "$(set +f && ls -d $pattern)")
-        done
+        files=$(files_of "$row/*")
+        for pattern in $patterns; do files=$(printf '%s\n' $files | grep -vxF "$(files_of "$pattern")"); done
         ;;
     esac
     files=$(printf '%s\n' $files | grep -vE "$EXCEPT")
-    name=$top/$(echo "${row%\*}" | tr / _).$SEED.$(sum_of $files)
+    name=$top/$(echo "${row%\*}" | tr / _).$SEED.$(sum_of_all $files)
     awk -f "$here/candidates.awk" $files |
         awk -v seed="$SEED" -v count=$((MUTANTS * 4)) -f "$here/draw.awk" >"$name.drawn"
     touch "$name.found"

@@ -17,21 +17,12 @@ top=$(dirname "$PWD")
 export WHIRL=build/whirl
 
 sum_of() { cat "$@" | cksum | tr -d ' '; }
-key() { # key KIND NAME
-    case $1 in
-    cli) echo "$common.$pages.$(sum_of "$2")" ;;
-    host) echo "$common.$(sum_of "$(grep -lE "^(void suite_|TEST\()$2[(,]" tests/host/test_*.c)")" ;;
-    float | double) echo "$common.$(sum_of "tests/core/test_$2.c")" ;;
-    *) echo "$common" ;;
-    esac
-}
 
 used() { # used LIMIT WALL COMMAND...: seconds of a processor, of it and its children, and the exit status
     sh -c 'limit=$1 wall=$2; shift 2; (ulimit -t $limit && ulimit -c 0 && exec timeout --kill-after=5 $wall "$@") >/dev/null 2>&1 </dev/null; status=$?; times; echo $status' sh "$@" |
         awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/) }
              NR == 3 { print user[1] * 60 + user[2] + sys[1] * 60 + sys[2], $1 }'
 }
-
 lines_of() { # lines_of FOLDER: what the programs' maps there say, as FOLDER.lines
     blocks=""
     for of in whirl host; do
@@ -42,55 +33,48 @@ lines_of() { # lines_of FOLDER: what the programs' maps there say, as FOLDER.lin
     if [ -n "$blocks" ]; then awk -f "$here/lines.awk" $blocks; fi >"$1.lines"
     rm -rf "$1"
 }
-
-told() { # told KIND NAME PROGRAM...
-    name="$1 $2"
-    key=$(key "$1" "$2")
-    line=$(grep -E "^[0-9.]+ $name $key" "$known" | tail -n 1 || true)
+told() { # told KIND NAME KEY PROGRAM...: a line of one; a name in .failed where it fails
+    kind=$1 name=$2 key=$3
+    shift 3
+    line=$(grep -E "^[0-9.]+ $kind $name $key" "$known" | tail -n 1 || true)
     reached=""
-    case " $REACH " in *" $1 "*) reached=$top/reach/$(echo "$1.$2" | tr / _) ;; esac
-    [ -z "$reached" ] || [ -e "$reached.lines" ] || line=""
-    shift 2
-    if [ -z "$line" ] || awk -v line="$line" -v longest="$LONGEST" -v always="$ALWAYS" 'BEGIN {
-            split(line, t, " "); exit !(t[5] == "cut" && (t[1] < longest || (always != "" && t[3] ~ always))) }'; then
-        cut=""
-        limit=unlimited
-        wall=$((360 * SLACK))
-        if [ "$1" != sh ] && ! printf '%s\n' "${name#* }" | grep -qE "${ALWAYS:-^$}"; then
-            limit=$((${LONGEST%.*} + 2))
-            wall=$((limit * SLACK + 60)) # for programs that it starts
-        fi
-        if [ -z "$reached" ]; then
-            took=$(used "$limit" "$wall" "$@")
-        else
-            rm -rf "$reached"
-            mkdir -p "$reached"
-            took=$(cd "$top/reaching" && REACH_FOLDER=$reached used "$limit" "$wall" "$@")
-            lines_of "$reached"
-        fi
-        case ${took#* }$limit in
-        0*) ;;
-        *unlimited) failed "$name" ;;
-        124* | 137* | 152*) cut=" cut" ;;
-        *) failed "$name" ;;
-        esac
-        line="${took% *} $name $key$cut"
-        echo "$line" >>"$known" # for who breaks this off
+    case " $REACH " in *" $kind "*) reached=$top/reach/$(echo "$kind.$name" | tr / _) ;; esac
+    always=$(printf '%s\n' "$name" | grep -E "${ALWAYS:-^$}" || true)
+    if [ -n "$line" ] && { [ -z "$reached" ] || [ -e "$reached.lines" ]; } && ! awk -v line="$line" -v longest="$LONGEST" \
+        -v always="$always" 'BEGIN { split(line, t, " "); exit !(t[5] == "cut" && (t[1] < longest || always != "")) }'; then
+        echo "$line"
+        return
     fi
-    echo "$line"
-}
-
-failed() { # failed NAME: told nothing of
-    echo "$1" >>.failed
-    exit 0
+    limit=unlimited
+    wall=$((360 * SLACK))
+    if [ "$1" != sh ] && [ -z "$always" ]; then
+        limit=$((${LONGEST%.*} + 2))
+        wall=$((limit * SLACK + 60)) # for programs that it starts
+    fi
+    if [ -z "$reached" ]; then
+        took=$(used "$limit" "$wall" "$@")
+    else
+        rm -rf "$reached"
+        mkdir -p "$reached"
+        took=$(cd "$top/reaching" && REACH_FOLDER=$reached used "$limit" "$wall" "$@")
+        lines_of "$reached"
+    fi
+    line="${took% *} $kind $name $key"
+    case ${took#* }$limit in
+    0*) ;;
+    *unlimited) echo "$kind $name" >>.failed && return ;;
+    124* | 137* | 152*) line="$line cut" ;;
+    *) echo "$kind $name" >>.failed && return ;;
+    esac
+    echo "$line" | tee -a "$known" # for who breaks this off
 }
 
 if [ $# -gt 2 ]; then
     case $3 in
-    cli) told cli "$4" sh "$4" ;;
-    host) told host "$4" build/tests/host "$4" ;;
-    last) told last "$4" sh -c "$LAST" ;;
-    *) told "$3" "$4" "build/tests/${CORE}_$3" "$4" ;;
+    cli) told cli "$4" "$common.$pages.$(sum_of "$4")" sh "$4" ;;
+    host) told host "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|TEST\()$4[(,]" tests/host/test_*.c)")" build/tests/host "$4" ;;
+    last) told last "$4" "$common" sh -c "$LAST" ;;
+    *) told "$3" "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|TEST\()$4[(,]" tests/core/test_*.c)")" "build/tests/${CORE}_$3" "$4" ;;
     esac
     exit 0
 fi
@@ -108,14 +92,8 @@ rm -f .failed
         [ "$build" != host ] || list=build/tests/host_suites.c
         sed -n "s/^void suite_\([a-z0-9_]*\)(void);/$build \1/p" "$list"
     done
-    for script in tests/cli/*.sh; do
-        case " $STAGES " in *" host "*) ;; *) break ;; esac
-        case $script in
-        */embed_* | */emitted_c.sh | */effects_cost_nothing.sh | */flags.sh | */interrupt.sh | */no_libm.sh) continue ;;
-        */suites.sh | */worst_step_marks.sh | */columns.sh) continue ;;
-        esac
-        echo "cli $script"
-    done
+    case " $STAGES " in *" host "*) ls tests/cli/*.sh | sed 's/^/cli /' ;; esac |
+        grep -vE '/(embed_.*|emitted_c|effects_cost_nothing|flags|interrupt|no_libm|suites|worst_step_marks|columns)\.sh$'
 } | awk -v never="${NEVER:-^$}" '$2 !~ never' | xargs -P "$JOBS" -n 2 sh "$here/times.sh" "$PWD" "$known" | sort -n
 if [ -e .failed ]; then
     echo "make mutants: these fail on the tree as it is:" $(cat .failed) >&2
