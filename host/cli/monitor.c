@@ -204,8 +204,8 @@ static bool open_line(monitor *m) {
     return true;
 }
 
-/* Partial frames and disturbed lines contain control characters that a terminal would obey. Such lines from a rig that
- * has not answered yet are not shown. */
+/* Disturbed lines contain control characters that a terminal would obey. Neither they nor lines that may begin with a
+ * part of a frame are shown of a rig that has not answered yet. */
 static void show(const monitor *m, const char *line) {
     char shown[WIRE_LINE + 1];
     size_t count = 0;
@@ -217,7 +217,7 @@ static void show(const monitor *m, const char *line) {
         clean = clean && is_text;
     }
     shown[count] = '\0';
-    if (clean || m->met || !m->line.is_line) {
+    if ((clean && !m->wire.torn) || m->met || !m->line.is_line) {
         fprintf(m->shown, "%s\n", shown);
         fflush(m->shown);
     }

@@ -10,6 +10,7 @@ static wire_event add_text(wire *w, char byte) {
     if (w->line_done) {
         w->columns = 0;
         w->line_done = false;
+        w->torn = false;
     }
     if (byte == '\n') {
         w->line_done = true;
@@ -80,6 +81,7 @@ wire_event wire_take(wire *w, uint8_t byte) {
     w->is_text = false;
     w->is_frame = false;
     w->too_long = false;
+    w->torn = true;
     return event;
 }
 
@@ -89,6 +91,7 @@ void wire_forget(wire *w) {
     w->is_text = false;
     w->is_frame = false;
     w->too_long = false;
+    w->torn = true;
 }
 
 /* === questions before a recording ============================================================= */

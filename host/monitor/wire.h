@@ -28,6 +28,8 @@ typedef struct wire {
     char line[WIRE_LINE + 1]; /* text received so far; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
+    bool torn; /* the line may begin with a part of a frame: a zero came within it, or it is the
+                * first after wire_forget() */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
     uint64_t damaged; /* chunks between two zeros that are no frame */
 } wire;

@@ -160,10 +160,11 @@ verdict $? "records are in their file before it ends" "$scratch/csv"
 kill -9 $running && wait $running 2>/dev/null
 rm -f "$scratch/csv"
 printf sta >"$RIG_TTY"
-"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --strict --for 0.6 >"$scratch/text" 2>"$scratch/said" </dev/null &
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --strict >"$scratch/text" 2>"$scratch/said" </dev/null &
 running=$!
 until_said '^[0-9]' "$scratch/csv"
 refused 'another program is at this line' "$RIG_TTY" --for 1
+kill -INT $running
 wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged: 0$' "$scratch/said"
 verdict $? "what was in the line before is nobody's answer, nobody's words and no loss" "$scratch/said"
 running=

@@ -2,6 +2,7 @@
  * losses, clock wraps and restarts are compared with the test's own files. */
 #include "host/base/alloc.h"
 #include "host/monitor/recording.h"
+#include "host/monitor/wire.h"
 
 #include "command.h"
 
@@ -669,4 +670,20 @@ TEST(schema, states) {
     expect_refused(&s, "OK");
     expect_refused(&s, "OK 1=a");
     expect_refused(&s, "ERR 0=a");
+}
+
+/* The rest of a frame that was cut off, and the line behind it, are torn; the next line and one between whole frames are not. */
+TEST(schema, torn_lines) {
+    static wire w;
+    static const char bytes[] = "D +\nxH\0ERR 100\r\nOK\r\n\0\x80\x81\0OK\r\n";
+    static const bool torn[] = {true, true, false, false};
+    int lines = 0;
+    wire_forget(&w);
+    for (size_t i = 0; i + 1 < sizeof bytes; i++) {
+        if (wire_take(&w, (uint8_t)bytes[i]) == WIRE_TEXT) {
+            TEST_ASSERT_EQUAL(torn[lines], w.torn);
+            lines++;
+        }
+    }
+    TEST_ASSERT_EQUAL(4, lines);
 }
