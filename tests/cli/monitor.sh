@@ -168,7 +168,11 @@ kill -INT $running
 wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged: 0$' "$scratch/said"
 verdict $? "what was in the line before is nobody's answer, nobody's words and no loss" "$scratch/said"
 running=
-"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --rate 7 --for 0.5 --quiet >"$scratch/text" 2>"$scratch/said" </dev/null
+"$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --rate 7 --quiet >"$scratch/text" 2>"$scratch/said" </dev/null &
+running=$!
+until_said 'refused' "$scratch/said"
+kill -INT $running
+wait $running
 [ $? -eq 1 ] && grep -q 'refused: tel rate 7: ERR 116 ' "$scratch/said" && grep -q 'error: nothing was recorded' "$scratch/said"
 verdict $? "a rate that the rig refuses is no success" "$scratch/said"
 kill -STOP $rig
