@@ -33,22 +33,12 @@ $(eval $(call program,scenes_hard,boards/programs/scenes.c $(HARD_C),whirl))
 
 .PHONY: hard-images print-hard-hashes
 ifeq ($(BOARD_IMAGES),single)
-# An image a scene; one that does not fit is an empty file.
 hard_elf := $(hard_names:%=$(SINGLE)/hard_%.elf)
-$(hard_elf): $(SINGLE)/hard_%.elf: $(B)/$(BOARD)/$(HARD_IN)/%.o boards/programs/scenes.c boards/programs/to_the_end.h $(MATRIX_NEEDS)
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
-	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(HARD_IN) -include $(HARD_IN)/$*.h \
-	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS) 2>$(@:.elf=.log) || \
-	    { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
+$(hard_elf): $(SINGLE)/hard_%.elf: $(B)/$(BOARD)/$(HARD_IN)/%.o $(SCENE_NEEDS)
+	$(call scene_link,boards/programs/scenes.c,$(HARD_IN)) $(or_empty)
 hard-images: $(hard_elf) $(BOARD_RUN_BY)
-# Exit status 123: its stack had too little room.
 print-hard-hashes:
-	@for name in $(hard_names); do elf=$(SINGLE)/hard_$$name.elf; status=0; \
-	    [ -s $$elf ] || { echo "without $$name"; continue; }; \
-	    $(call emulate,$$elf) >$${elf%.elf}.said || status=$$?; \
-	    if [ $$status -eq 123 ]; then echo "without $$name"; else cat $${elf%.elf}.said; [ $$status -eq 0 ] || exit 1; fi; done
+	@$(call print_of,$(hard_elf))
 else
 hard-images: $(ELF)/scenes_hard.elf
 print-hard-hashes: # of the hard cases

@@ -70,24 +70,14 @@ endif
 settings-programs: $(SETTINGS_KINDS:%=$(B)/bits/$(SETTINGS)_%)
 
 ifeq ($(BOARD_IMAGES),single)
-# An image a scene. One that does not fit is an empty file. What it counts as double is float.
+# An image a scene. What it counts as double is float.
 BITS := $(ELF)/bits/$(SETTINGS)
 settings_elf = $(patsubst $(SETTINGS_IN)/%.c,$(BITS)/%.elf,$(filter-out $(SETTINGS_IN)/table_%,$(settings_c_$(1))))
-$(BITS)/%.elf: $(B)/$(BOARD)/$(SETTINGS_IN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
-    boards/programs/to_the_end.h boards/programs/table.h mk/count/index.sh
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)mk/count/index.sh $(if $(filter %_fixed,$*),--fixed) $* >$(@:.elf=.c)
-	$(Q)$(call single_link,$(if $(filter %_fixed,$*),$(settings_main_fixed),$(settings_main_float)) $(@:.elf=.c),\
-	    -I$(SETTINGS_IN) -include $(SETTINGS_IN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS) 2>$(@:.elf=.log) || \
-	    { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
+$(BITS)/%.elf: $(B)/$(BOARD)/$(SETTINGS_IN)/%.o $(SCENE_NEEDS)
+	$(call scene_link,$(settings_main_$(if $(filter %_fixed,$*),fixed,float)),$(SETTINGS_IN),,$(if $(filter %_fixed,$*),--fixed)) $(or_empty)
 settings-images: $(call settings_elf,float) $(call settings_elf,fixed) $(BOARD_RUN_BY)
-# Exit status 123: its stack had too little room.
 print-settings:
-	@printf '%s\n' $(call settings_elf,$(KIND)) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename $$1 .elf); \
-	    [ -s $$1 ] || { echo "without $$name"; exit 0; }; status=0; \
-	    $(call emulate,$$1) >$${1%.elf}.said || status=$$?; \
-	    if [ $$status -eq 123 ]; then echo "without $$name"; else cat $${1%.elf}.said; [ $$status -eq 0 ]; fi' _
+	@$(call print_of,$(call settings_elf,$(KIND)))
 else
 settings-images: $(SETTINGS_KINDS:%=$(ELF)/bits/$(SETTINGS)_%.elf)
 print-settings: # of KIND

@@ -11,26 +11,30 @@ SUITE_NAMES := $(patsubst test_%,%,$(notdir $(basename $(wildcard tests/core/tes
 single_link = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(2) $(BOARD_LDFLAGS) -o $@ $(1) $(filter %.o,$^) \
     -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(BOARD_LDLIBS)
 
-$(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
-    boards/programs/scenes.c boards/programs/to_the_end.h boards/programs/table.h mk/count/index.sh
+# scene_link PROGRAM FOLDER FLAGS KIND: an image of the scene $*, whose object is among the prerequisites and whose header is in
+# FOLDER. KIND is --fixed, of scenes in fixed point.
+define scene_link
 	@mkdir -p $(@D)
 	$(say) LINK $@
-	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
-	$(Q)$(call single_link,boards/programs/scenes.c $(@:.elf=.c),-I$(GEN) -include $(GEN)/$*.h \
-	    -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
+	$(Q)mk/count/index.sh $(4) $* >$(@:.elf=.c)
+	$(Q)$(call single_link,$(1) $(@:.elf=.c),-I$(2) -include $(2)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS $(3))
+endef
+SCENE_NEEDS := $(wildcard boards/programs/*.[ch]) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) mk/count/index.sh
+# Behind a command: an image that does not fit is an empty file.
+or_empty = 2>$(@:.elf=.log) || { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
+# print_of ELF...: what they say; "without NAME" of one that is empty or whose stack had too little room (exit status 123).
+print_of = printf '%s\n' $(1) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename $$1 .elf | sed s/^hard_//); \
+    [ -s $$1 ] || { echo "without $$name"; exit 0; }; status=0; \
+    $(call emulate,$$1) >$${1%.elf}.said || status=$$?; \
+    if [ $$status -eq 123 ]; then echo "without $$name"; else cat $${1%.elf}.said; [ $$status -eq 0 ]; fi' _
 
+$(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(SCENE_NEEDS)
+	$(call scene_link,boards/programs/scenes.c,$(GEN),-DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
 # A linear scene again, a step as one matrix (mk/price.mk): to its end, and counted.
-matrix_link = mk/count/index.sh $* >$(@:.elf=.c) && $(call single_link,$(1) $(@:.elf=.c),-Ibuild/matrix \
-    -include build/matrix/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1)
-MATRIX_NEEDS := $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) boards/programs/table.h mk/count/index.sh
-$(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/scenes.c boards/programs/to_the_end.h $(MATRIX_NEEDS)
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)$(call matrix_link,boards/programs/scenes.c)
-$(SINGLE)/bench_matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o boards/programs/bench.c boards/programs/counted.h $(MATRIX_NEEDS)
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)$(call matrix_link,boards/programs/bench.c)
+$(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
+	$(call scene_link,boards/programs/scenes.c,build/matrix)
+$(SINGLE)/bench_matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
+	$(call scene_link,boards/programs/bench.c,build/matrix,-DBENCH_SMALL=1)
 
 # What several suites share: each takes what it needs of it.
 $(SINGLE)/shared.a: $(call objects,$(BOARD),$(filter-out tests/core/test_%,$(wildcard tests/core/*.c)))
