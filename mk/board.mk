@@ -78,8 +78,6 @@ $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
 
 ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
-# From a compiler's cache an object comes without its call graph, and mk/size/size.sh would not know what stack it takes.
-$(foreach f,boards/% core/% $(GEN)/rig_observed,$(B)/$(BOARD)/$(f).o): export CCACHE_DISABLE := 1
 endif
 
 # The rig's firmware with a console: here on a pseudo-terminal.

@@ -92,6 +92,11 @@ gate-cppcheck:
 	    --suppressions-list=mk/setup/cppcheck.txt -I. \
 	    $(filter core/%.c hal/%.c boards/%.c,$(C_FILES))
 
+# Gates build into the same folders: those that are asked for together run one after the other.
+ifneq ($(word 2,$(filter gate-%,$(MAKECMDGOALS))),)
+.NOTPARALLEL:
+endif
+
 # --- what `make test` leaves out, to be quick ---------------------------------------------------------------
 gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'WHIRL_FEW=1 sh tests/each.sh build/tests/host $(2)'
 # Scripts of which it takes few cases: the others draw more of the same, or run more of the built-in scenes.

@@ -4,55 +4,35 @@
 # tells: there each function counts for the file that it stands in, whoever's code is in it, and texts and data for none. NM, SIZE.
 set -eu
 
-if ! [ -r "$1" ]; then
-    echo "files.sh: $1: no such map; what the linker made has it beside it" >&2
-    exit 2
-fi
+[ -r "$1" ] || { echo "files.sh: $1: no such map; what the linker made has it beside it" >&2; exit 2; }
 if grep -q '^LOAD .*ltrans\.o$' "$1"; then
     elf=${1%.map}.elf
     all=$("${SIZE:-arm-none-eabi-size}" -A "$elf" | awk '$1 ~ /^\.(vectors|text|data)$/ { sum += $2 } END { print sum }')
     "${NM:-arm-none-eabi-nm}" -S -l "$elf" | tr -d '\r' | awk 'NF >= 5 && $3 ~ /[tTwW]/ && !($1 in seen) {
             seen[$1]
-            file = $5
-            sub(/:[0-9]*$/, "", file)
-            sub(/\.[a-z]*$/, "", file)
-            n = split(file, part, "/")
+            sub(/\.[a-z]*(:[0-9]*)?$/, "", $5)
+            n = split($5, part, "/")
             print $2, (n > 1 ? part[n - 1] "/" : "") part[n]
-        }' | while read -r size file; do
-        echo "$((0x$size)) $file"
-    done | awk -v all="$all" '
+        }' | while read -r size file; do echo "$((0x$size)) $file"; done | awk -v all="$all" '
         { bytes[$2] += $1; sum += $1 }
         END {
-            for (file in bytes) { print bytes[file], file }
+            for (file in bytes) print bytes[file], file
             print all - sum, "texts, data and what has no file"
             print all, "all"
-        }' | sort -k 1,1nr -k 2,2 | awk '{ bytes = $1; $1 = ""; printf "%8d %s\n", bytes, $0 }'
-    exit
-fi
-
-awk '
-/^Linker script and memory map/ { on = 1 }
-!on { next }
-/^ \.[^ ]+$/ { held = $1; next } # a long name: the rest stands on the next line
-held != "" { $0 = " " held $0; held = "" }
-/^ \.(vectors|text|rodata|ARM\.exidx|data)/ && NF >= 4 && $2 ~ /^0x/ && $3 != "0x0" && $2 != "0x00000000" {
-    file = $4
-    sub(/^.*\//, "", file)
-    folder = $4
-    if (file ~ /\.a\(/) {
-        sub(/^lib/, "", file)
-        sub(/\.a\(/, "/", file)
-        sub(/\.o\)$/, "", file)
-    } else {
-        sub(/\.o$/, "", file)
-        sub(/\/[^\/]*$/, "", folder)
-        sub(/^.*\//, "", folder)
-        file = folder "/" file
-    }
-    print $2, $3, file
-}' "$1" | while read -r at size file; do
-    echo "$((at)) $((size)) $file"
-done | sort -k 1,1n -k 2,2n | awk '
+        }'
+else
+    awk '
+    /^Linker script and memory map/ { on = 1 }
+    !on { next }
+    /^ \.[^ ]+$/ { held = $1; next } # a long name: the rest stands on the next line
+    held != "" { $0 = " " held $0; held = "" }
+    /^ \.(vectors|text|rodata|ARM\.exidx|data)/ && NF >= 4 && $2 ~ /^0x/ && $3 != "0x0" && $2 != "0x00000000" {
+        n = split($4, part, "/")
+        file = part[n]
+        if (file ~ /\.a\(/) { sub(/^lib/, "", file); sub(/\.a\(/, "/", file); sub(/\.o\)$/, "", file) }
+        else { sub(/\.o$/, "", file); file = part[n - 1] "/" file }
+        print $2, $3, file
+    }' "$1" | while read -r at size file; do echo "$((at)) $((size)) $file"; done | sort -k 1,1n -k 2,2n | awk '
     # What the next one begins within, or where it begins too, is not counted twice.
     held != "" { bytes[held] += $1 < end ? $1 - begin : end - begin }
     { begin = $1; held = $3; end = begin + $2 }
@@ -60,4 +40,5 @@ done | sort -k 1,1n -k 2,2n | awk '
         bytes[held] += end - begin
         for (file in bytes) { sum += bytes[file]; print bytes[file], file }
         print sum, "all"
-    }' | sort -k 1,1nr -k 2,2 | awk '{ printf "%8d  %s\n", $1, $2 }'
+    }'
+fi | sort -k 1,1nr -k 2,2 | awk '{ bytes = $1; sub(/^[^ ]* /, ""); printf "%8d  %s\n", bytes, $0 }'

@@ -21,77 +21,72 @@ here=$(dirname "$0")
 
 figures_into "$1"
 shift
+failed() { echo "size.sh: $elf: $1" >&2; touch "$work/failed"; }
 
-# graphs: the .ci files of the objects in the image, from its map: objects by their path, members of
-# archives by their name.
-graphs() {
-    map=${elf%.elf}.map
-    sed -n 's/^LOAD \(.*\)\.o$/\1.ci/p' "$map" >"$work/loaded"
-    sed -n 's/^[^ ].*\.a(\([^()]*\)\.o)$/\/\1.ci/p; s/^[^ ].*\.a(\([^()]*\)\.o) .*/\/\1.ci/p' "$map" |
-        sort -u >"$work/members"
-    if grep -q '^LOAD .*ltrans\.o$' "$map"; then
-        ls "$elf".ltrans*.ci
-        : >"$work/members"
-    fi
-    # shellcheck disable=SC2086 # folders
-    find $OBJECTS -name '*.ci' | sort | awk -v loaded="$work/loaded" -v members="$work/members" '
+# of_image FILE...: those whose object is in the image: objects by their path, members of archives by their name.
+of_image() {
+    awk -v map="${elf%.elf}.map" '
         BEGIN {
-            while ((getline line <loaded) > 0) { whole[line] = 1 }
-            while ((getline line <members) > 0) { member[line] = 1 }
+            while ((getline line <map) > 0) {
+                if (line ~ /^LOAD .*\.o$/) { sub(/^LOAD /, "", line); whole[line] }
+                else if (line ~ /^[^ ].*\.a\([^()]*\.o\)/) { sub(/^.*\.a\(/, "/", line); sub(/\).*/, "", line); member[line] }
+                if (line ~ /ltrans\.o$/) as_a_whole = 1
+            }
         }
         {
-            name = $0
+            object = name = $0
+            sub(/\.ci$/, ".o", object)
             sub(/^.*\//, "/", name)
-            if ($0 in whole || name in member) { print }
+            sub(/\.ci$/, ".o", name)
+            if (object in whole || (name in member && !as_a_whole)) print
         }'
 }
-
+# graphs: the .ci files of the objects in the image. From a compiler's cache objects come without: those are compiled anew.
+graphs() {
+    # shellcheck disable=SC2086 # folders
+    find $OBJECTS -name '*.o' | of_image | while read -r object; do [ -e "${object%.o}.ci" ] || echo "$object"; done >"$work/without"
+    if grep -q '^LOAD .*ltrans\.o$' "${elf%.elf}.map"; then
+        ls "$elf".ltrans*.ci
+    elif [ -s "$work/without" ]; then
+        xargs rm -f <"$work/without"
+        CCACHE_DISABLE=1 xargs make -j "$(nproc)" "BOARD=$BOARD" <"$work/without" >&2
+    fi
+    # shellcheck disable=SC2086 # folders
+    find $OBJECTS -name '*.ci' | sort | of_image
+}
 # worst_stack ROOT: answers of stack.awk, to $work/stack.
 worst_stack() {
     { sed 's/^/symbol /' "$work/symbols" && sed '/^#/d; s/^/pointer /' "$here/pointers.rows" && xargs cat <"$work/graphs"; } |
         awk -v root="$1" -f "$here/stack.awk" | sort -u >"$work/stack"
-    if grep -E '^(recursion|unbounded)' "$work/stack" >&2; then
-        echo "size.sh: $elf: the stack of $1 has no bound" >&2
-        touch "$work/failed"
-    fi
+    ! grep -E '^(recursion|unbounded)' "$work/stack" >&2 || failed "the stack of $1 has no bound"
     sed -n 's/^stack //p' "$work/stack"
 }
-
 # at_most WHAT BYTES MOST: says how far below it is; or complains.
 at_most() {
     if [ "$2" -gt "$3" ]; then
-        echo "size.sh: $elf: $2 $1, $(($2 - $3)) more than the $3 that it may have" >&2
-        touch "$work/failed"
+        failed "$2 $1, $(($2 - $3)) more than the $3 that it may have"
     else
         echo "             $2 $1, of at most $3"
     fi
 }
+bytes_of() { awk -v want="$1" 'index(" " want " ", " " $1 " ") { sum += $2 } END { print sum + 0 }' "$work/sections"; }
 
 printf '%-12s %-12s %8s %8s %9s %9s %11s\n' board program flash ram "stack of" computed "fault stack"
 for elf in "$@"; do
     name=$(basename "$elf" .elf)
     "$NM" "$elf" | awk 'NF == 3 && $2 ~ /[tTwW]/ { print $3, $1 }' >"$work/symbols"
     "$SIZE" -A "$elf" >"$work/sections"
-    bytes_of() {
-        awk -v want="$1" 'index(" " want " ", " " $1 " ") { sum += $2 } END { print sum + 0 }' \
-            "$work/sections"
-    }
     flash=$(bytes_of ".vectors .text .ARM.exidx .data")
     ram=$(bytes_of ".data .bss .noinit")
     room=$("$NM" -t d "$elf" | awk '
-        $3 == "board_stack_limit" { low = $1 } $3 == "board_stack_top" { top = $1 }
-        END { print top - low }')
+        $3 == "board_stack_limit" { low = $1 } $3 == "board_stack_top" { top = $1 } END { print top - low }')
     graphs >"$work/graphs"
-    if ! [ -s "$work/graphs" ]; then
-        echo "size.sh: no call graphs of $elf in $OBJECTS; from a compiler's cache objects come without: CCACHE_DISABLE=1, and anew" >&2
-        exit 1
-    fi
+    [ -s "$work/graphs" ] || { failed "no call graphs in $OBJECTS"; exit 1; }
     computed=$(worst_stack board_reset)
     path=$(sed -n 's/^path //p' "$work/stack")
     unknown=$(sed -n 's/^unknown //p' "$work/stack" | tr '\n' ' ')
-    fault=$(worst_stack board_fault_report)
     printf '%-12s %-12s %8d %8d %9d %9d %11d\n' "$BOARD" "$name" "$flash" "$ram" "$room" \
-        "$computed" "$fault"
+        "$computed" "$(worst_stack board_fault_report)"
     echo "             deepest: $path"
     [ -z "$unknown" ] || echo "             without a figure: $unknown"
     row "flash bytes" "$flash"
@@ -109,19 +104,11 @@ for elf in "$@"; do
     fi
     case " ${MOST_OF:-} " in
     *" $elf "*)
-        case " $unknown " in
-        *" main "*)
-            echo "size.sh: $elf: no call graph of main(): it is not known how much stack that takes" >&2
-            touch "$work/failed"
-            ;;
-        esac
+        case " $unknown " in *" main "*) failed "no call graph of main(): it is not known how much stack that takes" ;; esac
         at_most "bytes of flash" "$flash" "$FLASH_MOST"
         at_most "bytes of memory, the worst stack included" $((ram + computed)) "$RAM_MOST"
         ;;
     esac
-    if [ "$computed" -gt "$room" ]; then
-        echo "size.sh: $elf: the stack needs $computed bytes and has $room" >&2
-        touch "$work/failed"
-    fi
+    [ "$computed" -le "$room" ] || failed "the stack needs $computed bytes and has $room"
 done
 [ ! -e "$work/failed" ]
