@@ -99,6 +99,11 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
     return good;
 }
 
+bool atomic_file_is_regular(FILE *file) {
+    struct stat there;
+    return fstat(fileno(file), &there) == 0 && S_ISREG(there.st_mode);
+}
+
 bool atomic_file_can(const char *name) {
     FILE *file = name != NULL ? open_as(name, "ab") : stdout;
     return file != NULL && atomic_file_close(file, name, false);

@@ -14,6 +14,9 @@ FILE *atomic_file_open(const char *name);
  * (host/whirl.c). */
 bool atomic_file_close(FILE *file, const char *name, bool keep);
 
+/* Is an open file neither a device nor a pipe? */
+bool atomic_file_is_regular(FILE *file);
+
 /* True if atomic_file_open() would succeed; changes nothing. NULL and "-" are writable. Returns false after reporting. */
 bool atomic_file_can(const char *name);
 

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
 #include "core/contact.h"
@@ -349,10 +348,9 @@ static bool is_taken(FILE *file) {
 /* All of the records and the file about them replace the old ones, or all old ones stay. */
 static bool close_records(simulation *sim, bool keep) {
     const simulation_settings *s = sim->settings;
-    struct stat there;
     keep = keep && is_taken(sim->csv) && is_taken(sim->columns) && is_taken(sim->vcd);
     bool good = !keep || sim->csv == NULL || sim->csv == stdout ||
-                fstat(fileno(sim->csv), &there) != 0 || !S_ISREG(there.st_mode) || write_about(sim);
+                !atomic_file_is_regular(sim->csv) || write_about(sim);
     keep = keep && good;
     good = atomic_file_close(sim->csv, s->csv, keep) && good;
     good = atomic_file_close(sim->columns, s->columns, keep) && good;

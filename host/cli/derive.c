@@ -25,7 +25,7 @@ static void text(const loaded *made, const char *file) {
 }
 
 static void latex(const loaded *made, const char *file) {
-    (void)file;
+    printf("%% " EMIT_BANNER " from %s\n", file);
     show_latex(stdout, made->equations);
     if (made->image->settings.matrix != MATRIX_NONE) {
         matrix_latex(stdout, made->image);
@@ -38,7 +38,7 @@ static void steps(const loaded *made, const char *file) {
 }
 
 static void latex_steps(const loaded *made, const char *file) {
-    (void)file;
+    printf("%% " EMIT_BANNER " from %s\n", file);
     show_steps(stdout, made->equations, SHOW_LATEX);
 }
 

@@ -7,6 +7,7 @@
 #include "host/base/alloc.h"
 #include "host/cli/load.h"
 #include "host/derive/symmetry.h"
+#include "host/emit/emit.h"
 #include "host/show/show_equations.h"
 #include "target.h"
 
@@ -245,6 +246,7 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
     plain.style = SHOW_TEXT;
     const char *prefix = latex ? "% " : "";
     const mechanism *m = e->instance->mechanism;
+    printf("%s", latex ? "% " EMIT_BANNER "\n" : "");
     printf("%s%s%s%s\n", prefix, m->name, m->title[0] != '\0' ? ": " : "", m->title);
     for (int i = 0; i < m->effect_count; i++) {
         if (e->instance->with[i]) {

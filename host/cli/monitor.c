@@ -15,6 +15,7 @@
 #include "host/cli/options.h"
 #include "host/cli/target.h"
 #include "host/io/gnuplot.h"
+#include "host/io/plot.h"
 #include "host/monitor/port.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/wire.h"
@@ -382,7 +383,10 @@ static bool close_outputs(monitor *m) {
         if (m->file[i] == NULL || m->file[i] == stdout) {
             continue;
         }
-        if (fclose(m->file[i]) != 0 || !good) {
+        const bool closed = i == CSV || i == RING
+                                ? plot_run_csv_end(m->file[i], m->o->output[i], good, "monitor", "")
+                                : fclose(m->file[i]) == 0;
+        if (!closed || !good) {
             write_error_say(m->o->output[i]);
             good = false;
         }

@@ -8,6 +8,7 @@
 #include "host/base/atomic_file.h"
 #include "host/base/interrupts.h"
 #include "host/cli/load.h"
+#include "host/io/plot.h"
 #include "host/study/price_table.h"
 #include "pricing.h"
 
@@ -32,7 +33,7 @@ static bool write_csv(const char *file, const trials *t, const table *made,
     if (out != NULL) {
         table_csv(out, t, made, words);
     }
-    return out != NULL && atomic_file_close(out, file, true);
+    return out != NULL && plot_run_csv_end(out, file, true, "price", t->image[0]->name);
 }
 
 /* The cheapest row that keeps the error, in words. */

@@ -11,6 +11,7 @@
 #include "host/base/interrupts.h"
 #include "host/cli/load.h"
 #include "host/engine/start.h"
+#include "host/io/plot.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
 #include "host/number/functions.h"
@@ -181,7 +182,7 @@ static int held_out(const prove_options *o, const containment_wish *w, const row
     }
     say_end(&h, ratio_times(w->image->steps, w->image->step));
     const int code = status_of(&h, w->image);
-    const bool good = atomic_file_close(r->file, o->csv, h.ranged);
+    const bool good = plot_run_csv_end(r->file, o->csv, h.ranged, "prove", w->image->name);
     containment_free(&h);
     return good || code == EXIT_INTERRUPTED ? code : EXIT_RUN_FAILED;
 }

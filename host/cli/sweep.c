@@ -14,6 +14,7 @@
 #include "host/cli/load.h"
 #include "host/engine/start.h"
 #include "host/io/gnuplot.h"
+#include "host/io/plot.h"
 #include "host/lang/builtin.h"
 #include "host/number/functions.h"
 #include "host/study/grid.h"
@@ -320,19 +321,20 @@ static int sweep_scene(const sweep_options *o, source_model *from, const mechani
 
 /* --- the map -----------------------------------------------------------------------------------*/
 
-static bool write_map(const sweep_options *o, const stability_map *m) {
+static bool write_map(const sweep_options *o, const stability_map *m, const char *name) {
     FILE *out = atomic_file_open(o->csv);
     if (out != NULL) {
         map_csv(out, m);
     }
-    return out != NULL && atomic_file_close(out, o->csv, true);
+    return out != NULL && plot_run_csv_end(out, o->csv, true, "map", name);
 }
 
-static int show_map(const sweep_options *o, const stability_map *m, const char *words) {
+static int show_map(const sweep_options *o, const stability_map *m, const char *words,
+                    const char *name) {
     if (!o->json && (!o->quiet || (o->csv == NULL && o->plot == NULL))) {
         map_print(is_standard(o->csv) ? stderr : stdout, m, words);
     }
-    int code = o->csv == NULL || write_map(o, m) ? EXIT_DONE : EXIT_BAD_INPUT;
+    int code = o->csv == NULL || write_map(o, m, name) ? EXIT_DONE : EXIT_BAD_INPUT;
     if (o->plot != NULL && !map_plot(o->plot, m, words)) {
         code = EXIT_BAD_INPUT;
     }
@@ -404,7 +406,7 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
     if (wish.progress != NULL) {
         fputs("\r                                        \r", stderr);
     }
-    const int code = show_map(o, &m, words);
+    const int code = show_map(o, &m, words, base->name);
     if (o->json) {
         map_json(stdout, &m, base, &wish, code);
     }

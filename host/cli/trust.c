@@ -15,6 +15,7 @@
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
+#include "host/io/plot.h"
 #include "host/number/functions.h"
 #include "target.h"
 #include "trusting.h"
@@ -131,7 +132,8 @@ static int write_rows(const trust_options *o, const horizon *h) {
     if (rows != NULL) {
         horizon_write(rows, h);
     }
-    return o->csv == NULL || (rows != NULL && atomic_file_close(rows, o->csv, true))
+    return o->csv == NULL || (rows != NULL &&
+                              plot_run_csv_end(rows, o->csv, true, "trust", h->of->finer.name))
                ? EXIT_DONE
                : EXIT_BAD_INPUT;
 }

@@ -272,6 +272,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json j = {.out = out};
     json_open(&j, NULL, '{');
     json_whole(&j, "version", DESCRIBE_VERSION);
+    json_text(&j, "whirl", WH_VERSION);
     json_text(&j, "name", im->name);
     json_text(&j, "title", im->title);
     json_text(&j, "mechanism", im->mechanism);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "core/version.h"
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
 #include "host/base/spelling.h"
@@ -370,6 +371,22 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
     free(title);
     free(label);
     return good;
+}
+
+bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
+                      const char *scene) {
+    bool good = true;
+    if (keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv)) {
+        char *file = alloc_words("%s.toml", name);
+        FILE *to = atomic_file_open(file);
+        if (to != NULL) {
+            fprintf(to, "whirl = \"" WH_VERSION "\"\ncommand = \"%s\"\nscene = \"%s\"\n", command,
+                    scene);
+        }
+        good = to != NULL && atomic_file_close(to, file, true);
+        free(file);
+    }
+    return atomic_file_close(csv, name, keep && good) && good;
 }
 
 /* The string at *at, which advances past it; NULL if it is missing. Free it. */

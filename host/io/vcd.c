@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/version.h"
 #include "host/base/alloc.h"
 
 /* Size of a value's text. */
@@ -90,6 +91,7 @@ vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digi
     vcd *v = alloc(1, sizeof *v);
     v->out = out;
     v->digits = digits;
+    fputs("$version whirl " WH_VERSION " $end\n", out);
     write_comment(out, what);
     fprintf(out, "$timescale %s%s $end\n", number[power % 3], unit[(power + 2) / 3]);
     open_scope(v, scope);

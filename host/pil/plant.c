@@ -10,6 +10,7 @@
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
 #include "host/base/spelling.h"
+#include "host/io/plot.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
@@ -244,8 +245,9 @@ void recorded_enter(recorded *r, void *run, uint64_t steps) {
 }
 
 bool recorded_close(recorded *r) {
+    const char *scene = r->rows != NULL ? r->rows->image->name : "";
     records_close(r->rows);
-    return atomic_file_close(r->file, r->name, true);
+    return plot_run_csv_end(r->file, r->name, true, "pil", scene);
 }
 
 /* === sensors and actuators ==================================================================== */

@@ -10,6 +10,7 @@
 #include "core/hash.h"
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
+#include "host/io/plot.h"
 #include "host/pil/guest.h"
 #include "host/pil/lockstep.h"
 
@@ -344,7 +345,7 @@ bool taped_show(const char *name, const char *csv) {
         if (out != NULL) {
             print_rows(t, out);
         }
-        good = out != NULL && atomic_file_close(out, csv, true) && !t->failed;
+        good = out != NULL && plot_run_csv_end(out, csv, true, "pil", "") && !t->failed;
     }
     taped_close(t);
     free(t);

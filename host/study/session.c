@@ -13,6 +13,7 @@
 
 #include "core/hash.h"
 #include "core/method.h"
+#include "core/version.h"
 #include "host/base/alloc.h"
 #include "host/base/atomic_file.h"
 #include "host/base/exit.h"
@@ -401,7 +402,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     char *text = NULL;
     size_t length = 0;
     FILE *out = alloc_text(&text, &length);
-    fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\n");
+    fprintf(out, "whirl " WH_VERSION " sweep: settings of the CSV beside this file, format 3\n");
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");

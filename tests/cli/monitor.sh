@@ -72,6 +72,8 @@ tr -d '\r' <"$scratch/csv" | sed 1d | awk -F, '{ printf "%s,%.6g\n", $1, $2 }' |
           if (is[1] != $1 || off > 2e-4 || off < -2e-4) { print NR ": " $0 " is " line; exit 1 } n = NR }
         END { exit !(n > 1000) }' >"$scratch/err"
 verdict $? "the records are what the tests' decoder reads"
+grep -qx "whirl = \"$("$whirl" --version | sed 's/.* //')\"" "$scratch/csv.toml"
+verdict $? "FILE.toml has the version" "$scratch/csv.toml"
 head -n 1 "$scratch/csv" | tr -d '\r' | grep -qxF 'time,load [N],speed [rpm],drive [V],state'
 verdict $? "their columns have units" "$scratch/csv"
 "$whirl" monitor "$scratch/raw" --csv - --vcd "$scratch/vcd2" --quiet >"$scratch/csv2" 2>"$scratch/err" &&

@@ -84,6 +84,7 @@ for program in "$built" $elf; do
     every=$(awk -v seed="${WHIRL_SEED:-1}" 'BEGIN { srand(seed + 1); print 1 + int(9 * rand()) }')
     run "$program" --tape "$scratch/tape" --csv "$scratch/plant.csv" --every "${every}ms" &&
         "$whirl" pil --read "$scratch/tape" | awk -F, -v OFS=, '$3 == "sample" { print $1, $6 }' >"$scratch/heard" &&
+        grep -qx "whirl = \"$("$whirl" --version | sed 's/.* //')\"" "$scratch/plant.csv.toml" &&
         tr -d '\r' <"$scratch/plant.csv" | awk -F, -v every="$every" -v header="$header" '
             FNR == NR { theta[sprintf("%.3f", $1)] = $2; next }
             FNR == 1 { if ($0 != header) bad = bad " header"; next }

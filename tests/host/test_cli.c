@@ -1,6 +1,7 @@
 /* test_cli.c: the number and times of a run's steps in integer arithmetic: steps from nanoseconds to hours, runs from
  * one step to 50 years. WH_COUNTS=N sets the number of random pairs. */
 #include "core/frame.h"
+#include "core/version.h"
 #include "host/cli/commands.h"
 #include "host/emit/emit.h"
 #include "host/monitor/light.h"
@@ -453,7 +454,7 @@ static const char *right_value(const char *name, const said *hashes) {
                  {"period_cycles", "335900 336100"},
                  {"supply", "12.00 V"},
                  {"load", "-9 -2 5 counts, 999 samples, 0 bad"},
-                 {"version", "0.1.0"},
+                 {"version", WH_VERSION},
                  {"slots", "0 0 edges, 0 lost"},
                  {"selftest", "good arithmetic=good"}};
     static char value[100];
