@@ -8,7 +8,6 @@
 #include "host/emit/c_header.h"
 #include "host/emit/c_list.h"
 #include "host/emit/emit.h"
-#include "host/image/core_rows.h"
 #include "host/image/image.h"
 #include "host/number/decimal.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "core/version.h"
+#include "host/image/core_rows.h"
 #include "host/image/image.h"
 
 /* In the first lines of generated text. */

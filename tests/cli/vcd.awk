@@ -28,7 +28,7 @@ function go_on_to(tick,    mark) {
 BEGIN { depth = 0; ticks = -1; at = 1; empty = 0 }
 
 # --- the dump ------------------------------------------------------------------------------------------------------
-FNR == NR && !defined && $1 == "$comment" {
+FNR == NR && !defined && ($1 == "$comment" || $1 == "$version") {
     if ($NF != "$end") wrong("a comment without end")
     for (i = 2; i < NF; i++) if ($i == "$end") wrong("a comment that ends early")
     next
