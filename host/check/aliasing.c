@@ -94,11 +94,12 @@ static loop_end end_of(const step_doubling *t, const image *im, const budget *of
     return end;
 }
 
-bool aliasing_find(step_doubling *t, const budget *of) {
+void aliasing_find(step_doubling *t, budget *of) {
     const image *im = t->shape->image;
     if (t->status != WH_OK || im->steps == 0 || t->shape->kind->steps(t->run) != im->steps) {
-        return true; /* it has failed, or was interrupted */
+        return; /* it has failed, or was interrupted */
     }
+    budget_begin(of);
     image third;
     loop_end end = LOOP_DONE;
     horizon h = horizon_of(t, HORIZON_TOLERANCE);
@@ -110,7 +111,7 @@ bool aliasing_find(step_doubling *t, const budget *of) {
         const bool whole = steps == im->steps;
         const double runs = (double)(third.steps + (whole ? 0 : finer.steps));
         const double wanted = runs / (double)(im->steps * t->each) * (double)t->operations;
-        end = of != NULL && wanted > budget_left(of) ? LOOP_SPENT : end_of(t, &third, of, row);
+        end = wanted > budget_left(of) ? LOOP_SPENT : end_of(t, &third, of, row);
         if (end == LOOP_DONE && !whole) {
             end = end_of(t, &finer, of, row + t->columns);
         }
@@ -120,5 +121,6 @@ bool aliasing_find(step_doubling *t, const budget *of) {
         free(row);
     }
     horizon_free(&h);
-    return end == LOOP_DONE || end == LOOP_FAILED;
+    budget_end(of);
+    t->unaliased = end != LOOP_DONE && end != LOOP_FAILED;
 }

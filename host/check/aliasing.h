@@ -7,8 +7,7 @@
 
 #include "step_doubling.h"
 
-/* Fills in t->aliased after the end of the runs. `of`: the budget to charge, or NULL. False: the budget did not
- * suffice, or it was interrupted. */
-bool aliasing_find(step_doubling *t, const budget *of);
+/* Fills in t->aliased, or t->unaliased, after the end of the runs. `of`: the budget to charge. */
+void aliasing_find(step_doubling *t, budget *of);
 
 #endif

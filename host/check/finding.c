@@ -43,12 +43,18 @@ const finding_row finding_rows[FINDINGS] = {
                         "have a component that moves too slowly for the units of its steps"},
 };
 
-void finding_say_status(FILE *out, const char *command, unsigned fails) {
-    fprintf(out, "whirl %s: exit status 1 because of", command);
+void finding_say_names(FILE *out, unsigned ids) {
+    const char *before = "";
     for (int id = 0; id < FINDINGS; id++) {
-        if ((fails & FINDING_BIT(id)) != 0) {
-            fprintf(out, " [%s]", finding_rows[id].word);
+        if ((ids & FINDING_BIT(id)) != 0) {
+            fprintf(out, "%s[%s]", before, finding_rows[id].word);
+            before = " ";
         }
     }
+}
+
+void finding_say_status(FILE *out, const char *command, unsigned fails) {
+    fprintf(out, "whirl %s: exit status 1 because of ", command);
+    finding_say_names(out, fails);
     fputs("; --strict=off keeps 0\n", out);
 }

@@ -59,6 +59,8 @@ extern const finding_row finding_rows[FINDINGS];
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 
+/* "[pole] [missed]": the names of these findings. */
+void finding_say_names(FILE *out, unsigned ids);
 /* The last line of a command that ends with exit status 1 because of these findings, as bits. */
 void finding_say_status(FILE *out, const char *command, unsigned fails);
 

@@ -268,6 +268,9 @@ static void print_verdict(FILE *out, const horizon *h) {
                   "without bound: no motion gets through there\n",
             t->jumped_s);
     }
+    if (t->unaliased) {
+        fputs("not looked at: [aliased], that takes more than the two runs did\n", out);
+    }
     if (t->aliased.column > 0) {
         fprintf(out, "more goes on between the stages of its steps than they see, so that half the "
                      "step says nothing\n");

@@ -293,7 +293,7 @@ void run_checks_end(run_checks *v, wh_status status) {
     budget_begin(v->budget);
     if (v->twins != NULL) {
         step_doubling_end(v->twins, status);
-        v->unaliased = !aliasing_find(v->twins, v->budget);
+        aliasing_find(v->twins, v->budget);
     }
     v->balance = energy_residual_of(v->books, v->kind, v->run);
     if (status == WH_OK) {
@@ -308,4 +308,14 @@ unsigned run_checks_fails(const run_checks *v, double strict) {
            : strict < 0.0
                ? 0U
                : (v->against & ~energy) | (energy_residual_lost(&v->balance, strict) ? energy : 0U);
+}
+
+unsigned run_checks_unlooked(const run_checks *v) {
+    const unsigned jumps = FINDING_BIT(FINDING_POLE) | FINDING_BIT(FINDING_MISSED);
+    const unsigned finer = FINDING_BIT(FINDING_ACCURACY) | FINDING_BIT(FINDING_SINGULAR);
+    const bool unaliased = v->twins == NULL || v->twins->unaliased;
+    return v->image->steps == 0 ? 0U
+                                : (pole_crossing_unseen(v->jumped) > 0 ? jumps : 0U) |
+                                      (v->twins == NULL ? finer : 0U) |
+                                      (unaliased ? FINDING_BIT(FINDING_ALIASED) : 0U);
 }

@@ -32,7 +32,6 @@ typedef struct run_checks {
     run_monitor *watch;
     pole_crossing *jumped; /* NULL: no pole */
     step_doubling *twins;  /* NULL: it would take too long */
-    bool unaliased;        /* the budget was too small for the third run */
     uint64_t overruns;
     double overran_s;                        /* begin of the first such step */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in them */
@@ -54,5 +53,7 @@ void run_checks_enter(run_checks *v);
 void run_checks_end(run_checks *v, wh_status status);
 /* The findings, as bits, for which the exit status is 1. */
 unsigned run_checks_fails(const run_checks *v, double strict);
+/* The findings, as bits, that some step was not checked for: the budget was too small. */
+unsigned run_checks_unlooked(const run_checks *v);
 
 #endif

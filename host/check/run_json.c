@@ -22,6 +22,16 @@ void json_begin(json *j, const char *command, const char *scene, const char *tit
     }
 }
 
+void json_unlooked(json *j, unsigned ids) {
+    json_open(j, "not_looked_at", '[');
+    for (int id = 0; id < FINDINGS; id++) {
+        if ((ids & FINDING_BIT(id)) != 0) {
+            json_text(j, NULL, finding_rows[id].word);
+        }
+    }
+    json_close(j, ']');
+}
+
 void json_time(json *j, const char *key, double time_s) {
     if (time_s >= 0.0) {
         json_number(j, key, time_s);
@@ -136,6 +146,7 @@ void run_json(FILE *out, const run_json_wish *w) {
     }
     put_error(&j, w->failed ? w->said : NULL);
     put_findings(&j, v);
+    json_unlooked(&j, run_checks_unlooked(v));
     put_hints(&j, w->said != NULL ? w->said : "");
     put_files(&j, w->file);
     json_whole(&j, "exit", w->status);
@@ -164,6 +175,7 @@ void horizon_json(FILE *out, const horizon *h, int status) {
         json_close(&j, '}');
     }
     json_close(&j, ']');
+    json_unlooked(&j, h->of->unaliased ? FINDING_BIT(FINDING_ALIASED) : 0U);
     json_whole(&j, "exit", status);
     json_close(&j, '}');
 }

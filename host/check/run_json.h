@@ -25,6 +25,8 @@ void horizon_json(FILE *out, const horizon *h, int status);
 /* The keys with which every command's object begins. `kind` is NULL of one that compares numbers and methods. */
 void json_begin(json *j, const char *command, const char *scene, const char *title,
                 const engine_kind *kind, wh_method method);
+/* "not_looked_at": the words of these findings. */
+void json_unlooked(json *j, unsigned ids);
 /* A time, or null below zero. */
 void json_time(json *j, const char *key, double time_s);
 

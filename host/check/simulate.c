@@ -409,16 +409,16 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         fputs("trusted            whirl trust tells until when: it takes more than a second\n",
               out);
     }
-    const uint64_t unseen = pole_crossing_unseen(sim->verdict->jumped);
-    if (result == SIMULATION_DONE && unseen > 0) {
-        fprintf(out,
-                "not looked at      poles and missed contacts in %" PRIu64 " of %" PRIu64
-                " steps: that takes more than a second\n",
-                unseen, sim->steps);
-    }
-    if (result == SIMULATION_DONE && sim->verdict->unaliased) {
-        fputs("not looked at      what is faster than the step: that takes more than a second\n",
-              out);
+    const unsigned unlooked = run_checks_unlooked(sim->verdict);
+    if (result == SIMULATION_DONE && unlooked != 0) {
+        fputs("not looked at      ", out);
+        finding_say_names(out, unlooked);
+        const uint64_t unseen = pole_crossing_unseen(sim->verdict->jumped);
+        if (unseen > 0) {
+            fprintf(out, ", poles and contacts in %" PRIu64 " of %" PRIu64 " steps", unseen,
+                    sim->steps);
+        }
+        fputs(": that takes more than a second\n", out);
     }
     summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
 }

@@ -318,6 +318,7 @@ static bool step_finer(pair *p) {
         const uint64_t before = engine_operations;
         good = loop_steps(&engine_double, p->finer, 1) == WH_OK;
         p->to->operations += engine_operations - before;
+        p->to->looks.own += engine_operations - before;
         if (good && p->to->jumps) {
             pole_crossing_enter(p->finer_jumps, &engine_double, p->finer);
         } else {
@@ -464,7 +465,12 @@ static bool see(void *of, uint64_t step) {
 
 step_doubling *step_doubling_run(const step_doubling_wish *w) {
     step_doubling *t = step_doubling_open(w, w->kind->start(w->image));
-    const loop l = {.kind = w->kind, .run = t->run, .steps = w->image->steps, .see = see, .of = t};
+    const loop l = {.kind = w->kind,
+                    .run = t->run,
+                    .steps = w->image->steps,
+                    .own = &t->looks,
+                    .see = see,
+                    .of = t};
     wh_status status;
     t->stopped = loop_run(&l, &status) == LOOP_INTERRUPTED;
     step_doubling_end(t, status);

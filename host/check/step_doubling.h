@@ -96,7 +96,9 @@ typedef struct step_doubling {
     double
         cut_s; /* the last look before the first of these three: nothing is known after it; below 0: not cut */
     const double *finer_end;       /* [columns] the finer run's, at the last look */
-    step_doubling_aliased aliased; /* after aliasing_find() */
+    step_doubling_aliased aliased; /* after aliasing_find(), and */
+    bool unaliased;                /* the budget was too small for its third run */
+    budget looks; /* of step_doubling_run(): the steps of both runs may be spent again */
     bool stopped;
     books *books; /* NULL: no balance */
     bool jumps;   /* does the finer run search for poles and missed contacts now? */

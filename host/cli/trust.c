@@ -160,7 +160,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
             "of the whole run\n",
             t->end_s, ratio_times(im->steps, im->step));
     } else {
-        (void)aliasing_find(t, NULL);
+        aliasing_find(t, &t->looks);
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, &h);
         if (!o->json && (!o->quiet || o->csv == NULL)) {

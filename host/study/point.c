@@ -499,6 +499,7 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
     }
     notes->against = m->verdict->against;
     notes->fails = run_checks_fails(m->verdict, w->strict);
+    notes->unlooked = run_checks_unlooked(m->verdict);
     return true;
 }
 

@@ -107,10 +107,11 @@ typedef struct measuring {
 
 /* Notes on a point that did not fail. */
 typedef struct point_notes {
-    unsigned found;   /* findings, as bits (host/check/finding.h), */
-    unsigned against; /* the warnings among them, */
-    unsigned fails;   /* and those for which the exit status is 1 */
-    double end_s;     /* of the run */
+    unsigned found;    /* findings, as bits (host/check/finding.h), */
+    unsigned against;  /* the warnings among them, */
+    unsigned fails;    /* and those for which the exit status is 1 */
+    unsigned unlooked; /* run_checks_unlooked() */
+    double end_s;      /* of the run */
 } point_notes;
 
 /* Runs the image; value[count + 1] gets the measures and the energy residual (NAN if unknown). False if the run

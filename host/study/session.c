@@ -304,7 +304,7 @@ void sweep_json_axes(json *j, const grid *g) {
     }
 }
 
-void sweep_json_begin(json *j, const sweep *s) {
+static void json_sweep_begin(json *j, const sweep *s) {
     char unit[DIM_TEXT_SIZE];
     const bool is_scene = s->scene != NULL;
     json_begin(j, "sweep", is_scene ? s->scene->name : s->mechanism->name,
@@ -329,8 +329,8 @@ void sweep_json_begin(json *j, const sweep *s) {
     json_open(j, "rows", '[');
 }
 
-void sweep_json_point(json *j, const char *row, const char *error, unsigned found,
-                      unsigned against) {
+/* `row`: as in the CSV file. `error`: why the point failed, or NULL. */
+static void put_point(json *j, const char *row, const char *error, const point_notes *notes) {
     json_open(j, NULL, '{');
     json_open(j, "values", '[');
     for (const char *at = row;; at++) {
@@ -345,14 +345,15 @@ void sweep_json_point(json *j, const char *row, const char *error, unsigned foun
     json_close(j, ']');
     json_open(j, "findings", '[');
     for (int id = 0; id < FINDINGS; id++) {
-        if ((found & FINDING_BIT(id)) != 0) {
+        if ((notes->found & FINDING_BIT(id)) != 0) {
             json_open(j, NULL, '{');
             json_text(j, "id", finding_rows[id].word);
-            json_text(j, "severity", (against & FINDING_BIT(id)) != 0 ? "warning" : "note");
+            json_text(j, "severity", (notes->against & FINDING_BIT(id)) != 0 ? "warning" : "note");
             json_close(j, '}');
         }
     }
     json_close(j, ']');
+    json_unlooked(j, notes->unlooked);
     if (error != NULL) {
         json_text(j, "error", error);
     } else {
@@ -361,7 +362,7 @@ void sweep_json_point(json *j, const char *row, const char *error, unsigned foun
     json_close(j, '}');
 }
 
-void sweep_json_end(json *j, uint64_t failed, int status) {
+static void json_sweep_end(json *j, uint64_t failed, int status) {
     json_close(j, ']');
     json_count(j, "failed", failed);
     json_whole(j, "exit", status);
@@ -504,37 +505,47 @@ typedef struct sitting {
     uint64_t ran;             /* points delivered, now */
     uint64_t found[FINDINGS]; /* points with this finding of `whirl run`, */
     uint64_t found_first[FINDINGS];
+    uint64_t unlooked_points; /* not checked for some finding, */
+    unsigned unlooked;        /* these */
     unsigned against;
     unsigned fails; /* for these findings the exit status is 1 */
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is its findings, the warnings, and those that count, as bits, if there are any. */
+/* Of a point that did not fail, `reason` is its notes. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
     const bool good = sweep_point(s->sweep, point, row, reason, &notes);
-    if (good && (notes.found | notes.fails) != 0) {
-        fprintf(reason, "%u %u %u", notes.found, notes.against, notes.fails);
+    if (good && (notes.found | notes.fails | notes.unlooked) != 0) {
+        fprintf(reason, "%u %u %u %u", notes.found, notes.against, notes.fails, notes.unlooked);
     }
     return good;
 }
 
-static bool count_notes(sitting *s, uint64_t point, const char *notes) {
-    char *rest;
-    const unsigned long found = strtoul(notes, &rest, 10);
-    const unsigned long against = strtoul(rest, &rest, 10);
-    const unsigned long fails = strtoul(rest, NULL, 10);
+static point_notes notes_of(const char *text) {
+    unsigned bits[4];
+    char *rest = (char *)text;
+    for (int i = 0; i < 4; i++) {
+        bits[i] = (unsigned)strtoul(rest, &rest, 10);
+    }
+    return (point_notes){
+        .found = bits[0], .against = bits[1], .fails = bits[2], .unlooked = bits[3]};
+}
+
+static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
     bool good = true;
-    s->against |= (unsigned)against;
-    s->fails |= (unsigned)fails;
+    s->against |= notes->against;
+    s->fails |= notes->fails;
+    s->unlooked |= notes->unlooked;
+    s->unlooked_points += notes->unlooked != 0 ? 1U : 0U;
     for (int id = 0; id < FINDINGS; id++) {
-        if ((found & FINDING_BIT(id)) != 0) {
+        if ((notes->found & FINDING_BIT(id)) != 0) {
             s->found_first[id] = s->found[id] == 0 ? point : s->found_first[id];
             s->found[id]++;
         }
-        if (((against | fails) & FINDING_BIT(id)) != 0) {
+        if (((notes->against | notes->fails) & FINDING_BIT(id)) != 0) {
             good = resumable_csv_note(&s->sheet, finding_rows[id].word) && good;
         }
     }
@@ -569,6 +580,7 @@ static void name_point(const sweep *s, uint64_t point) {
 
 static bool deliver(void *context, uint64_t point, bool good, const char *row, const char *reason) {
     sitting *s = context;
+    const point_notes notes = notes_of(good ? reason : "");
     s->ran++;
     if (!good) {
         s->failed++;
@@ -581,14 +593,11 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
             fprintf(stderr, "further failures are not listed: their measures are empty\n");
         }
         s->told += s->told <= TOLD_MAX ? 1 : 0;
-    } else if (reason[0] != '\0' && !count_notes(s, point, reason)) {
+    } else if (!count_notes(s, point, &notes)) {
         return false;
     }
     if (s->json != NULL) {
-        char *rest;
-        const unsigned found = good ? (unsigned)strtoul(reason, &rest, 10) : 0U;
-        const unsigned against = good ? (unsigned)strtoul(rest, NULL, 10) : 0U;
-        sweep_json_point(s->json, row, good ? NULL : reason, found, against);
+        put_point(s->json, row, good ? NULL : reason, &notes);
     }
     return fputs(row, s->sheet.out) >= 0;
 }
@@ -616,6 +625,12 @@ static void say_found(const sitting *s) {
             name_point(s->sweep, s->found_first[id]);
             fputs("\nhint: `whirl run` of the point tells what would do\n", stderr);
         }
+    }
+    if (s->unlooked != 0) {
+        fprintf(stderr, "whirl sweep: note: %llu of %llu points were not looked at for ",
+                (unsigned long long)s->unlooked_points, (unsigned long long)s->ran);
+        finding_say_names(stderr, s->unlooked);
+        fputs(": that takes more than a second each\n", stderr);
     }
 }
 
@@ -705,13 +720,13 @@ int session_run(const sweep *s, const session_settings *o) {
     const bool writes = code == EXIT_DONE && o->json;
     if (writes) {
         here.json = &written;
-        sweep_json_begin(&written, s);
+        json_sweep_begin(&written, s);
     }
     if (code == EXIT_DONE) {
         code = run_points(o, &here);
     }
     if (writes) {
-        sweep_json_end(&written, here.failed, code);
+        json_sweep_end(&written, here.failed, code);
     }
     free(header);
     return code;

@@ -55,12 +55,6 @@ bool resumable_csv_close(resumable_csv *sh);
 
 /* A column for each axis. */
 void sweep_json_axes(json *j, const grid *g);
-void sweep_json_begin(json *j, const sweep *s);
-/* `row`: as in the CSV file. `error`: why the point failed, or NULL. `found`, `against`: its findings and the warnings
- * among them, as bits. */
-void sweep_json_point(json *j, const char *row, const char *error, unsigned found,
-                      unsigned against);
-void sweep_json_end(json *j, uint64_t failed, int status);
 
 /* === everything that decides the bytes of a sweep's CSV, as lines of text ===================== */
 

@@ -7,6 +7,7 @@
 #include "host/base/interrupts.h"
 #include "host/check/aliasing.h"
 #include "host/check/energy_residual.h"
+#include "host/check/finding.h"
 #include "host/check/horizon.h"
 #include "host/check/run_json.h"
 #include "host/io/gnuplot.h"
@@ -125,7 +126,8 @@ static void try_point(row_runs *p, uint64_t point) {
         step_doubling *t = step_doubling_run(&wish);
         whole = !t->stopped;
         if (whole) {
-            (void)aliasing_find(t, NULL);
+            aliasing_find(t, &t->looks);
+            p->map->unlooked += t->unaliased ? 1U : 0U;
             cell = cell_of(p, t);
         }
         step_doubling_free(t);
@@ -223,6 +225,10 @@ void map_print(FILE *out, const stability_map *m, const char *words) {
                     (unsigned long long)count, map_verdicts[i].words);
         }
     }
+    if (m->unlooked > 0) {
+        fprintf(out, "  not looked at: [aliased] of %llu, that takes more than the two runs did\n",
+                (unsigned long long)m->unlooked);
+    }
 }
 
 /* --- for programs ----------------------------------------------------------------------------------------*/
@@ -289,6 +295,7 @@ void map_json(FILE *out, const stability_map *m, const image *of, const map_wish
         }
     }
     json_close(&j, ']');
+    json_unlooked(&j, m->unlooked > 0 ? FINDING_BIT(FINDING_ALIASED) : 0U);
     json_whole(&j, "exit", status);
     json_close(&j, '}');
 }

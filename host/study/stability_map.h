@@ -51,8 +51,10 @@ typedef struct stability_map {
     const grid *grid;
     map_cell *cell; /* [grid->points] */
     uint64_t done;  /* cells; fewer than points after an interrupt */
-    int along;      /* the step's axis, or 1 if neither is the step */
-    bool by_step;   /* one is the step */
+    uint64_t
+        unlooked; /* cells whose runs were not checked for aliasing: the budget was too small */
+    int along;    /* the step's axis, or 1 if neither is the step */
+    bool by_step; /* one is the step */
 } stability_map;
 
 /* Place by row, from the shortest step of each on. */

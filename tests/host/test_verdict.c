@@ -623,6 +623,41 @@ static void test_looks_take_what_they_may(void) {
     printf("  looks: at most %.2f of what they may take\n", total);
 }
 
+/* A run of many steps leaves no time for the finer run, or for the third. Run, sweep and trust say so. */
+static void test_what_was_not_looked_at(void) {
+    static const struct {
+        const char *until;
+        const char *names;
+        int count;
+    } cases[] = {{"2000", "[aliased]", 1}, {"4000", "[accuracy] [singular] [aliased]", 3}};
+    const char *file = model_keep("mechanism m\ncoordinate x [m]\nparameter p = 1\n"
+                                  "T = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2/2\n"
+                                  "scene s { start x = 1 [m]; step 1 [ms]; until 100 [s] }\n");
+    for (unsigned i = 0; i < few_or_all(1, 2); i++) {
+        said what;
+        char line[100];
+        const char *run[] = {file, "--until", cases[i].until, NULL, NULL};
+        const char *sweep[] = {file, "--until", cases[i].until, "--over=p=1..1:1", "--json", NULL};
+        snprintf(line, sizeof line, "not looked at      %s: ", cases[i].names);
+        command_say(command_run, run, &what);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, line), what.out);
+        run[3] = "--json";
+        command_say(command_run, run, &what);
+        TEST_ASSERT_EQUAL_INT(cases[i].count, json_length(what.out, "not_looked_at"));
+        command_say(command_sweep, sweep, &what);
+        TEST_ASSERT_EQUAL_INT(cases[i].count, json_length(what.out, "rows/0/not_looked_at"));
+        snprintf(line, sizeof line, "1 of 1 points were not looked at for %s: ", cases[i].names);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, line), what.err);
+    }
+    said what;
+    const char *shorter[] = {file, "--json", NULL};
+    command_say(command_run, shorter, &what);
+    TEST_ASSERT_EQUAL_INT(0, json_length(what.out, "not_looked_at"));
+    command_say(command_trust, shorter, &what);
+    TEST_ASSERT_EQUAL_INT(0, json_length(what.out, "not_looked_at"));
+    model_drop();
+}
+
 void suite_verdict(void) {
     RUN_TEST(test_a_point_is_judged_as_its_run);
     RUN_TEST(test_a_limit_is_one_of_the_energy);
@@ -632,4 +667,5 @@ void suite_verdict(void) {
     RUN_TEST(test_json_of_price_and_choose);
     RUN_TEST(test_a_common_speed_changes_nothing);
     RUN_TEST(test_looks_take_what_they_may);
+    RUN_TEST(test_what_was_not_looked_at);
 }
