@@ -16,13 +16,10 @@ const finding_row finding_rows[FINDINGS] = {
                         "half of it is the error of an amplitude, which no plot shows",
                         "cannot be believed: too much of the largest entry of their energy books "
                         "is left over (" ENERGY_RESIDUAL_COLUMN "), or was missing on the way"},
-    [FINDING_ACCURACY] = {"accuracy", FINDING_WARNING, 0.5, "of the run",
-                          "an error that grows evenly and is 2 % at the end passes 1 % there",
-                          "are right to 0.01 of a range for less than half of the run"},
-    [FINDING_SINGULAR] = {"singular", FINDING_WARNING, 1e-2, "of the largest pivot",
-                          "a coordinate's inertia a hundredth: its rate is ten times as large",
-                          "passed where their coordinates are singular, in steps that do not "
-                          "resolve it"},
+    [FINDING_ACCURACY] =
+        {"accuracy", FINDING_WARNING, 0.5, "of the run",
+         "an error that grows evenly and is 2 % at the end passes 1 % there",
+         "are right to 0.01 of a range for less than half of the run, or lose it at once"},
     [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion gets through a pole",
                       "jumped over a place where an expression grows without bound"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",

@@ -9,7 +9,6 @@ typedef enum finding_id {
     FINDING_CONSTANTS,
     FINDING_ENERGY,
     FINDING_ACCURACY,
-    FINDING_SINGULAR,
     FINDING_POLE,
     FINDING_MISSED,
     FINDING_ALIASED,
@@ -51,8 +50,10 @@ extern const finding_row finding_rows[FINDINGS];
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* singular: error of a position there, as a part of its range, within the trusted time */
-#define RUN_CHECKS_NEAR_TOLERANCE 1e-3
+/* accuracy: an error of a position that grows by this factor to HORIZON_TOLERANCE in so many steps, after twice as many,
+ * is reported at any time */
+#define RUN_CHECKS_SUDDEN 30.0
+#define RUN_CHECKS_SUDDEN_STEPS 8.0
 /* energy: part of the largest entry that was missing on the way and came back; no plot shows it */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
 /* events: the last bounces before a rest are not reported: parts of the largest entry, and of the steps */

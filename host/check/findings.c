@@ -69,7 +69,9 @@ static void say_accuracy(FILE *out, const run_checks *v) {
     const char *unit = v->twins->shape->column[f->component].unit->shown;
     char name[NAME_TEXT];
     fprintf(out, "%s is right to %g of its range only until t = %.6g s of %.6g s",
-            column_name(v, f->component, name), RUN_CHECKS_TOLERANCE, f->at_s, v->twins->end_s);
+            column_name(v, f->component, name),
+            c->until_s > f->at_s ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE, f->at_s,
+            v->twins->end_s);
     if (isfinite(c->off)) {
         fprintf(out, ": a finer run, in double, ends up to %.2g %s away", c->off, unit);
         if (c->range > 0.0) {
@@ -81,26 +83,6 @@ static void say_accuracy(FILE *out, const run_checks *v) {
         fputs(": a finer run, in double, leaves all bounds", out);
     }
     horizon_free((horizon *)&h);
-}
-
-static void say_singular(FILE *out, const run_checks *v) {
-    const run_monitor_singular *s = &v->watch->singular;
-    const image *im = v->image;
-    fprintf(out,
-            "about t = %.6g s these coordinates are singular: the inertia of '%s' falls to %.2g of "
-            "its largest",
-            s->at_s, im->unknown[image_component(im, s->component).unknown].name, s->inertia);
-    if (s->near >= 0) {
-        const component c = image_component(im, s->near);
-        const image_unit *unit = &im->unknown[c.unknown].unit[0];
-        fprintf(out, ", nearest at %s = %.3g %s", im->unknown[c.unknown].name,
-                image_shown(unit, s->near_at), unit->shown);
-    }
-    char name[NAME_TEXT];
-    if (v->twins != NULL && v->found[FINDING_SINGULAR].told) {
-        fprintf(out, "; '%s' is off there",
-                column_name(v, v->found[FINDING_SINGULAR].component, name));
-    }
 }
 
 static void say_pole(FILE *out, const run_checks *v) {
@@ -199,9 +181,8 @@ static bool is_without_restitution(const image *im, int k) {
 static void (*const say[FINDINGS])(FILE *, const run_checks *) = {
     [FINDING_CONSTANTS] = say_constants, [FINDING_MASS] = say_mass,
     [FINDING_ENERGY] = say_energy,       [FINDING_ACCURACY] = say_accuracy,
-    [FINDING_SINGULAR] = say_singular,   [FINDING_POLE] = say_pole,
-    [FINDING_MISSED] = say_missed,       [FINDING_ALIASED] = say_aliased,
-    [FINDING_EVENTS] = say_events,
+    [FINDING_POLE] = say_pole,           [FINDING_MISSED] = say_missed,
+    [FINDING_ALIASED] = say_aliased,     [FINDING_EVENTS] = say_events,
 };
 
 /* --- remedies ---------------------------------------------------------------------------------------------*/
@@ -277,8 +258,6 @@ static void say_remedy(FILE *out, const run_checks *v) {
             "hint: the kinetic energy is negative from t = %.6g s on: no masses move like that; "
             "end the run before, or correct T\n",
             v->books->negative_s);
-    } else if (is_told(v, FINDING_SINGULAR)) {
-        fputs("hint: take coordinates that are not singular there\n", out);
     } else if (is_told(v, FINDING_MISSED)) {
         const double began_s = v->found[FINDING_MISSED].at_s;
         const double passed_s = v->twins != NULL ? v->twins->jumped_s : -1.0;
@@ -350,7 +329,7 @@ void findings_message(FILE *out, const run_checks *v, finding_id id) {
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]) {
     const int of = v->found[id].component;
     const image *im = v->image;
-    if (id == FINDING_ACCURACY || id == FINDING_SINGULAR || id == FINDING_ALIASED) {
+    if (id == FINDING_ACCURACY || id == FINDING_ALIASED) {
         (void)column_name(v, of, name);
     } else if (id == FINDING_MISSED && of < im->contacts) {
         statement_text(im->contact[of].at, name, FINDINGS_NAME);
@@ -365,11 +344,6 @@ bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]
 
 void findings_say_failed(FILE *out, const run_checks *v) {
     char options[REMEDY_TEXT];
-    if (v->watch->singular.inertia <= finding_rows[FINDING_SINGULAR].limit) {
-        fputs("hint: ", out);
-        say_singular(out, v);
-        fputs("; coordinates that are not singular there need no smaller step\n", out);
-    }
     if (remedy_find(v, 2.0, options) == REMEDY_DOES) {
         fprintf(out, "hint: %s would do (tried)\n", options);
     }

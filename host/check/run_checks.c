@@ -19,7 +19,6 @@ run_checks *run_checks_open(const image *im, const image *plain, const engine_ki
     v->plain = plain;
     v->budget = of != NULL ? of : &v->own;
     v->books = books_open(im);
-    v->watch = run_monitor_open(im, kind);
     v->jumped = pole_crossing_open(im);
     const step_doubling_wish wish = {.image = im,
                                      .kind = kind,
@@ -36,7 +35,6 @@ void run_checks_close(run_checks *v) {
     if (v != NULL) {
         step_doubling_free(v->twins);
         pole_crossing_close(v->jumped);
-        run_monitor_close(v->watch);
         books_close(v->books);
         free(v);
     }
@@ -77,7 +75,6 @@ void run_checks_enter(run_checks *v) {
     if (v->books != NULL) {
         books_enter(v->books, v->kind, v->run);
     }
-    run_monitor_enter(v->watch, v->kind, v->books, v->run);
     if (v->image->contacts > 0) {
         watch_events(v);
     }
@@ -155,12 +152,14 @@ static bool is_faint(const run_checks *v, int unknown) {
     if (v->books == NULL || v->kind != &engine_float || rate < 0) {
         return false;
     }
-    const double own = number_most(fabs(v->watch->low[rate]), fabs(v->watch->high[rate]));
-    double fastest = own; /* of the finer run as well: float's may be zero */
+    double own = 0.0;
+    double fastest = 0.0; /* of the finer run as well: float's may be zero */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
+        const step_doubling_column *at = &t->column[k];
         if (c->unknown == unknown && c->primes == 1) {
-            fastest = number_most(fastest, t->column[k].off.most / t->column[k].one);
+            own = number_most(fabs(at->low), fabs(at->high)) / at->one;
+            fastest = number_most(own, at->off.most / at->one);
         }
     }
     const double mass = books_momentum(v->books, unknown) / own;
@@ -206,6 +205,25 @@ static int first_off(const run_checks *v, const horizon *h) {
     return found;
 }
 
+/* The position with an error that grew RUN_CHECKS_SUDDEN times to the tolerance of trust in few steps, or -1: the steps do not
+ * resolve a place of the motion, as one where the coordinates are singular. No chaotic motion that they resolve does that. */
+static int first_sudden(const run_checks *v, const horizon *h) {
+    int found = -1;
+    const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
+    horizon early = horizon_of(v->twins, v->part * HORIZON_TOLERANCE / RUN_CHECKS_SUDDEN);
+    for (int k = 1; k < v->twins->columns && v->image->contacts == 0; k++) {
+        const horizon_column *c = &h->column[k];
+        if (c->verdict == HORIZON_UNTIL && v->twins->shape->column[k].primes == 0 &&
+            is_asked(v, k) && !is_of_units(v, k, c) && early.column[k].until_s > 2.0 * steps_s &&
+            c->until_s - early.column[k].until_s <= steps_s &&
+            (found < 0 || is_worse(c, &h->column[found]))) {
+            found = k;
+        }
+    }
+    horizon_free(&early);
+    return found;
+}
+
 /* Steps with too many events, and runs cut off for another reason, have findings of their own. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->twins;
@@ -217,24 +235,13 @@ static void judge_accuracy(run_checks *v) {
         tell(v, FINDING_ACCURACY, until_s / end_s(v), until_s, k);
     }
     horizon_free(&h);
-}
-
-/* If a position is or was wrong, singular coordinates are the likely reason. */
-static void judge_singular(run_checks *v) {
-    const run_monitor_singular *s = &v->watch->singular;
-    if (s->inertia > finding_rows[FINDING_SINGULAR].limit) {
-        return;
-    }
-    horizon h = horizon_of(v->twins, RUN_CHECKS_NEAR_TOLERANCE);
-    int off = -1;
-    for (int k = 1; k < v->twins->columns; k++) {
-        if (v->twins->shape->column[k].primes == 0 && h.column[k].verdict == HORIZON_UNTIL &&
-            (off < 0 || is_worse(&h.column[k], &h.column[off]))) {
-            off = k;
-        }
-    }
-    if (off >= 0) {
-        tell(v, FINDING_SINGULAR, s->inertia, s->at_s, off);
+    h = horizon_of(t, v->part * HORIZON_TOLERANCE);
+    const int sudden = v->found[FINDING_ACCURACY].told || t->aliased.column > 0 || t->cut_s >= 0.0
+                           ? -1
+                           : first_sudden(v, &h);
+    if (sudden >= 0) {
+        const double at_s = h.column[sudden].until_s;
+        tell(v, FINDING_ACCURACY, at_s / end_s(v), at_s, sudden);
     }
     horizon_free(&h);
 }
@@ -274,7 +281,6 @@ static void judge(run_checks *v) {
     judge_energy(v);
     if (v->twins != NULL && v->kind->steps(v->run) > 0) {
         judge_accuracy(v);
-        judge_singular(v);
         judge_aliasing(v);
     }
     judge_jumps(v);
@@ -312,7 +318,7 @@ unsigned run_checks_fails(const run_checks *v, double strict) {
 
 unsigned run_checks_unlooked(const run_checks *v) {
     const unsigned jumps = FINDING_BIT(FINDING_POLE) | FINDING_BIT(FINDING_MISSED);
-    const unsigned finer = FINDING_BIT(FINDING_ACCURACY) | FINDING_BIT(FINDING_SINGULAR);
+    const unsigned finer = FINDING_BIT(FINDING_ACCURACY);
     const bool unaliased = v->twins == NULL || v->twins->unaliased;
     return v->image->steps == 0 ? 0U
                                 : (pole_crossing_unseen(v->jumped) > 0 ? jumps : 0U) |

@@ -1,7 +1,7 @@
 /* run_checks.h: findings against a run, made while it goes on and at its end.
  *
  * Two checks judge every run: a finer run in double (step_doubling.h), and the energy residual (energy_residual.h). The others find
- * faults that both may miss. These are a singular matrix or coordinate, a pole or contact that a step jumped over, and too few digits.
+ * faults that both may miss. These are a singular matrix, a pole or contact that a step jumped over, and too few digits.
  * Forcing that aliases with the step and steps with too many events are two more. `whirl run` and `whirl sweep` share these checks, so that
  * both report the same for the same point. The checks never change the run. docs/warnings.md has the cures. */
 #ifndef CHECK_RUN_CHECKS_H
@@ -10,7 +10,6 @@
 #include "energy_residual.h"
 #include "finding.h"
 #include "host/check/horizon.h"
-#include "run_monitor.h"
 
 /* Of a run: finding `id` is reported, */
 typedef struct finding {
@@ -26,10 +25,9 @@ typedef struct run_checks {
     void *run;
     const image *plain; /* of the finer run */
     budget own;
-    budget *budget; /* shared by all checks: its own, or another's */
-    double part;    /* of the limits of energy and accuracy: 1; a remedy is judged by less */
-    books *books;   /* NULL of a system given by its equations */
-    run_monitor *watch;
+    budget *budget;        /* shared by all checks: its own, or another's */
+    double part;           /* of the limits of energy and accuracy: 1; a remedy is judged by less */
+    books *books;          /* NULL of a system given by its equations */
     pole_crossing *jumped; /* NULL: no pole */
     step_doubling *twins;  /* NULL: it would take too long */
     uint64_t overruns;

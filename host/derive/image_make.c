@@ -344,16 +344,6 @@ static image *with_matrix(image_draft *d, const equations *e, image_use use, dia
     return made;
 }
 
-/* Does the mass matrix depend on anything but parameters? */
-static bool mass_moves(const equations *e) {
-    bool moves = false;
-    for (int i = 0; i < e->count * e->count && !moves; i++) {
-        double value;
-        moves = !poly_is_number(equations_fold(e, e->mass[i]), &value);
-    }
-    return moves;
-}
-
 image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors) {
     image_settings done = *settings;
@@ -377,7 +367,6 @@ image *image_once(const equations *e, const bool *conserve, const image_settings
     im->own_outputs = e->instance->mechanism->output_count;
     im->has_energies = e->kinetic != NULL;
     im->mass_blur = e->mass_blur;
-    im->mass_moves = mass_moves(e);
     name_it(&d, e->instance);
     time_it(im, e->instance);
     copy_unknowns(&d, e);

