@@ -8,11 +8,10 @@ The dissertation's simulated figures, drawn from Whirl's runs, and two measured 
 firmware in the loop ([pil.md](pil.md)). [findings.md](findings.md) has the conclusions,
 [models.md](models.md) the mechanisms. The command below each figure prints its numbers.
 
-`make figures` draws each as SVG and PNG in `build/figures/`. `make figures-docs` also copies the SVGs
-into `docs/`, and writes this page from the descriptions `mk/figures/*.fig`.
+`make figures` draws them in `build/figures/`. `make figures-docs` renews this page and its pictures.
 
-Figures 1 to 10, 12 to 16, 18, 21 to 23, 25, 27 to 31, 35, 41 to 43, 47 to 49 and 56 are drawings and
-photographs, and not here. The motion of figure 25's carriage is in [rig.md](rig.md#on-a-carriage).
+The other figures are drawings and photographs. [rig.md](rig.md#on-a-carriage) has the motion of
+figure 25's carriage.
 END
 for fig in "$@"; do
     name=$(basename "$fig" .fig)
