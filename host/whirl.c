@@ -1,17 +1,17 @@
 /* whirl.c: the command line. */
 #include <errno.h>
 #include <locale.h>
-#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/number/arithmetic.h"
 #include "core/version.h"
-#include "host/base/atomic_file.h"
 #include "host/base/spelling.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
+#include "host/os/atomic_file.h"
+#include "host/os/system.h"
 
 typedef struct command {
     const char *name;
@@ -29,7 +29,6 @@ static const command commands[] = {
      "what a scene holds: names, units, sizes; --json for programs"},
     {"examine", command_examine, "FILE [options]", "symmetries, momenta, and the forces on them"},
     {"accel", command_accel, "FILE NAME=VALUE ...", "accelerations at one state"},
-#ifndef WHIRL_NO_SYSTEM /* no processes and no signals */
     {"run", command_run, "SCENE|FILE[:SCENE] ...", "simulate"},
     {"plot", command_plot, "FILE.csv|SCENE ...", "curves of recorded or new runs"},
     {"figure", command_figure, "NUMBER", "a figure of the dissertation, as it is or varied"},
@@ -46,7 +45,6 @@ static const command commands[] = {
     {"monitor", command_monitor, "PORT", "a rig's console, its telemetry recorded"},
     {"firstlight", command_firstlight, "FILE|PORT", "a board's first record, compared"},
     {"emit-settings", command_emit_settings, NULL, NULL},
-#endif
     {"emit-scenes", command_emit_scenes, NULL, NULL},
     {"hashes", command_hashes, NULL, NULL},
 };
@@ -148,9 +146,7 @@ static int after_writing(int code) {
 
 int main(int count, char **words) {
     setlocale(LC_ALL, "C");
-#if defined SIGXFSZ && !defined WHIRL_NO_SYSTEM
-    signal(SIGXFSZ, SIG_IGN); /* beyond `ulimit -f`, a write then fails as on a full disk */
-#endif
+    system_begin();
     if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
         fputs(
             "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"

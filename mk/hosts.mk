@@ -28,7 +28,7 @@ host_set_clang-O2 = $(STRICT)
 host_set_musl    = LINK_EXTRA=-static
 host_set_aarch64 = LINK_EXTRA=-static
 host_set_armhf   = LINK_EXTRA=-static
-# WebAssembly has no processes and no signals, and a small stack unless it is told.
+# WebAssembly has no processes and no signals (host/os/none), and a small stack unless it is told.
 host_set_wasm    = SYSTEM=none AR=llvm-ar EXTRA=-D_WASI_EMULATED_SIGNAL LINK_EXTRA=-Wl,-z,stack-size=8388608
 
 # Where each is built; the warnings' gates have built these two (mk/check.mk).

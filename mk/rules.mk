@@ -25,7 +25,7 @@ BASE := -std=c11 -ffp-contract=off -I. $(WARN)
 # Lines for a backtrace; variables for a debugger take a quarter more of the time: make OPT="-O0 -g".
 NATIVE := -g1 $(OPT) $(EXTRA)
 
-FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L $(if $(filter none,$(SYSTEM)),-DWHIRL_NO_SYSTEM=1)
+FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
 FLAGS_float := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
 FLAGS_double := $(FLAGS_float) -DWH_DOUBLE=1
 
@@ -97,16 +97,11 @@ PROGRAM_C := $(wildcard boards/programs/*.c)
 BOARD_C := $(wildcard boards/*/*.c)
 HOST_TOOL_C := $(wildcard mk/*/*.c boards/*/run/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
-WHIRL_C := $(wildcard host/*/*.c)
-ifeq ($(SYSTEM),none)
-# The commands that need neither processes nor signals nor a serial line, and the folders that do.
-WHIRL_C := $(filter-out host/cli/% $(addprefix host/,monitor/% pil/% prove/% study/%) \
-    $(addprefix host/io/,figure_draw.c gnuplot.c panels.c plot.c plot_run.c vcd.c),$(WHIRL_C)) \
-    $(addprefix host/cli/,derive.c describe.c examine.c list.c load.c new.c options.c scenes.c target.c)
-endif
+# What an operating system has, or what replaces it.
+WHIRL_C := $(wildcard host/*/*.c host/os/$(or $(SYSTEM),posix)/*.c)
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \
-    $(wildcard core/*.h core/*/*.h hal/*.h hal/*/*.h boards/*.h boards/*/*.h host/*.h host/*/*.h \
+    $(wildcard core/*.h core/*/*.h hal/*.h hal/*/*.h boards/*.h boards/*/*.h host/*.h host/*/*.h host/os/*/*.c \
     tests/*.h tests/*/*.h))
 
 -include $(wildcard $(foreach b,host float double, \

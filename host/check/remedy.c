@@ -2,9 +2,9 @@
 
 #include <stdio.h>
 
-#include "host/base/interrupts.h"
 #include "host/check/summary.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 
 /* A remedy keeps this part of the limit: the lists of a user's run may round a little otherwise. */
 #define LEAVES 0.3

@@ -5,12 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+#include <sys/stat.h>
 
 #include "core/contact.h"
 #include "findings.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/base/diag.h"
 #include "host/base/exit.h"
 #include "host/check/horizon.h"
@@ -20,6 +19,8 @@
 #include "host/io/minmax_decimation.h"
 #include "host/io/records.h"
 #include "host/number/functions.h"
+#include "host/os/atomic_file.h"
+#include "host/os/system.h"
 #include "run_json.h"
 
 /* Events that a picture marks at most. */
@@ -49,12 +50,6 @@ typedef struct simulation {
     double trusted_s;     /* the plot is shaded after it; not above 0: nowhere */
     uint64_t output_rows; /* in how many of the records and points */
 } simulation;
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* True if the file is open or there is no file to open. */
 static bool open_records(const char *name, FILE **file) {
@@ -198,8 +193,8 @@ static void enter(simulation *sim, uint64_t step) {
 static bool see(void *of, uint64_t step) {
     simulation *sim = of;
     enter(sim, step);
-    if (sim->settings->progress && (step & 255U) == 0 && now_s() - sim->shown_s > 0.2) {
-        sim->shown_s = now_s();
+    if (sim->settings->progress && (step & 255U) == 0 && system_now_s() - sim->shown_s > 0.2) {
+        sim->shown_s = system_now_s();
         fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
     }
     return !sim->write_failed;
@@ -214,7 +209,7 @@ static wh_status go(simulation *sim, bool *ended) {
                     .see = see,
                     .of = sim};
     wh_status status;
-    sim->shown_s = now_s();
+    sim->shown_s = system_now_s();
     *ended = loop_run(&l, &status) == LOOP_INTERRUPTED;
     if (s->progress) {
         fprintf(stderr, "\r        \r");

@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "host/base/interrupts.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 #include "host/study/choice.h"
 #include "host/study/price_table.h"
 #include "pricing.h"

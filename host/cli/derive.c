@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "host/base/atomic_file.h"
 #include "host/cli/load.h"
 #include "host/emit/emit.h"
 #include "host/emit/matrix.h"
@@ -13,6 +12,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/lang/lexer.h"
+#include "host/os/atomic_file.h"
 #include "host/show/show_equations.h"
 #include "target.h"
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
@@ -15,6 +14,8 @@
 #include "host/io/gnuplot.h"
 #include "host/io/plot.h"
 #include "host/lang/builtin.h"
+#include "host/os/atomic_file.h"
+#include "host/os/system.h"
 
 /* === whirl plot =============================================================================== */
 /* `whirl plot`: curves of recorded or new runs in one picture. */
@@ -300,7 +301,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
             word[0], word[1], word[0]);
         return EXIT_BAD_INPUT;
     }
-    if (mkdtemp(folder) == NULL) {
+    if (!system_scratch_folder(folder)) {
         perror("whirl figure: error: a temporary folder");
         return EXIT_RUN_FAILED;
     }

@@ -8,14 +8,14 @@
 #include <time.h>
 
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
-#include "host/base/interrupts.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/target.h"
 #include "host/engine/loop.h"
 #include "host/monitor/light.h"
-#include "host/monitor/port.h"
+#include "host/os/atomic_file.h"
+#include "host/os/port.h"
+#include "host/os/system.h"
 
 /* === the expected record ====================================================================== */
 /* The interpreter's runs of the scenes, and a board with working crystal, sensors and stop line. */
@@ -247,13 +247,6 @@ static const command_usage firstlight_usage = {
 
 /* --- the record ------------------------------------------------------------------------------------------------- */
 
-static double now_s(void) {
-    struct timespec now;
-    return clock_gettime(CLOCK_MONOTONIC, &now) == 0
-               ? (double)now.tv_sec + (double)now.tv_nsec / 1e9
-               : 0.0;
-}
-
 static int say_wrong(const char *name, const char *why, const char *hint) {
     fprintf(stderr, "%s: error: %s\nhint: %s\n", name, why, hint);
     return EXIT_BAD_INPUT;
@@ -263,17 +256,17 @@ static int say_wrong(const char *name, const char *why, const char *hint) {
 static int listen(port *line, const firstlight_options *o, const char *from_name, light *l) {
     static char bytes[BYTES_MOST];
     size_t count = 0;
-    const double began_s = now_s();
+    const double began_s = system_now_s();
     double asked_s = began_s - ASK_S;
     const char *hint = "is it the board's console, is --baud its speed, does firstlight run there?";
     const char *why = "no record came; --wait S waits longer";
     int code = EXIT_RUN_FAILED;
     bool ended = false;
     while (!ended && code != EXIT_DONE && !interrupted &&
-           (!line->is_line || now_s() - began_s < o->wait_s)) {
-        if (line->is_line && now_s() - asked_s >= ASK_S) {
+           (!line->is_line || system_now_s() - began_s < o->wait_s)) {
+        if (line->is_line && system_now_s() - asked_s >= ASK_S) {
             (void)port_write(line, "\r", 1);
-            asked_s = now_s();
+            asked_s = system_now_s();
         }
         const int more =
             port_read(line, (uint8_t *)bytes + count, BYTES_MOST - count, WAIT_MS, NULL);

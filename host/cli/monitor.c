@@ -8,17 +8,17 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "host/base/atomic_file.h"
-#include "host/base/interrupts.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
 #include "host/cli/target.h"
 #include "host/io/gnuplot.h"
 #include "host/io/plot.h"
-#include "host/monitor/port.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/wire.h"
+#include "host/os/atomic_file.h"
+#include "host/os/port.h"
+#include "host/os/system.h"
 
 /* The outputs, a file each. */
 enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
@@ -160,13 +160,7 @@ typedef struct monitor {
 
 /* --- the line ------------------------------------------------------------------------------------------------- */
 
-static int64_t now_ms(void) {
-    struct timespec now;
-    if (clock_gettime(CLOCK_MONOTONIC, &now) != 0) {
-        return 0;
-    }
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
+static int64_t now_ms(void) { return (int64_t)(1000.0 * system_now_s()); }
 
 static void ask(monitor *m) {
     char line[DIALOGUE_LINE];

@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/lang/lexer.h"
+#include "host/os/atomic_file.h"
 #include "options.h"
 
 static const command_usage usage = {

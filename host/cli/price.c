@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "host/base/atomic_file.h"
-#include "host/base/interrupts.h"
 #include "host/cli/load.h"
 #include "host/io/plot.h"
+#include "host/os/atomic_file.h"
+#include "host/os/system.h"
 #include "host/study/price_table.h"
 #include "pricing.h"
 

@@ -13,7 +13,7 @@
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "host/study/jobs.h"
+#include "host/os/jobs.h"
 
 typedef struct pricing_row {
     unsigned commands;

@@ -8,7 +8,6 @@
 
 #include "commands.h"
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/check/apart.h"
 #include "host/check/finding.h"
 #include "host/check/simulate.h"
@@ -16,6 +15,7 @@
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
+#include "host/os/system.h"
 #include "pricing.h"
 #include "pricing_scene.h"
 #include "rating.h"

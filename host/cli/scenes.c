@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/emit/emit.h"
@@ -17,6 +16,7 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/lang/builtin.h"
 #include "host/number/decimal.h"
+#include "host/os/atomic_file.h"
 #include "host/show/show_equations.h"
 #include "host/study/trial.h"
 

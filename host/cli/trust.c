@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "host/base/atomic_file.h"
-#include "host/base/interrupts.h"
 #include "host/check/aliasing.h"
 #include "host/check/apart.h"
 #include "host/check/horizon.h"
@@ -17,6 +15,8 @@
 #include "host/fixed/fixed_plan.h"
 #include "host/io/plot.h"
 #include "host/number/functions.h"
+#include "host/os/atomic_file.h"
+#include "host/os/system.h"
 #include "target.h"
 #include "trusting.h"
 

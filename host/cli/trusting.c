@@ -1,8 +1,8 @@
 #include "trusting.h"
 
-#include "host/base/interrupts.h"
 #include "host/check/step_doubling.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 #include "options.h"
 
 load_keep trusting_keep(const image_settings *settings) {

@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-#include "host/base/interrupts.h"
+#include "host/os/system.h"
 
 void budget_begin(budget *b) {
     if (b->depth++ == 0) {

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/engine/loop.h"
 #include "host/number/functions.h"
 #include "host/number/phase.h"
+#include "host/os/system.h"
 
 static enclosure twice(enclosure seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {

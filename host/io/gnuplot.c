@@ -4,13 +4,11 @@
  * mk/curves/chart.sh also reads the rows of lines. */
 #include "host/io/gnuplot.h"
 
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "host/base/atomic_file.h"
+#include "host/os/atomic_file.h"
+#include "host/os/system.h"
 
 /* === gnuplot ================================================================================== */
 
@@ -60,35 +58,6 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
-/* Redirect a stream to the file; put_back() of the result restores it; -1 if the stream was closed. */
-static int put_in_place(FILE *file, int stream) {
-    const int before = dup(stream);
-    if (before >= 0) {
-        dup2(fileno(file), stream);
-    }
-    return before;
-}
-
-static void put_back(int before, int stream) {
-    if (before >= 0) {
-        dup2(before, stream);
-        close(before);
-    }
-}
-
-/* Start gnuplot, which draws to its standard output, the picture. So it never receives the file's name, which could
- * begin with | or ~. Its messages go to `said`, and are shown only after a failure. */
-static FILE *start_gnuplot(FILE *picture, FILE *said) {
-    fflush(stdout);
-    fflush(stderr);
-    const int output = put_in_place(picture, STDOUT_FILENO);
-    const int errors = said == NULL ? -1 : put_in_place(said, STDERR_FILENO);
-    FILE *to = output < 0 ? NULL : popen("LC_ALL=C.UTF-8 gnuplot", "w");
-    put_back(errors, STDERR_FILENO);
-    put_back(output, STDOUT_FILENO);
-    return to;
-}
-
 static void show_said(FILE *said) {
     rewind(said);
     for (int c = fgetc(said); c != EOF; c = fgetc(said)) {
@@ -97,7 +66,7 @@ static void show_said(FILE *said) {
 }
 
 bool gnuplot_is_there(void) {
-    const bool there = system("command -v gnuplot >/dev/null 2>&1") == 0;
+    const bool there = system_end(system_read_from("command -v gnuplot 2>&1 >/dev/null")) == 0;
     if (!there) {
         fprintf(stderr, "whirl: error: plots need gnuplot, which is not installed\n"
                         "hint: make deps installs it (Debian package gnuplot-nox)\n");
@@ -144,17 +113,17 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
     if (g->picture == NULL) {
         return false;
     }
-    g->drawn = tmpfile();
-    g->said = tmpfile();
+    g->drawn = system_scratch();
+    g->said = system_scratch();
     if (g->drawn == NULL || g->said == NULL) {
         perror("whirl: error: a temporary file");
         return give_up(g);
     }
-    g->before = signal(SIGPIPE, SIG_IGN);
-    g->to = start_gnuplot(g->drawn, g->said);
+    /* It draws to its standard output, so it never receives the file's name, which could begin with | or ~. Its
+     * messages are shown only after a failure. */
+    g->to = system_write_to("LC_ALL=C.UTF-8 gnuplot", g->drawn, g->said);
     if (g->to == NULL) {
         perror("whirl: error: gnuplot");
-        signal(SIGPIPE, g->before);
         return give_up(g);
     }
     set_look(g, height);
@@ -226,8 +195,7 @@ static bool is_whole(const gnuplot *g) {
 
 bool gnuplot_close(gnuplot *g) {
     const bool written = ferror(g->to) == 0;
-    const int code = pclose(g->to);
-    signal(SIGPIPE, g->before);
+    const int code = system_end(g->to);
     const bool whole = is_whole(g);
     const bool drawn = written && code == 0 && whole;
     copy_picture(g);

@@ -69,7 +69,6 @@ typedef struct gnuplot {
     const char *file;
     const char *title;
     const char *text;
-    void (*before)(int); /* of SIGPIPE */
 } gnuplot;
 
 /* True when the file ends in .svg, .png or .pdf. */

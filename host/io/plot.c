@@ -10,11 +10,11 @@
 
 #include "core/version.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/base/spelling.h"
 #include "host/io/gnuplot.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/os/atomic_file.h"
 
 /* der(der(x)) as x''. Free it. */
 static char *shown_name(const char *name) {

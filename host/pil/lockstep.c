@@ -3,10 +3,9 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/hash.h"
-#include "host/base/interrupts.h"
+#include "host/os/system.h"
 
 #define ASK_S 0.25 /* interval between requests for a hello */
 
@@ -345,7 +344,7 @@ void talk_end(talk *t) {
         t->report->end = LOCKSTEP_FAILED;
     } else if (t->report->status.signal_number != 0) {
         fprintf(stderr, "whirl pil: error: the firmware's process was ended by signal %d (%s)\n",
-                t->report->status.signal_number, strsignal(t->report->status.signal_number));
+                t->report->status.signal_number, t->report->status.signal_name);
         t->report->end = LOCKSTEP_FAILED;
     }
 }
@@ -357,12 +356,6 @@ void talk_end(talk *t) {
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
 #define PIECE_STEPS 1e4 /* at most: steps may be arbitrarily short */
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void note_most(peak *m, double value, double at_s) {
     if (value > m->value) {
@@ -567,13 +560,13 @@ static void run_bound(loop *l, const image *im) {
     l->per_count = l->talk.guest.emulated ? talk_instructions_per_count(hello) : 0.0;
     l->report->counted = l->per_count > 0.0;
     plant_start(&l->plant, im, &l->binding, hello, &l->talk.wish->plant);
-    const double begun_s = now_s();
+    const double begun_s = system_now_s();
     if (start_taps(l)) {
         take_turns(l);
     } else {
         l->report->end = LOCKSTEP_BAD;
     }
-    l->report->wall_s = now_s() - begun_s;
+    l->report->wall_s = system_now_s() - begun_s;
     l->report->time_s = plant_s(l);
     l->report->edges = l->plant.edges_seen;
     l->report->samples = l->plant.samples_seen;

@@ -8,11 +8,11 @@
 
 #include "core/noise.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/base/spelling.h"
 #include "host/io/plot.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/os/atomic_file.h"
 
 enum { NAME_BYTES = 80 };
 

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "host/pil/guest.h"
+#include "host/os/guest.h"
 #include "host/pil/plant.h"
 
 /* The interface for faults (fault.h) and observers. They are called in turn: before the first message, after each

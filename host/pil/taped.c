@@ -9,9 +9,9 @@
 #include "core/exchange.h"
 #include "core/hash.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/io/plot.h"
-#include "host/pil/guest.h"
+#include "host/os/atomic_file.h"
+#include "host/os/guest.h"
 #include "host/pil/lockstep.h"
 
 /* === taped ==================================================================================== */

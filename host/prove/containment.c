@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/engine/loop.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
+#include "host/os/system.h"
 
 /* --- the run's states, SI, in the order of the motion's -----------------------------------------------*/
 

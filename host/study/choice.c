@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "host/base/interrupts.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 
 #define CHOICE_LIMIT_WORD(id, word) word,
 const char *const choice_limit_words[CHOICE_LIMITS] = {CHOICE_LIMIT_ROWS(CHOICE_LIMIT_WORD)};

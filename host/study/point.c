@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/check/energy_residual.h"
 #include "host/check/nonfinite.h"
 #include "host/check/run_checks.h"
@@ -22,6 +21,7 @@
 #include "host/lang/value.h"
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
+#include "host/os/atomic_file.h"
 
 /* === a measure, sample by sample ============================================================== */
 

@@ -5,16 +5,15 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
-#include "host/base/interrupts.h"
 #include "host/check/run_json.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
-#include "host/study/jobs.h"
+#include "host/os/atomic_file.h"
+#include "host/os/jobs.h"
+#include "host/os/system.h"
 
 /* === the table ================================================================================ */
 
@@ -719,7 +718,7 @@ void table_json(FILE *out, const trials *t, const table *made, const table_words
 
 /* The last line that a command prints, or the first with this in it. Returns its exit status, or -1. */
 static int line_from(const char *command, const char *with, char *line, int size) {
-    FILE *from = popen(command, "r");
+    FILE *from = system_read_from(command);
     if (from == NULL) {
         return -1;
     }
@@ -732,8 +731,7 @@ static int line_from(const char *command, const char *with, char *line, int size
             found = with != NULL && strstr(next, with) != NULL;
         }
     }
-    const int status = pclose(from);
-    return status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return system_end(from);
 }
 
 /* --- can it be counted? --------------------------------------------------------------------------------*/

@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/engine/loop.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 
 /* === functions and lists in long double ======================================================= */
 

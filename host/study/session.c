@@ -1,5 +1,6 @@
 /* session.c: runs a sweep's points and writes their rows and messages. */
 #include "host/study/session.h"
+#include "host/os/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -8,14 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/hash.h"
 #include "core/method.h"
 #include "core/version.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
 #include "host/base/exit.h"
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
@@ -24,7 +23,8 @@
 #include "host/lang/units.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
-#include "host/study/jobs.h"
+#include "host/os/atomic_file.h"
+#include "host/os/jobs.h"
 
 /* === a CSV file that is continued ============================================================= */
 
@@ -163,12 +163,8 @@ static int check_rows(resumable_csv *sh, const resumable_csv_settings *s, off_t 
 /* --- opening -----------------------------------------------------------------------------------*/
 
 static int lock(const resumable_csv *sh, const char *path) {
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(fileno(sh->out), F_SETLK, &whole) == 0) {
+    if (system_lock(sh->out)) {
         return EXIT_DONE;
-    }
-    if (errno != EACCES && errno != EAGAIN) {
-        return EXIT_DONE; /* a file system without locks */
     }
     fprintf(stderr, "%s: error: another sweep is writing it\n", path);
     return EXIT_BAD_INPUT;
@@ -446,20 +442,14 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 enum { BAR_WIDTH = 30 };
 #define SHOW_EVERY_S 0.2
 
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 progress progress_start(FILE *out, uint64_t from, uint64_t end) {
-    return (progress){.out = out, .from = from, .end = end, .start_s = now_s()};
+    return (progress){.out = out, .from = from, .end = end, .start_s = system_now_s()};
 }
 
-double progress_elapsed_s(const progress *p) { return now_s() - p->start_s; }
+double progress_elapsed_s(const progress *p) { return system_now_s() - p->start_s; }
 
 void progress_show(progress *p, uint64_t done) {
-    const double now = now_s();
+    const double now = system_now_s();
     if (p->out == NULL || now - p->shown_s < SHOW_EVERY_S) {
         return;
     }

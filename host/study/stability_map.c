@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/check/aliasing.h"
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
@@ -13,6 +12,7 @@
 #include "host/io/gnuplot.h"
 #include "host/lang/value.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 #include "host/study/session.h"
 
 #define MAP_VERDICT_ROW(id, mark, word, words) [id] = {mark, word, words},

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/base/spelling.h"
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
@@ -14,6 +13,7 @@
 #include "host/image/image.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/os/system.h"
 
 /* === settings ================================================================================= */
 

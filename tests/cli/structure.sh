@@ -84,7 +84,7 @@ if ! command -v nm >/dev/null 2>&1 || [ ! -d "$objects" ]; then
 fi
 
 # Lines "FOLDER/FILE defines SYMBOL" and "FOLDER/FILE wants SYMBOL"; objects of files that are gone do not count.
-for object in "$objects"/*/*.o; do
+for object in "$objects"/*/*.o "$objects"/os/*/*.o; do
     file=${object#"$objects/"}
     file=${file%.o}
     [ -f "host/$file.c" ] && nm "$object" | awk -v file="$file" '

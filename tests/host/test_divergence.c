@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "core/method.h"
-#include "host/base/interrupts.h"
 #include "host/check/horizon.h"
 #include "host/check/step_doubling.h"
 #include "host/cli/commands.h"
+#include "host/os/system.h"
 
 #include "command.h"
 #include "derived.h"

@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "host/base/interrupts.h"
+#include "host/os/system.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 

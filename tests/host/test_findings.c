@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "host/base/exit.h"
-#include "host/base/interrupts.h"
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
 #include "host/cli/commands.h"
 #include "host/engine/engine.h"
+#include "host/os/system.h"
 
 #include "blocks.h"
 #include "command.h"

@@ -12,7 +12,7 @@
 #include "blocks.h"
 #include "command.h"
 #include "host/base/alloc.h"
-#include "host/study/jobs.h"
+#include "host/os/jobs.h"
 #include "host/study/session.h"
 #include "unity.h"
 

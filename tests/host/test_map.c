@@ -8,8 +8,8 @@
 
 #include "command.h"
 #include "derived.h"
-#include "host/base/interrupts.h"
 #include "host/cli/commands.h"
+#include "host/os/system.h"
 #include "host/study/stability_map.h"
 
 #include "unity.h"

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/fixed/engine_fixed.h"
+#include "host/os/system.h"
 #include "host/study/choice.h"
 #include "host/study/price_table.h"
 #include "host/study/reference_run.h"

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/base/interrupts.h"
 #include "host/fixed/engine_fixed.h"
+#include "host/os/system.h"
 #include "host/study/reference_run.h"
 
 #include "blocks.h"

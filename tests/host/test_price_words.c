@@ -8,7 +8,7 @@
 #include "caught.h"
 #include "command.h"
 #include "host/base/alloc.h"
-#include "host/base/atomic_file.h"
+#include "host/os/atomic_file.h"
 #include "host/study/choice.h"
 #include "priced.h"
 #include "unity.h"

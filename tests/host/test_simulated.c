@@ -11,9 +11,9 @@
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
-#include "host/base/interrupts.h"
 #include "host/check/finding.h"
 #include "host/check/simulate.h"
+#include "host/os/system.h"
 #include "unity.h"
 
 void suite_simulated(void);

@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/check/run_checks.h"
 #include "host/check/slow.h"
 #include "host/cli/commands.h"
+#include "host/os/system.h"
 #include "host/study/point.h"
 #include "host/study/session.h"
 

@@ -5,7 +5,7 @@
 #include "core/cobs.h"
 #include "core/exchange.h"
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
+#include "host/os/system.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/taped.h"
 

@@ -13,9 +13,9 @@
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
+#include "host/os/system.h"
 #include "tests/host/faults.h"
 
 #define UNTIL_S 60.0

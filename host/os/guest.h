@@ -1,8 +1,8 @@
 /* guest.h: the process that runs a firmware image, and the line to it. Two pipes are the guest's descriptors
  * HAL_LINK_DOWN and HAL_LINK_UP (hal/link.h). They have no name, so opening them cannot block, and they leave no file.
  * The guest dies with this process, however that ends. A guest that does not exit after the line is closed is killed. */
-#ifndef PIL_GUEST_H
-#define PIL_GUEST_H
+#ifndef OS_GUEST_H
+#define OS_GUEST_H
 
 #include <stdbool.h>
 #include <sys/types.h>
@@ -61,6 +61,7 @@ typedef struct guest_end_status {
     bool killed;       /* by us: it did not exit by itself */
     int status;        /* its exit status, or -1 */
     int signal_number; /* that ended it, or 0 */
+    const char *signal_name;
 } guest_end_status;
 
 /* Close the line, wait for the patience, then kill; the process is gone on return. A second call, or a call after a

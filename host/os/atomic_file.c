@@ -1,4 +1,4 @@
-#include "atomic_file.h"
+#include "host/os/atomic_file.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -6,8 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "exit.h"
 #include "host/base/alloc.h"
+#include "host/base/exit.h"
+#include "host/os/system.h"
 
 static bool failed;
 
@@ -45,11 +46,9 @@ static FILE *open_part(const char *name, const char *in_place) {
     if (file == NULL && (errno == EACCES || errno == ENAMETOOLONG)) {
         file = fopen(name, in_place);
     }
-#ifndef WHIRL_NO_SYSTEM /* WASI has no modes */
     if (file != NULL && there.st_mode != 0) {
-        (void)fchmod(fileno(file), there.st_mode & 0777U);
+        system_set_mode(file, there.st_mode & 0777U);
     }
-#endif
     free(part);
     return file;
 }

@@ -1,5 +1,5 @@
 /* guest.c: start of the firmware's process, communication with it, and its end. */
-#include "guest.h"
+#include "host/os/guest.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "host/base/interrupts.h"
+#include "host/os/system.h"
 #if defined(__linux__)
 #include <sys/prctl.h>
 #endif
@@ -18,12 +18,6 @@
 /* The guest's descriptors (hal/link.h has the same numbers). */
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* --- the kind of image --------------------------------------------------------------------------------- */
 
@@ -182,20 +176,20 @@ static guest_heard wait_to_read(const guest *g, double end_s) {
         if (poll(&line, 1, POLL_MS) > 0) {
             return GUEST_FRAME;
         }
-    } while (now_s() < end_s);
+    } while (system_now_s() < end_s);
     return GUEST_SILENT;
 }
 
 /* Invalid frames count as silence, so that a babbling line reaches the timeout. */
 guest_heard guest_receive(guest *g, wh_frame *frame) {
-    const double end_s = now_s() + g->wish.patience_s;
+    const double end_s = system_now_s() + g->wish.patience_s;
     for (;;) {
         while (g->line_at < g->line_end) {
             if (wh_frame_take(&g->reader, g->line[g->line_at++], frame)) {
                 return GUEST_FRAME;
             }
         }
-        if (now_s() > end_s) {
+        if (system_now_s() > end_s) {
             return interrupted ? GUEST_STOPPED : GUEST_SILENT;
         }
         const guest_heard heard = wait_to_read(g, end_s);
@@ -242,7 +236,7 @@ static void close_line(int *descriptor) {
 
 /* False if it still runs after the patience. */
 static bool wait_for_end(const guest *g, int *status) {
-    const double end_s = now_s() + g->wish.patience_s;
+    const double end_s = system_now_s() + g->wish.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};
     pid_t ended = 0;
     do {
@@ -250,7 +244,7 @@ static bool wait_for_end(const guest *g, int *status) {
         if (ended == 0) {
             nanosleep(&pause, NULL);
         }
-    } while (ended == 0 && now_s() < end_s);
+    } while (ended == 0 && system_now_s() < end_s);
     return ended != 0;
 }
 
@@ -278,6 +272,7 @@ guest_end_status guest_end(guest *g) {
         end.status = WEXITSTATUS(status);
     } else if (WIFSIGNALED(status)) {
         end.signal_number = WTERMSIG(status);
+        end.signal_name = strsignal(end.signal_number);
     }
     return end;
 }

@@ -1,4 +1,4 @@
-#include "port.h"
+#include "host/os/port.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -6,9 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
+#include <termios.h>
 #include <unistd.h>
 
 enum { WRITE_MS = 1000 };
+
+static struct termios before; /* settings of the line, to be restored */
 
 static const struct {
     double baud;
@@ -29,10 +32,10 @@ bool port_has_speed(double baud) { return index_of(baud) < SPEEDS; }
 
 static bool make_plain(port *p, double baud) {
     const int speed = index_of(baud);
-    if (tcgetattr(p->file, &p->before) != 0 || speed == SPEEDS) {
+    if (tcgetattr(p->file, &before) != 0 || speed == SPEEDS) {
         return false;
     }
-    struct termios plain = p->before;
+    struct termios plain = before;
     plain.c_iflag &= ~(tcflag_t)(BRKINT | ICRNL | IGNCR | INLCR | INPCK | ISTRIP | IXON | IXOFF);
     plain.c_oflag &= ~(tcflag_t)OPOST;
     plain.c_lflag &= ~(tcflag_t)(ECHO | ECHONL | ICANON | IEXTEN | ISIG);
@@ -86,7 +89,7 @@ void port_say_unopened(const char *name, const char *hint) {
 void port_close(port *p) {
     if (p->file >= 0) {
         if (p->is_line) {
-            (void)tcsetattr(p->file, TCSANOW, &p->before);
+            (void)tcsetattr(p->file, TCSANOW, &before);
         }
         close(p->file);
     }

@@ -1,5 +1,5 @@
 /* jobs.c: workers, their pipes, and rows put back into order. */
-#include "jobs.h"
+#include "host/os/jobs.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "host/base/interrupts.h"
+#include "host/os/system.h"
 
 /* Points handed out beyond the first that has not come back, for each worker. */
 #define AHEAD 8U

@@ -4,8 +4,8 @@
  * pipe per worker and are delivered by rising number, as soon as possible. A worker's result for a point
  * must depend on the point alone. Then the delivery does not depend on the number of workers. Workers
  * end when the parent does, even after a crash. */
-#ifndef STUDY_JOBS_H
-#define STUDY_JOBS_H
+#ifndef OS_JOBS_H
+#define OS_JOBS_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,17 +1,15 @@
-/* port.h: a serial line, a pseudo-terminal, or a file recorded from one. */
-#ifndef MONITOR_PORT_H
-#define MONITOR_PORT_H
+/* port.h: a serial line, a pseudo-terminal, or a file recorded from one. A program has one at a time. */
+#ifndef OS_PORT_H
+#define OS_PORT_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <termios.h>
 
 typedef struct port {
     int file;
     int failed;   /* errno of a failed read, or 0 */
     bool is_line; /* a terminal with a peer; else a file or a pipe, which ends */
-    struct termios before;
 } port;
 
 #define PORT_SPEEDS "9600, 19200, 38400, 57600, 115200 or 230400"

@@ -1,6 +1,6 @@
 /* atomic_file.h: atomic file writing: the text goes to NAME.part, which replaces NAME when it is complete. */
-#ifndef BASE_ATOMIC_FILE_H
-#define BASE_ATOMIC_FILE_H
+#ifndef OS_ATOMIC_FILE_H
+#define OS_ATOMIC_FILE_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,0 +1,99 @@
+/* system.c: signals, clock and other programs of POSIX. */
+#include "host/os/system.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+static void catch_with(int flags) {
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = flags};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    if ((flags & SA_RESTART) == 0) {
+        sigaction(SIGHUP, &action, NULL);
+    }
+}
+
+void interrupts_catch(void) { catch_with(SA_RESTART | (int)SA_RESETHAND); }
+
+void interrupts_catch_waiting(void) { catch_with((int)SA_RESETHAND); }
+
+void system_begin(void) {
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
+double system_now_s(void) {
+    struct timespec t = {0};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void system_set_mode(FILE *file, unsigned mode) { (void)fchmod(fileno(file), (mode_t)mode); }
+
+FILE *system_scratch(void) { return tmpfile(); }
+
+bool system_scratch_folder(char *name) { return mkdtemp(name) != NULL; }
+
+bool system_lock(FILE *file) {
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    return fcntl(fileno(file), F_SETLK, &whole) == 0 || (errno != EACCES && errno != EAGAIN);
+}
+
+FILE *system_read_from(const char *command) { return popen(command, "r"); }
+
+/* The input of the command that is written to, and the handler of SIGPIPE from before. */
+static FILE *written;
+static void (*before)(int);
+
+/* Redirect a stream to the file; put_back() of the result restores it; -1 if the stream was closed. */
+static int put_in_place(FILE *file, int stream) {
+    const int old = dup(stream);
+    if (old >= 0) {
+        dup2(fileno(file), stream);
+    }
+    return old;
+}
+
+static void put_back(int old, int stream) {
+    if (old >= 0) {
+        dup2(old, stream);
+        close(old);
+    }
+}
+
+FILE *system_write_to(const char *command, FILE *output, FILE *messages) {
+    fflush(stdout);
+    fflush(stderr);
+    before = signal(SIGPIPE, SIG_IGN);
+    const int out = put_in_place(output, STDOUT_FILENO);
+    const int errors = put_in_place(messages, STDERR_FILENO);
+    written = out < 0 ? NULL : popen(command, "w");
+    put_back(errors, STDERR_FILENO);
+    put_back(out, STDOUT_FILENO);
+    if (written == NULL) {
+        signal(SIGPIPE, before);
+    }
+    return written;
+}
+
+int system_end(FILE *command) {
+    const int status = command == NULL ? -1 : pclose(command);
+    if (command != NULL && command == written) {
+        written = NULL;
+        signal(SIGPIPE, before);
+    }
+    return status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
