@@ -39,6 +39,17 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
+/* The arguments of a step that all its stages share. Scalars alone: compilers keep them in registers, and know the
+ * constant ones before they unroll loops. */
+typedef struct wh_stepping {
+    const wh_tableau *by; /* the method */
+    const wh_state *state;
+    wh_real h;
+    unsigned angles;
+    unsigned n; /* coordinates (second order) or components (first order) */
+    bool compensated;
+} wh_stepping;
+
 /* Arguments and results of a list. A struct of its own: all other variables stay in registers if the list is called. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
@@ -71,18 +82,19 @@ typedef struct wh_stepped_second {
 } wh_stepped_second;
 
 /* The positions of stage s of a row with a reach. Returns as wh_step_second_stage(). */
-WH_INLINE unsigned wh_step_reach(const wh_tableau *by, unsigned s, wh_given accels, unsigned angles,
-                                 unsigned linears, wh_real h, const wh_state *state,
+WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given accels,
                                  wh_stepped_list *list, const wh_stepped_second *k) {
+    const unsigned angles = to->angles;
     WH_UNROLL
-    for (unsigned i = 0; i < linears; i++) {
-        list->at[i] =
-            k->linear[i] + wh_stage_reach(by, s, k->rate[angles + i], accels, h, angles + i);
+    for (unsigned i = 0; i < to->n - angles; i++) {
+        list->at[i] = k->linear[i] +
+                      wh_stage_reach(to->by, s, k->rate[angles + i], accels, to->h, angles + i);
     }
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        const wh_real rad = wh_stage_reach(by, s, k->rate[i], accels, h, i);
-        if (!wh_phase_move(wh_phase_of(state->angle[i]), rad * WH_PHASE_PER_RAD, &list->phase[i])) {
+        const wh_real rad = wh_stage_reach(to->by, s, k->rate[i], accels, to->h, i);
+        const wh_phase begin = wh_phase_of(to->state->angle[i]);
+        if (!wh_phase_move(begin, rad * WH_PHASE_PER_RAD, &list->phase[i])) {
             return i;
         }
     }
@@ -90,11 +102,12 @@ WH_INLINE unsigned wh_step_reach(const wh_tableau *by, unsigned s, wh_given acce
 }
 
 /* Stage s > 0. Returns the angle that would move by half a turn or more, or `angles`. */
-WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, const wh_tableau *by,
-                                        unsigned s, unsigned angles, unsigned n, wh_real h,
-                                        const wh_state *state, wh_stepped_list *list,
+WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel,
+                                        const wh_stepping *to, unsigned s, wh_stepped_list *list,
                                         wh_stepped_second *k) {
-    const unsigned linears = n - angles;
+    const wh_tableau *by = to->by;
+    const wh_real h = to->h;
+    const unsigned angles = to->angles;
     const wh_given all_rates = {k->rate, k->rates};
     const wh_given all_accels = {k->a1, k->accels};
     const wh_real *share = by->stage[s].share;
@@ -103,30 +116,30 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel, c
         return angles;
     }
     WH_UNROLL
-    for (unsigned i = 0; i < n; i++) {
+    for (unsigned i = 0; i < to->n; i++) {
         list->v[i] = k->rate[i] + h / parts * wh_stage_sum(share, s, all_accels, i);
         k->rates[s - 1][i] = list->v[i];
     }
     if (wh_stage_reaches(by)) {
-        const unsigned far = wh_step_reach(by, s, all_accels, angles, linears, h, state, list, k);
+        const unsigned far = wh_step_reach(to, s, all_accels, list, k);
         if (far < angles) {
             return far;
         }
     } else {
         WH_UNROLL
-        for (unsigned i = 0; i < linears; i++) {
+        for (unsigned i = 0; i < to->n - angles; i++) {
             list->at[i] = k->linear[i] + h / parts * wh_stage_sum(share, s, all_rates, angles + i);
         }
         WH_UNROLL
         for (unsigned i = 0; i < angles; i++) {
-            if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
+            if (!wh_stage_angle(to->state->angle[i], wh_stage_sum(share, s, all_rates, i), h, parts,
                                 &list->phase[i])) {
                 return i;
             }
         }
     }
     accel(model, list->phase, list->at, list->v, k->input, list->given);
-    wh_stage_given(by, s, true, n, k->a1, list->given, k->accels, k->alike);
+    wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
     return angles;
 }
 
@@ -144,20 +157,20 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
         return wh_rk4_step(&plain, h.s, state);
     }
     const wh_tableau *by = wh_tableau_of(method);
+    const wh_stepping to = {by, state, h.s, angles, n, compensated};
     wh_stepped_second k = {
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
     wh_stepped_list list;
     wh_stepped_begin(state, angles, n - angles, &list);
     if (wh_begins_away(by)) {
         const wh_given none = {k.a1, k.accels};
-        WH_REFUSE_FAR(wh_step_reach(by, 0, none, angles, n - angles, h.s, state, &list, &k));
+        WH_REFUSE_FAR(wh_step_reach(&to, 0, none, &list, &k));
         accel(model, list.phase, list.at, k.rate, k.input, list.given);
     } else {
         accel(model, list.phase, k.linear, k.rate, k.input, list.given);
     }
     wh_copy(list.given, n, k.a1);
-#define WH_STAGE(stage) \
-    WH_REFUSE_FAR(wh_step_second_stage(model, accel, by, stage, angles, n, h.s, state, &list, &k))
+#define WH_STAGE(stage) WH_REFUSE_FAR(wh_step_second_stage(model, accel, &to, stage, &list, &k))
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_second_end(by, k.a1, k.alike, false, compensated, angles, n, h, state);
@@ -171,10 +184,11 @@ typedef struct wh_stepped_first {
 } wh_stepped_first;
 
 /* Stage s > 0. Returns as wh_step_second_stage(). */
-WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_tableau *by,
-                                       unsigned s, unsigned angles, unsigned reals, wh_real h,
-                                       const wh_state *state, wh_stepped_list *list,
-                                       wh_stepped_first *k) {
+WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_stepping *to,
+                                       unsigned s, wh_stepped_list *list, wh_stepped_first *k) {
+    const wh_tableau *by = to->by;
+    const wh_real h = to->h;
+    const unsigned angles = to->angles;
     const wh_given all = {k->k1, k->slopes};
     const wh_real *share = by->stage[s].share;
     const wh_real parts = by->stage[s].parts;
@@ -183,17 +197,17 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
     }
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
-        if (!wh_stage_angle(state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
+        if (!wh_stage_angle(to->state->angle[i], wh_stage_sum(share, s, all, i), h, parts,
                             &list->phase[i])) {
             return i;
         }
     }
     WH_UNROLL
-    for (unsigned i = 0; i < reals; i++) {
-        list->at[i] = state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
+    for (unsigned i = 0; i < to->n - angles; i++) {
+        list->at[i] = to->state->real[i] + h / parts * wh_stage_sum(share, s, all, angles + i);
     }
-    slope(model, list->phase, list->at, state->input, list->given);
-    wh_stage_given(by, s, false, angles + reals, k->k1, list->given, k->slopes, k->alike);
+    slope(model, list->phase, list->at, to->state->input, list->given);
+    wh_stage_given(by, s, false, to->n, k->k1, list->given, k->slopes, k->alike);
     return angles;
 }
 
@@ -212,6 +226,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
         return wh_rk4_step(&plain, h.s, state);
     }
     const wh_tableau *by = wh_tableau_of(method);
+    const wh_stepping to = {by, state, h.s, angles, angles + reals, compensated};
     wh_stepped_first k;
     wh_stepped_list list;
 
@@ -221,9 +236,7 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
     wh_stepped_begin(state, angles, reals, &list);
     slope(model, list.phase, state->real, state->input, list.given);
     wh_copy(list.given, angles + reals, k.k1);
-#define WH_STAGE(stage) \
-    WH_REFUSE_FAR( \
-        wh_step_first_stage(model, slope, by, stage, angles, reals, h.s, state, &list, &k))
+#define WH_STAGE(stage) WH_REFUSE_FAR(wh_step_first_stage(model, slope, &to, stage, &list, &k))
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);

@@ -22,7 +22,8 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         wh_contact_apply(of, w, member[i], w->force[member[i]], way);
     }
     wh_contact_magnitudes(of, w, member, count, accel);
-    wh_contact_contradicts(of, w, member, count, NULL, repeats, NULL, w->wanted, way, push);
+    const wh_contact_set set = {member, count, NULL};
+    wh_contact_contradicts(of, w, &set, repeats, NULL, w->wanted, way, push);
     for (unsigned i = 0; i < count; i++) {
         contradicts = contradicts || push[i] != 0;
     }

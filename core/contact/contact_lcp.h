@@ -45,6 +45,14 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
     return WH_CONTACT_ROUNDING * (WH_ABS(a) + WH_ABS(b) + WH_ABS(c));
 }
 
+/* The contacts of one problem. */
+typedef struct wh_contact_set {
+    const uint8_t *member; /* [count]: their numbers */
+    unsigned count;
+    const int8_t
+        *at; /* [count]: -1, 1: at the low, at the high limit; 0: within. NULL: all within */
+} wh_contact_set;
+
 /* A redundant contact may contradict the others. At a dead centre two rows are parallel, but only one of the paths bends,
  * so one contact must give way. In an impact two stops on one path may bounce differently.
  *
@@ -52,9 +60,11 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
  * way[] is the change of the accelerations by all forces, or of the rates by `impulse`, if not NULL. The path's curvature
  * J' q' is also tested by itself, because in a slow passage it would drown in the round-off of the accelerations. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
-                                          const uint8_t *member, unsigned count, const int8_t *at,
-                                          unsigned repeats, const wh_real *impulse,
-                                          const wh_real *wanted, const wh_real *way, int8_t *push) {
+                                          const wh_contact_set *set, unsigned repeats,
+                                          const wh_real *impulse, const wh_real *wanted,
+                                          const wh_real *way, int8_t *push) {
+    const uint8_t *member = set->member;
+    const unsigned count = set->count;
     wh_real bend[WH_CONTACTS_MAX] = {WH_R(0.0)};
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real bent[WH_COORDS] = {WH_R(0.0)};
@@ -62,7 +72,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
         for (unsigned i = 0; i < count; i++) {
             bend[i] = -wh_contact_law(of, w, member[i])[WH_LAW_BIAS];
         }
-        (void)wh_delassus_solve(of, w, member, count, at, bend, lambda);
+        (void)wh_delassus_solve(of, w, member, count, set->at, bend, lambda);
         for (unsigned i = 0; i < count; i++) {
             wh_contact_apply(of, w, member[i], lambda[i], bent);
         }
@@ -307,6 +317,7 @@ static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_wo
         return wh_contact_lcp_one(of, w, member[0], wanted[0], forces, lambda, left);
     }
     wh_contact_pivot p = {.contradicted = 0};
+    const wh_contact_set set = {p.member, count, p.at};
     for (unsigned i = 0; i < count; i++) {
         p.member[i] = member[i];
         p.wanted[i] = wanted[i];
@@ -319,8 +330,8 @@ static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_wo
         const unsigned repeats =
             wh_contact_lcp_round(of, w, p.member, count, p.at, p.wanted, p.lambda, way);
         if (repeats != 0) {
-            wh_contact_contradicts(of, w, p.member, count, p.at, repeats, forces ? NULL : p.lambda,
-                                   p.wanted, way, push);
+            wh_contact_contradicts(of, w, &set, repeats, forces ? NULL : p.lambda, p.wanted, way,
+                                   push);
         }
         wrong = wh_contact_pivot_wrong(of, w, &p, count, forces, way, &to);
         for (unsigned i = 0; i < count && wrong == count; i++) {

@@ -248,16 +248,18 @@ WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, boo
 }
 
 /* pair[] at stage `stage`, gained[] as above. `far`: leans may be large. */
-WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, unsigned stage,
-                                wh_real (*gained)[WH_COORDS], unsigned angles, wh_real h,
-                                bool precise, bool far, wh_turning *t, wh_wave *pair) {
+WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, unsigned stage,
+                                wh_real (*gained)[WH_COORDS], bool far, wh_turning *t,
+                                wh_wave *pair) {
+    const wh_shares *of = &to->by->stage[stage];
+    const bool precise = to->compensated;
     wh_real of_angles[WH_COORDS];
     wh_real lean[WH_WAVES];
-    const bool leans = wh_turning_leans(&by->stage[stage], stage, gained, angles, of_angles);
+    const bool leans = wh_turning_leans(of, stage, gained, to->angles, of_angles);
     if (leans) {
-        waves->rates(waves->model, h / by->stage[stage].parts, of_angles, lean);
+        waves->rates(waves->model, to->h / of->parts, of_angles, lean);
     }
-    wh_turning_to(waves, by->turns[stage], precise, t);
+    wh_turning_to(waves, to->by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
         pair[w] = !leans ? t->at[w]
@@ -267,18 +269,18 @@ WH_INLINE void wh_turning_stage(const wh_tableau *by, const wh_waves *waves, uns
 }
 
 /* The same for a row that gives its stages' positions. */
-WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, unsigned stage,
-                                wh_given accels, unsigned angles, wh_real h, bool precise,
-                                wh_turning *t, wh_wave *pair) {
-    const wh_shares *of = &by->places->reach[stage];
+WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, unsigned stage,
+                                wh_given accels, wh_turning *t, wh_wave *pair) {
+    const wh_shares *of = &to->by->places->reach[stage];
+    const bool precise = to->compensated;
     wh_real of_angles[WH_COORDS];
     wh_real lean[WH_WAVES];
     WH_UNROLL
-    for (unsigned i = 0; i < angles; i++) {
+    for (unsigned i = 0; i < to->angles; i++) {
         of_angles[i] = wh_stage_sum(of->share, stage, accels, i);
     }
-    waves->rates(waves->model, h * h / of->parts, of_angles, lean);
-    wh_turning_to(waves, by->turns[stage], precise, t);
+    waves->rates(waves->model, to->h * to->h / of->parts, of_angles, lean);
+    wh_turning_to(waves, to->by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
         pair[w] = wh_lean(t->at[w], t->parts[w], lean[w], precise);
@@ -286,17 +288,17 @@ WH_INLINE void wh_turning_reach(const wh_tableau *by, const wh_waves *waves, uns
 }
 
 /* The angles' phases at a stage, for the ledger: as wh_stage_angle(). */
-WH_INLINE void wh_turning_tell(const wh_tableau *by, unsigned stage, const wh_real *rate,
-                               wh_given rates, wh_given accels, unsigned angles, wh_real h,
-                               const wh_state *state, wh_phase *told) {
-    const wh_shares *of = &by->stage[stage];
-    for (unsigned i = 0; i < angles; i++) {
-        if (wh_stage_reaches(by)) {
-            const wh_real rad = wh_stage_reach(by, stage, rate[i], accels, h, i);
-            (void)wh_phase_move(wh_phase_of(state->angle[i]), rad * WH_PHASE_PER_RAD, &told[i]);
+WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_real *rate,
+                               wh_given rates, wh_given accels, wh_phase *told) {
+    const wh_shares *of = &to->by->stage[stage];
+    for (unsigned i = 0; i < to->angles; i++) {
+        const wh_angle angle = to->state->angle[i];
+        if (wh_stage_reaches(to->by)) {
+            const wh_real rad = wh_stage_reach(to->by, stage, rate[i], accels, to->h, i);
+            (void)wh_phase_move(wh_phase_of(angle), rad * WH_PHASE_PER_RAD, &told[i]);
         } else {
-            (void)wh_stage_angle(state->angle[i], wh_stage_sum(of->share, stage, rates, i), h,
-                                 of->parts, &told[i]);
+            (void)wh_stage_angle(angle, wh_stage_sum(of->share, stage, rates, i), to->h, of->parts,
+                                 &told[i]);
         }
     }
 }
@@ -332,25 +334,25 @@ typedef struct wh_turned_second {
 
 /* Stage s > 0. */
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
-                                    const wh_waves *waves, wh_phase *told, const wh_tableau *by,
-                                    unsigned s, bool compensated, unsigned angles, unsigned n,
-                                    wh_real h, const wh_state *state, wh_turned_list *list,
-                                    wh_turned_second *k) {
+                                    const wh_waves *waves, const wh_stepping *to, wh_phase *told,
+                                    unsigned s, wh_turned_list *list, wh_turned_second *k) {
+    const wh_tableau *by = to->by;
     const wh_shares *of = &by->stage[s];
-    const unsigned linears = n - angles;
+    const wh_real h = to->h;
+    const unsigned angles = to->angles;
     const wh_given all_rates = {k->rate, k->rates};
     const wh_given all_accels = {k->a1, k->accels};
     if (s >= by->stages) {
         return;
     }
     WH_UNROLL
-    for (unsigned i = 0; i < n; i++) {
+    for (unsigned i = 0; i < to->n; i++) {
         k->gained[s - 1][i] = h / of->parts * wh_stage_sum(of->share, s, all_accels, i);
         list->v[i] = k->rate[i] + k->gained[s - 1][i];
         k->rates[s - 1][i] = list->v[i];
     }
     WH_UNROLL
-    for (unsigned i = 0; i < linears; i++) {
+    for (unsigned i = 0; i < to->n - angles; i++) {
         list->at[i] =
             wh_stage_reaches(by)
                 ? k->linear[i] +
@@ -358,24 +360,25 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
                 : k->linear[i] + h / of->parts * wh_stage_sum(of->share, s, all_rates, angles + i);
     }
     if (wh_stage_reaches(by)) {
-        wh_turning_reach(by, waves, s, all_accels, angles, h, compensated, &k->t, list->pair);
+        wh_turning_reach(to, waves, s, all_accels, &k->t, list->pair);
     } else {
-        wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, false, &k->t, list->pair);
+        wh_turning_stage(to, waves, s, k->gained, false, &k->t, list->pair);
     }
     if (told != NULL) {
-        wh_turning_tell(by, s, k->rate, all_rates, all_accels, angles, h, state, told);
+        wh_turning_tell(to, s, k->rate, all_rates, all_accels, told);
     }
     accel(model, list->pair, list->at, list->v, k->input, list->given);
-    wh_stage_given(by, s, true, n, k->a1, list->given, k->accels, k->alike);
+    wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* As wh_step_second(), turning. The method must turn. `told` [angles] gets the angles' phases before each call of
- * accel(), or is NULL. */
-WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
-                                   const wh_waves *waves, wh_phase *told, wh_method method,
-                                   bool compensated, unsigned angles, unsigned n, wh_span h,
-                                   wh_state *state) {
-    const wh_tableau *by = wh_tableau_of(method);
+/* A step of to->h = h.s. `told` [to->angles] gets the angles' phases before each call of accel(), or is NULL. */
+WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *accel,
+                                        const wh_waves *waves, const wh_stepping *to, wh_span h,
+                                        wh_phase *told, wh_state *state) {
+    const wh_tableau *by = to->by;
+    const bool compensated = to->compensated;
+    const unsigned angles = to->angles;
+    const unsigned n = to->n;
     wh_turned_second k;
     k.linear = state->real;
     k.rate = state->real + (n - angles);
@@ -394,12 +397,18 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
         wh_turning_by(by, waves, k.rate, h.s, turn);
     }
     wh_turning_begin(waves, turn, compensated, &k.t);
-#define WH_STAGE(stage) \
-    wh_turn_second_stage(model, accel, waves, told, by, stage, compensated, angles, n, h.s, state, \
-                         &list, &k)
+#define WH_STAGE(stage) wh_turn_second_stage(model, accel, waves, to, told, stage, &list, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);
+}
+
+/* As wh_step_second(), turning. The method must turn. */
+WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
+                                   const wh_waves *waves, wh_method method, bool compensated,
+                                   unsigned angles, unsigned n, wh_span h, wh_state *state) {
+    const wh_stepping to = {wh_tableau_of(method), state, h.s, angles, n, compensated};
+    return wh_turn_second_told(model, accel, waves, &to, h, NULL, state);
 }
 
 /* A step of x' = f(x, u) in progress. */
@@ -413,22 +422,24 @@ typedef struct wh_turned_first {
 
 /* Stage s > 0. */
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
-                                   const wh_waves *waves, const wh_tableau *by, unsigned s,
-                                   bool compensated, unsigned angles, unsigned reals, wh_real h,
-                                   const wh_state *state, wh_turned_list *list,
-                                   wh_turned_first *k) {
+                                   const wh_waves *waves, const wh_stepping *to, unsigned s,
+                                   wh_turned_list *list, wh_turned_first *k) {
+    const wh_tableau *by = to->by;
     const wh_shares *of = &by->stage[s];
+    const wh_state *state = to->state;
+    const unsigned angles = to->angles;
     const wh_given all = {k->k1, k->slopes};
     if (s >= by->stages) {
         return;
     }
     WH_UNROLL
-    for (unsigned i = 0; i < reals; i++) {
-        list->at[i] = state->real[i] + h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
+    for (unsigned i = 0; i < to->n - angles; i++) {
+        list->at[i] =
+            state->real[i] + to->h / of->parts * wh_stage_sum(of->share, s, all, angles + i);
     }
-    wh_turning_stage(by, waves, s, k->gained, angles, h, compensated, true, &k->t, list->pair);
+    wh_turning_stage(to, waves, s, k->gained, true, &k->t, list->pair);
     slope(model, list->pair, list->at, state->input, list->given);
-    wh_stage_given(by, s, false, angles + reals, k->k1, list->given, k->slopes, k->alike);
+    wh_stage_given(by, s, false, to->n, k->k1, list->given, k->slopes, k->alike);
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         k->gained[s - 1][i] = list->given[i] - k->k1[i];
@@ -440,6 +451,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_span h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
+    const wh_stepping to = {by, state, h.s, angles, angles + reals, compensated};
     wh_turned_first k;
     wh_turned_list list;
     wh_wave turn[WH_WAVES];
@@ -455,9 +467,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
         wh_turning_by(by, waves, k.k1, h.s, turn);
         wh_turning_begin(waves, turn, compensated, &k.t);
     }
-#define WH_STAGE(stage) \
-    wh_turn_first_stage(model, slope, waves, by, stage, compensated, angles, reals, h.s, state, \
-                        &list, &k)
+#define WH_STAGE(stage) wh_turn_first_stage(model, slope, waves, &to, stage, &list, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_first_end(by, k.k1, k.alike, compensated, angles, reals, h, state);

@@ -36,8 +36,10 @@ WH_INLINE wh_status wh_turn_ledger(const wh_ledger_form *form, const void *model
     const wh_turn_ledger_model with = {form, model, accel, method, &work, phase};
     wh_ledger_open(form, state, &work);
     wh_ledger_begin(form, state->angle, &work, h.s);
-    const wh_status status = wh_turn_second(&with, wh_turn_ledger_accel, waves, phase, method,
-                                            compensated, form->angles, form->coordinates, h, state);
+    const wh_stepping to = {wh_tableau_of(method), state,      h.s, form->angles,
+                            form->coordinates,     compensated};
+    const wh_status status =
+        wh_turn_second_told(&with, wh_turn_ledger_accel, waves, &to, h, phase, state);
     if (status == WH_OK) {
         wh_ledger_accept(form, &work);
         wh_ledger_commit(form, &work, state);

@@ -578,11 +578,8 @@ static void write_one_step(FILE *out, const image *im) {
                 "    return wh_%s_%s(NULL, %s,%s %s, %s, %dU, %dU,\n"
                 "                          WH_SPAN(%s, %s), state);\n}\n\n",
                 turns ? "turn" : "step", second ? "second" : "first",
-                second ? "accelerations" : "slopes",
-                !turns   ? ""
-                : second ? " &waves, NULL,"
-                         : " &waves,",
-                method, compensated, im->angles, second ? im->coordinates : im->reals, hex, rest);
+                second ? "accelerations" : "slopes", turns ? " &waves," : "", method, compensated,
+                im->angles, second ? im->coordinates : im->reals, hex, rest);
     }
 }
 

@@ -164,8 +164,9 @@ static void test_what_contradicts_is_told_from_rounding(void) {
         }
         push[count] = 9;
         bench_solve(member, count, out, need, hold);
-        wh_contact_contradicts(&bench_now.system, &w, member, count, at, asked,
-                               rates ? impulse : NULL, wanted, way, push);
+        const wh_contact_set set = {member, count, at};
+        wh_contact_contradicts(&bench_now.system, &w, &set, asked, rates ? impulse : NULL, wanted,
+                               way, push);
         TEST_ASSERT_EQUAL_INT(9, push[count]);
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = member[i];
@@ -215,7 +216,8 @@ static void test_a_small_difference_of_bends_is_none(void) {
         bench_now.bias[0] = size;
         bench_now.bias[1] = up ? size - off : size + off;
         bench_work(&seed, false, &w);
-        wh_contact_contradicts(&bench_now.system, &w, member, 2, NULL, 2U, NULL, wanted, way, push);
+        const wh_contact_set set = {member, 2, NULL};
+        wh_contact_contradicts(&bench_now.system, &w, &set, 2U, NULL, wanted, way, push);
         TEST_ASSERT_EQUAL_INT(0, push[0]);
         TEST_ASSERT_EQUAL_INT(!more ? 0 : up ? 1 : -1, push[1]);
     }

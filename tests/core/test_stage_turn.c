@@ -89,10 +89,14 @@ static wh_status step(manner how, wh_real h, wh_phase *told) {
                          : wh_step_first(NULL, flow, how.method, how.compensated, ANGLES, LINEARS,
                                          (wh_span){h, WH_R(0.0)}, &state);
     }
-    return how.turns ? wh_turn_second(NULL, swing_turned, &waves, told, how.method, how.compensated,
-                                      ANGLES, COORDINATES, (wh_span){h, WH_R(0.0)}, &state)
-                     : wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
-                                      (wh_span){h, WH_R(0.0)}, &state);
+    if (how.turns) {
+        const wh_stepping to = {
+            wh_tableau_of(how.method), &state, h, ANGLES, COORDINATES, how.compensated};
+        return wh_turn_second_told(NULL, swing_turned, &waves, &to, (wh_span){h, WH_R(0.0)}, told,
+                                   &state);
+    }
+    return wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
+                          (wh_span){h, WH_R(0.0)}, &state);
 }
 
 static void start(void) {

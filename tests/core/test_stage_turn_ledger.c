@@ -76,11 +76,10 @@ static bool with_books;
 
 static wh_status advance(const wh_scene *scene, wh_state *state) {
     const wh_span h = {scene->step_s, WH_R(0.0)};
-    return wh_step_counted(with_books
-                               ? wh_turn_ledger(&books, NULL, turned_accel, &waves, scene->method,
-                                                scene->compensated, h, state)
-                               : wh_turn_second(NULL, turned_accel, &waves, NULL, scene->method,
-                                                scene->compensated, 1, 2, h, state),
+    return wh_step_counted(with_books ? wh_turn_ledger(&books, NULL, turned_accel, &waves,
+                                                       scene->method, scene->compensated, h, state)
+                                      : wh_turn_second(NULL, turned_accel, &waves, scene->method,
+                                                       scene->compensated, 1, 2, h, state),
                            state);
 }
 
