@@ -256,133 +256,205 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
+/* A step with events in progress: it goes by tries from attempt->now to the step's end, or to the next events. Scalars
+ * alone, which compilers keep in registers. */
+typedef struct wh_contact_progress {
+    wh_contact_attempt *attempt;
+    const wh_contact_state *end; /* of the step, once it is done */
+    wh_real *input;
+    wh_contact_log *log;
+    wh_real h;       /* the step, s */
+    wh_real left;    /* of it from attempt->now on, s */
+    wh_real reach;   /* of the next try, s: shorter than `left` after a dip */
+    unsigned round;  /* moments so far, at most WH_EVENTS_MAX */
+    unsigned events; /* at attempt->now, as bits */
+    unsigned flat;   /* the hold that lost rank; of->contacts: none */
+    bool calm;       /* the step ended without an event, and all that it used was finite */
+    bool diverged;   /* a try left all bounds */
+    bool overran;    /* there were too many events */
+    bool done;
+} wh_contact_progress;
+
+/* From the step's begin. A try that was made had modes, and no input moved its contacts. */
+static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
+                                             const wh_state *state, wh_contact_progress *p) {
+    wh_contact_state *now = &p->attempt->now;
+    p->end = now;
+    p->log->count = 0;
+    p->left = p->h;
+    p->reach = p->h;
+    p->round = 0;
+    p->flat = of->contacts;
+    p->calm = false;
+    p->diverged = false;
+    p->overran = false;
+    p->done = false;
+    wh_contact_work_open(of, w);
+    wh_contact_copy(of, state->angle, state->real, state->carry, now);
+    if (p->attempt->made) {
+        return;
+    }
+    if (w->mode[0] == WH_UNSET) {
+        p->round = wh_contact_start(of, w, p->h, p->input, now, p->log);
+        p->done = w->undefined >= 0;
+    } else {
+        wh_contact_follow(of, w, p->h, p->input, now);
+    }
+    if (!p->done) {
+        wh_contact_stand(of, w, p->input, now);
+    }
+}
+
+/* A try `span` long from `from` left all bounds. It diverges before a place where a hold loses rank, not only there. */
+static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_contact_work *w,
+                                                wh_real span, wh_contact_state *from,
+                                                wh_contact_progress *p) {
+    wh_contact_blame(of, w, span, p->input, from);
+    p->diverged = true;
+    p->done = true;
+}
+
+/* The try is accepted: it reached the step's end, or the place of a dip that was none. */
+static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_contact_work *w,
+                                            wh_contact_progress *p) {
+    wh_contact_attempt *a = p->attempt;
+    if (!p->calm) {
+        wh_contact_find_undefined(of, w, &a->margins);
+    }
+    wh_contact_pass(of, &a->margins, w);
+    p->flat = wh_contact_accept(of, w, p->reach, &a->now, &a->next, p->input);
+    if (p->calm) {
+        WH_PIECE_SEEN(of, w, p->reach, &a->now, &a->next);
+    }
+    if (p->calm && p->reach < p->left && p->flat == of->contacts) {
+        wh_contact_copy(of, a->next.angle, a->next.real, a->next.carry, &a->now);
+        p->left -= p->reach;
+        p->reach = p->left;
+        return;
+    }
+    if (p->round == WH_EVENTS_MAX) {
+        p->overran = p->overran || !p->calm;
+        wh_contact_overrun(of, w, p->h, p->input, &a->next);
+        p->calm = false; /* its probes must be finite, too */
+    }
+    p->end = &a->next;
+    p->done = true;
+}
+
+/* The try is cut short at its first events: the step goes on from there. */
+static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_contact_work *w,
+                                           wh_contact_progress *p) {
+    wh_contact_attempt *a = p->attempt;
+    unsigned events;
+    const wh_real span = p->reach * wh_contact_locate(of, w, &a->now, &a->next, p->reach, p->input,
+                                                      &a->margins, &events);
+    p->events = events;
+    w->undefined = -1; /* values past the event do not count */
+    if (span > WH_R(0.0)) {
+        wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
+        if (!wh_contact_try(of, w, span, p->input, &a->now, &a->fault)) {
+            wh_contact_progress_diverged(of, w, span, &a->next, p);
+            return;
+        }
+        wh_contact_stabilise(of, w, span, p->input, &a->next, &a->now);
+        p->flat = wh_contact_accept(of, w, span, &a->next, &a->now, p->input);
+        WH_PIECE_SEEN(of, w, span, &a->next, &a->now);
+        p->left -= span;
+        w->located = true;
+    }
+    p->reach = p->left;
+}
+
+/* Tries the rest of the step, and accepts it, cuts it at events, or shortens the next try to a dip. */
+static inline void wh_contact_progress_try(const wh_contact_system *of, wh_contact_work *w,
+                                           wh_contact_progress *p) {
+    wh_contact_attempt *a = p->attempt;
+    if (!a->made) {
+        wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
+        wh_contact_attempt_make(of, w, p->reach, p->input, a);
+    }
+    a->made = false;
+    if (!a->sound) {
+        p->flat = wh_contact_flat(of, w, WH_R(4.0) * p->reach, &a->now, NULL, p->input);
+        if (p->flat == of->contacts) {
+            wh_contact_progress_diverged(of, w, p->reach, &a->now, p);
+        }
+        return;
+    }
+    wh_contact_attempt_dipped(of, w, p->reach, p->input, a);
+    if (a->dips != 0 && p->round + 2U < WH_EVENTS_MAX) {
+        const wh_real share = wh_contact_dip(of, a, p->input);
+        if (share < WH_R(1.0)) { /* the try ends there instead, as one of the moments */
+            p->reach *= share;
+            p->round++;
+            return;
+        }
+    }
+    if (wh_contact_any_of(of, WH_HOLD) && !wh_contact_calm(of, &a->margins)) {
+        wh_contact_attempt_frozen(of, w, p->input, a);
+    }
+    p->calm = wh_contact_attempt_calm(of, w, a);
+    if (p->calm || p->round == WH_EVENTS_MAX || wh_contact_happened(of, &a->margins) == 0) {
+        wh_contact_progress_pass(of, w, p);
+    } else {
+        wh_contact_progress_cut(of, w, p);
+    }
+}
+
+/* The events at attempt->now. Of the last moment that a step has, a stop that comes to rest might have bounced. */
+static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
+                                              wh_contact_progress *p) {
+    const bool last = ++p->round == WH_EVENTS_MAX;
+    const wh_contact_moment moment = {p->events, 0, p->h, last};
+    const unsigned rested = last ? wh_contact_which(of, w, WH_STOP, true) : 0U;
+    wh_contact_happen(of, w, &moment, p->h - p->left, p->input, &p->attempt->now, p->log);
+    if (last) {
+        p->overran = (wh_contact_which(of, w, WH_STOP, true) & ~rested) != 0;
+    }
+    p->done = w->undefined >= 0 || w->fault >= 0;
+}
+
+/* Commits the step, or refuses it. Returns as wh_step_contact(). */
+static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_contact_work *w,
+                                                wh_contact_progress *p, wh_state *state) {
+    if (p->flat < of->contacts) {
+        state->fault = (int)p->flat;
+        return WH_E_SINGULAR;
+    }
+    if (p->diverged || (!p->calm && (w->fault >= 0 || w->undefined >= 0))) {
+        return wh_contact_refuse(w, p->diverged ? p->attempt->fault : w->fault, state);
+    }
+    wh_books_commit(of, w, state);
+    wh_contact_commit(of, w, p->end, state);
+    wh_contact_commit_modes(of, w, 0, state);
+    p->overran = wh_contact_next(of, w) != 0 || p->overran || (of->forced > 1 && w->capped);
+    wh_contact_commit_events(p->log, p->overran, state->contacts);
+    return WH_OK;
+}
+
 /* A step with events, from the first try on, which may have been made. Returns as wh_step_contact(). */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
-    const wh_contact_state *end = &a->now;
     wh_contact_log log;
-    wh_real left = h;
-    wh_real reach = h; /* of the next try */
-    unsigned round = 0;
-    unsigned flat = of->contacts; /* the hold that lost rank */
-    bool overran = false;
-
-    log.count = 0;
-    wh_contact_work_open(of, w);
-    wh_contact_copy(of, state->angle, state->real, state->carry, &a->now);
-    if (w->mode[0] == WH_UNSET) {
-        round = wh_contact_start(of, w, h, state->input, &a->now, &log);
-        if (w->undefined >= 0) {
-            return wh_contact_refuse(w, a->fault, state);
+    wh_contact_progress p;
+    p.log = &log;
+    p.attempt = a;
+    p.input = state->input;
+    p.h = h;
+    wh_contact_progress_begin(of, w, state, &p);
+    while (!p.done) {
+        p.events = p.round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;
+        if (p.events == 0 && p.left > WH_R(0.0)) {
+            wh_contact_progress_try(of, w, &p);
         }
-    } else if (!a->made) {
-        wh_contact_follow(of, w, h, state->input, &a->now);
-    }
-    if (!a->made) {
-        wh_contact_stand(of, w, state->input, &a->now);
-    }
-    bool calm = false;
-    bool more = true;
-    while (more) {
-        unsigned events = round < WH_EVENTS_MAX ? wh_contact_next(of, w) : 0;
-        if (events == 0 && left > WH_R(0.0)) {
-            if (!a->made) {
-                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
-                wh_contact_attempt_make(of, w, reach, state->input, a);
-            }
-            a->made = false;
-            if (!a->sound) {
-                /* divergence starts before such a place, not only at it */
-                flat = wh_contact_flat(of, w, WH_R(4.0) * reach, &a->now, NULL, state->input);
-                if (flat < of->contacts) {
-                    break;
-                }
-                wh_contact_blame(of, w, reach, state->input, &a->now);
-                return wh_contact_refuse(w, a->fault, state);
-            }
-            wh_contact_attempt_dipped(of, w, reach, state->input, a);
-            if (a->dips != 0 && round + 2U < WH_EVENTS_MAX) {
-                const wh_real share = wh_contact_dip(of, a, state->input);
-                if (share < WH_R(1.0)) { /* the try ends there instead, as one of the moments */
-                    reach *= share;
-                    round++;
-                    continue;
-                }
-            }
-            if (wh_contact_any_of(of, WH_HOLD) && !wh_contact_calm(of, &a->margins)) {
-                wh_contact_attempt_frozen(of, w, state->input, a);
-            }
-            calm = wh_contact_attempt_calm(of, w, a);
-            if (calm || round == WH_EVENTS_MAX || wh_contact_happened(of, &a->margins) == 0) {
-                if (!calm) {
-                    wh_contact_find_undefined(of, w, &a->margins);
-                }
-                wh_contact_pass(of, &a->margins, w);
-                flat = wh_contact_accept(of, w, reach, &a->now, &a->next, state->input);
-                if (calm) {
-                    WH_PIECE_SEEN(of, w, reach, &a->now, &a->next);
-                }
-                if (calm && reach < left && flat == of->contacts) { /* it was no dip */
-                    wh_contact_copy(of, a->next.angle, a->next.real, a->next.carry, &a->now);
-                    left -= reach;
-                    reach = left;
-                    continue;
-                }
-                if (round == WH_EVENTS_MAX) {
-                    overran = overran || !calm;
-                    wh_contact_overrun(of, w, h, state->input, &a->next);
-                    calm = false; /* the probes must have been finite, too */
-                }
-                end = &a->next;
-                break;
-            }
-            const wh_real span = reach * wh_contact_locate(of, w, &a->now, &a->next, reach,
-                                                           state->input, &a->margins, &events);
-            w->undefined = -1; /* values past the event do not count */
-            if (span > WH_R(0.0)) {
-                wh_contact_copy(of, a->now.angle, a->now.real, a->now.carry, &a->next);
-                if (!wh_contact_try(of, w, span, state->input, &a->now, &a->fault)) {
-                    wh_contact_blame(of, w, span, state->input, &a->next);
-                    return wh_contact_refuse(w, a->fault, state);
-                }
-                wh_contact_stabilise(of, w, span, state->input, &a->next, &a->now);
-                flat = wh_contact_accept(of, w, span, &a->next, &a->now, state->input);
-                WH_PIECE_SEEN(of, w, span, &a->next, &a->now);
-                left -= span;
-                w->located = true;
-            }
-            reach = left;
+        p.done = p.done || p.flat < of->contacts;
+        if (!p.done && p.events != 0) {
+            wh_contact_progress_happen(of, w, &p);
         }
-        if (flat < of->contacts) {
-            break;
-        }
-        if (events != 0) {
-            const bool last = ++round == WH_EVENTS_MAX;
-            const wh_contact_moment moment = {events, 0, h, last};
-            const unsigned rested = last ? wh_contact_which(of, w, WH_STOP, true) : 0U;
-            wh_contact_happen(of, w, &moment, h - left, state->input, &a->now, &log);
-            if (last) { /* a stop at rest might have bounced */
-                overran = (wh_contact_which(of, w, WH_STOP, true) & ~rested) != 0;
-            }
-            if (w->undefined >= 0 || w->fault >= 0) {
-                break;
-            }
-        }
-        more = left > WH_R(0.0) || (of->forced > 1 && w->hit_next != 0 && round < WH_EVENTS_MAX);
+        const bool more = of->forced > 1 && w->hit_next != 0 && p.round < WH_EVENTS_MAX;
+        p.done = p.done || !(p.left > WH_R(0.0) || more);
     }
-    if (flat < of->contacts) {
-        state->fault = (int)flat;
-        return WH_E_SINGULAR;
-    }
-    if (!calm && (w->fault >= 0 || w->undefined >= 0)) {
-        return wh_contact_refuse(w, w->fault, state);
-    }
-    wh_books_commit(of, w, state);
-    wh_contact_commit(of, w, end, state);
-    wh_contact_commit_modes(of, w, 0, state);
-    overran = wh_contact_next(of, w) != 0 || overran || (of->forced > 1 && w->capped);
-    wh_contact_commit_events(&log, overran, state->contacts);
-    return WH_OK;
+    return wh_contact_progress_end(of, w, &p, state);
 }
 
 /* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
