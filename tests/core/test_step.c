@@ -104,7 +104,8 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
         const unsigned order = wh_methods[method].order;
         /* float's round-off leaves coarse steps only */
         const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 64)
-                               : order < 4          ? 32
+                               : order < 3          ? 32
+                               : order < 4          ? 8
                                : order < 5          ? 4
                                                     : 2;
         const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.1) : WH_R(2.5);
