@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "commands.h"
 #include "host/number/decimal.h"
@@ -115,11 +114,6 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
         return false;
     }
     return true;
-}
-
-static void show_progress(void *context, int done, int of) {
-    (void)context;
-    fprintf(stderr, "\r%3d of %d settings ", done, of);
 }
 
 /* --error in the unit of the trial's errors. */
@@ -251,9 +245,7 @@ static int choose_scene(pricing *p) {
         (p->options->value[PRICING_MEASURE] != NULL && look_for_tools(p, &early) != EXIT_DONE)) {
         return EXIT_BAD_INPUT;
     }
-    const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
-    w.table.progress = shows ? show_progress : NULL;
-    w.counting = shows ? show_counting : NULL;
+    w.counting = w.table.progress != NULL ? show_counting : NULL;
     interrupts_catch();
     const int code = pricing_begin(p, spacing);
     return code == EXIT_DONE ? choose_begun(p, &w) : code;

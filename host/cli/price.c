@@ -2,7 +2,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "commands.h"
 #include "host/cli/load.h"
@@ -21,11 +20,6 @@ static const char head[] =
     "instructions. The table has at most 12 rows of the Pareto front. A letter after each figure shows\n"
     "its source.\n"
     "\n";
-
-static void show_progress(void *context, int done, int of) {
-    (void)context;
-    fprintf(stderr, "\r%3d of %d settings ", done, of);
-}
 
 static bool write_csv(const char *file, const trials *t, const table *made,
                       const table_words *words) {
@@ -97,7 +91,7 @@ static bool can_measure(const pricing *p) {
 static int price_scene(pricing *p) {
     const char *csv = p->options->value[PRICING_CSV];
     const bool measure = p->options->value[PRICING_MEASURE] != NULL;
-    const bool progress = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
+    const table_wish wish = pricing_wish(p);
     if (p->options->value[PRICING_JSON] != NULL && csv != NULL && strcmp(csv, "-") == 0) {
         fputs("whirl price: error: --json and rows cannot share standard output\n"
               "hint: --csv rows.csv\n",
@@ -109,18 +103,16 @@ static int price_scene(pricing *p) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();
-    if (progress) {
+    if (wish.progress != NULL) {
         fputs("\rthe reference   ", stderr);
     }
     int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
-        table_wish wish = pricing_wish(p);
-        wish.progress = progress ? show_progress : NULL;
         made = table_new(&p->trial, &wish);
         code = measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
     }
-    if (progress) {
+    if (wish.progress != NULL) {
         fputs("\r                    \r", stderr);
     }
     if (code == EXIT_DONE && p->trial.stopped) {

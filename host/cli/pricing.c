@@ -207,14 +207,18 @@ static bool read_methods(pricing *p) {
     return true;
 }
 
+static void show_progress(void *context, int done, int of) {
+    (void)context;
+    fprintf(stderr, "\r%3d of %d settings ", done, of);
+}
+
 table_wish pricing_wish(const pricing *p) {
-    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_wish){.operations = p->effort,
                         .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
                         .periods = 1,
-                        .workers = online < 1                  ? 1
-                                   : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX
-                                                               : (int)online};
+                        .workers = jobs_workers(),
+                        .progress = shows ? show_progress : NULL};
 }
 
 static bool read_ranges(pricing *p) {

@@ -125,7 +125,7 @@ void pricing_says_missing(const pricing *p, const char *why);
  * that is NULL, `wanted`. */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
-/* The requested table: by the effort and the methods, on all processors. */
+/* The requested table: by the effort and the methods, on all processors, with progress on a terminal. */
 table_wish pricing_wish(const pricing *p);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing);

@@ -94,33 +94,10 @@ static const char *name_of(void *context, int point) {
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The varied values as texts after the command line's own, so that they take precedence; free with
- * forget(). */
+/* The command line's changes and then the varied values, which take precedence; free with changes_forget(). */
 static overrides changes_in(const pricing_scene *p, int point) {
-    const grid *g = p->grid;
-    overrides changes = *p->changes;
-    double *value = alloc(g->count, sizeof *value);
-    const char **texts = alloc(g->count, sizeof(const char *));
-    const int axes = is_own(p, point) ? 0 : g->count;
-    if (axes > 0) {
-        grid_values(g, (uint64_t)point, value);
-    }
-    for (int i = 0; i < axes; i++) {
-        char number[NUMBER_SIZE];
-        snprintf(number, sizeof number, "%.17g", value[i]);
-        texts[i] = shown_assignment(g->axes[i].symbol, g->axes[i].primes, number);
-    }
-    free(value);
-    changes.values = texts;
-    changes.value_count = axes;
-    return changes;
-}
-
-static void forget(overrides *changes) {
-    for (int i = 0; i < changes->value_count; i++) {
-        free((void *)(uintptr_t)changes->values[i]);
-    }
-    free((void *)(uintptr_t)changes->values);
+    static const grid none = {0};
+    return changes_at(is_own(p, point) ? &none : p->grid, p->changes, (uint64_t)point);
 }
 
 /* Do these settings make the same lists? The method and the form of angles are read when an image runs. */
@@ -156,7 +133,7 @@ static const image *base_of(pricing_scene *p, int point, const image_settings *s
         instance *inst = instance_make(p->mechanism, p->scene, &changes, p->errors);
         p->instance[point] = inst;
         p->equations[point] = inst == NULL ? NULL : equations_derive(inst, p->errors);
-        forget(&changes);
+        changes_forget(p->changes, &changes);
         if (p->equations[point] == NULL) {
             return NULL;
         }
@@ -176,7 +153,8 @@ static image *make(void *context, int point, const setting *s, const char *step,
                    const char *until) {
     pricing_scene *p = context;
     overrides changes = changes_in(p, point);
-    changes.step = step != NULL ? step : changes.step;
+    const char *own = changes.step;
+    changes.step = step != NULL ? step : own;
     changes.until = until != NULL ? until : changes.until;
     const image *base = base_of(p, point, &s->image);
     instance *inst =
@@ -189,7 +167,8 @@ static image *make(void *context, int point, const setting *s, const char *step,
     }
     forget_diags(p, errors);
     instance_free(inst);
-    forget(&changes);
+    changes.step = own;
+    changes_forget(p->changes, &changes);
     diags_flush(p->errors, stderr);
     return made;
 }

@@ -469,11 +469,6 @@ static int work_on(const sweep_options *o, sweep_work *work) {
     return code;
 }
 
-static int processors(void) {
-    const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    return online < 1 ? 1 : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX : (int)online;
-}
-
 static void forget(sweep_options *o) {
     options_forget(&o->common);
     free(o->over);
@@ -487,7 +482,7 @@ int command_sweep(int count, char **words) {
                        .over = alloc(count, sizeof(const char *)),
                        .measure = alloc(count, sizeof(const char *)),
                        .part = {1, 1},
-                       .jobs = processors()};
+                       .jobs = jobs_workers()};
     const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
                               {.word = "--measure", .text = o.measure, .count = &o.measure_count},
                               {.word = "--from", .text = &o.from},

@@ -33,6 +33,8 @@ typedef enum jobs_result {
 } jobs_result;
 
 #define JOBS_WORKERS_MAX 1024
+/* One for each processor. */
+int jobs_workers(void);
 
 jobs_result jobs_run(const jobs *j);
 

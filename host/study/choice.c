@@ -6,9 +6,6 @@
 #include "host/number/functions.h"
 #include "host/os/system.h"
 
-#define CHOICE_LIMIT_WORD(id, word) word,
-const char *const choice_limit_words[CHOICE_LIMITS] = {CHOICE_LIMIT_ROWS(CHOICE_LIMIT_WORD)};
-
 static bool is_known(const cost_figure *f) { return f->basis != COST_NOT_KNOWN; }
 
 /* --- rows by the limits ----------------------------------------------------------------------------*/
@@ -327,7 +324,8 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
     }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
         if (by->unknown[i]) {
-            fprintf(out, "  %s is limited, and not known here: count it\n", choice_limit_words[i]);
+            fprintf(out, "  %s is limited, and not known here: count it\n",
+                    i == CHOICE_FLASH ? "flash" : "RAM");
         }
     }
 }

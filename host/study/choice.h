@@ -6,16 +6,14 @@
 
 #include "host/study/price_table.h"
 
-/* The limits that a row must keep: X(id, word). */
-#define CHOICE_LIMIT_ROWS(X) \
-    X(CHOICE_ERROR, "error") \
-    X(CHOICE_LOAD, "load") \
-    X(CHOICE_FLASH, "flash") \
-    X(CHOICE_RAM, "RAM")
-#define CHOICE_LIMIT_ID(id, word) id,
-typedef enum choice_limit { CHOICE_LIMIT_ROWS(CHOICE_LIMIT_ID) CHOICE_LIMITS } choice_limit;
-#undef CHOICE_LIMIT_ID
-extern const char *const choice_limit_words[CHOICE_LIMITS];
+/* The limits that a row must keep. */
+typedef enum choice_limit {
+    CHOICE_ERROR,
+    CHOICE_LOAD,
+    CHOICE_FLASH,
+    CHOICE_RAM,
+    CHOICE_LIMITS
+} choice_limit;
 
 typedef struct choice_wish {
     table_wish table;   /* with the error, in the unit of the trial's errors, and the rate */

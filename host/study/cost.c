@@ -356,12 +356,19 @@ cost_figure cost_known(double value, cost_basis basis) {
     return (cost_figure){basis, value, value, value};
 }
 
-cost_figure cost_ranged(const cost_board *board, const cost_figure *instructions) {
-    if (instructions->basis == COST_NOT_KNOWN) {
-        return (cost_figure){0};
+static cost_figure ranged(const cost_board *board, const cost_figure *instructions) {
+    return instructions->basis == COST_NOT_KNOWN
+               ? (cost_figure){0}
+               : (cost_figure){COST_RANGE, 0.0, instructions->least * board->cycles_least,
+                               instructions->most * board->cycles_most};
+}
+
+bool cost_ranges(const cost_board *board, cost *c) {
+    if (board->cycles == COST_RANGE) {
+        c->cycles = ranged(board, &c->instructions);
+        c->cycles_worst = ranged(board, &c->instructions_worst);
     }
-    return (cost_figure){COST_RANGE, 0.0, instructions->least * board->cycles_least,
-                         instructions->most * board->cycles_most};
+    return board->cycles == COST_RANGE;
 }
 
 const double *cost_counted(const cost_counts *c, cost_quantity quantity) {
@@ -432,10 +439,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     cost_figure none;
 #define COST_SUM(of, worst) sum_of(row_of(board, number, COST_OF_##of), &counts, worst, &c.why)
     c.instructions = COST_SUM(INSTRUCTIONS, &c.instructions_worst);
-    if (board->cycles == COST_RANGE) {
-        c.cycles = cost_ranged(board, &c.instructions);
-        c.cycles_worst = cost_ranged(board, &c.instructions_worst);
-    } else {
+    if (!cost_ranges(board, &c)) {
         c.cycles = COST_SUM(CYCLES, &c.cycles_worst);
     }
     c.flash_bytes = COST_SUM(FLASH, &none);
@@ -482,10 +486,7 @@ bool cost_measured(const char *row, const cost_board *board, cost *c) {
     c->why = "";
     c->instructions = told(column[7], COST_MEASURED);
     c->instructions_worst = told(column[8], COST_MEASURED);
-    if (board->cycles == COST_RANGE) {
-        c->cycles = cost_ranged(board, &c->instructions);
-        c->cycles_worst = cost_ranged(board, &c->instructions_worst);
-    } else {
+    if (!cost_ranges(board, c)) {
         c->cycles = told(column[9], board->cycles);
         c->cycles_worst = told(column[10], board->cycles);
     }

@@ -162,8 +162,8 @@ typedef struct cost {
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
 cost_figure cost_known(double value, cost_basis basis);
-/* Cycles of a board on which they are not counted: a range. */
-cost_figure cost_ranged(const cost_board *board, const cost_figure *instructions);
+/* On a board whose cycles are not counted, fills in ranges of them. True: it is one. */
+bool cost_ranges(const cost_board *board, cost *c);
 
 /* Reads a row of measure_one.sh. Values that the row lacks (state_bytes) stay. False: not a row, or another board's. */
 #define COST_HEADER \

@@ -46,6 +46,7 @@ void changes_forget(const overrides *base, overrides *changes) {
     }
 }
 
+static const char *option_of(const grid *g) { return g->option != NULL ? g->option : "--over"; }
 static const char *command_of(const grid *g) { return g->command != NULL ? g->command : "sweep"; }
 
 bool changes_take_part(const grid *g, const instance *base) {
@@ -109,12 +110,7 @@ static char *trimmed(const char *text, size_t length) {
 
 /* Begins a message with the option and its value. */
 static void say(const grid *g, const char *over) {
-    fprintf(stderr, "whirl %s: error: %s \"%s\"", g->command != NULL ? g->command : "sweep",
-            g->option != NULL ? g->option : "--over", over);
-}
-
-static char *joined(const char *left, const char *right) {
-    return alloc_words("%s%s", left, right);
+    fprintf(stderr, "whirl %s: error: %s \"%s\"", command_of(g), option_of(g), over);
 }
 
 /* --- the text of a range -----------------------------------------------------------------------*/
@@ -145,12 +141,11 @@ static bool range_split(const grid *g, const char *text, range_text *r) {
         problem = "has three dots in a row";
     }
     if (problem != NULL) {
-        const char *option = g->option != NULL ? g->option : "--over";
         say(g, text);
         fprintf(
             stderr,
             " %s\nhint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
-            problem, option);
+            problem, option_of(g));
         return false;
     }
     r->name = trimmed(text, (size_t)(equals - text));
@@ -177,7 +172,7 @@ static void share_unit(range_text *r) {
     const char *suffix = behind_number(r->to);
     const bool from_is_bare = rest != NULL && *rest == '\0';
     if (from_is_bare && suffix != NULL && (*suffix == '[' || isalpha((unsigned char)*suffix))) {
-        char *with_unit = joined(r->from, suffix);
+        char *with_unit = alloc_words("%s%s", r->from, suffix);
         free(r->from);
         r->from = with_unit;
     }
@@ -215,11 +210,9 @@ static const expr *read_end(const mechanism *of, const char *name, const char *t
     if (strcmp(name, "step") == 0) {
         return override_duration(of, "step", text, arena, errors);
     }
-    char *left = joined(name, "=");
-    char *whole = joined(left, text);
+    char *whole = alloc_words("%s=%s", name, text);
     assignment change;
     const bool good = override_parse(of, OVERRIDE_EITHER, whole, arena, errors, &change);
-    free(left);
     free(whole);
     if (!good) {
         return NULL;
@@ -294,9 +287,7 @@ bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
         made.name = trimmed(r.name, strlen(r.name));
         const bool is_start = made.symbol != NULL && (made.symbol->kind == SYM_COORDINATE ||
                                                       made.symbol->kind == SYM_STATE);
-        char *left = joined(is_start ? "start(" : "", made.name);
-        made.column = joined(left, is_start ? ")" : "");
-        free(left);
+        made.column = alloc_words(is_start ? "start(%s)" : "%s", made.name);
         g->axes = longer;
         g->axes[g->count] = made;
         g->points = g->count == 0 ? made.count : g->points * made.count;

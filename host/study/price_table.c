@@ -808,10 +808,7 @@ static bool enter_run(const cost_board *board, char *line, table_row *to) {
     cost *c = &to->cost;
     grow(&c->instructions, COST_MEASURED, column[RUN_INSTRUCTIONS]);
     grow(&c->instructions_worst, COST_MEASURED, column[RUN_MOST]);
-    if (board->cycles == COST_RANGE) {
-        c->cycles = cost_ranged(board, &c->instructions);
-        c->cycles_worst = cost_ranged(board, &c->instructions_worst);
-    } else {
+    if (!cost_ranges(board, c)) {
         grow(&c->cycles, board->cycles, column[RUN_CYCLES]);
         grow(&c->cycles_worst, board->cycles, column[RUN_CYCLES_MOST]);
     }

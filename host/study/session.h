@@ -49,11 +49,7 @@ bool resumable_csv_has_note(const resumable_csv *sh, const char *word);
 bool resumable_csv_close(resumable_csv *sh);
 
 /* === a sweep from its first missing row to its last =========================================== */
-/* === JSON ===================================================================================== */
-/* A sweep as one JSON object: its columns, a row for each point with the findings of that point, and the
- * sweep's end (docs/warnings.md has the schema). */
-
-/* A column for each axis. */
+/* JSON (docs/warnings.md has the schema): a column for each axis. */
 void sweep_json_axes(json *j, const grid *g);
 
 /* === everything that decides the bytes of a sweep's CSV, as lines of text ===================== */

@@ -256,6 +256,11 @@ static jobs_result attend(pool *p) {
     return result;
 }
 
+int jobs_workers(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > JOBS_WORKERS_MAX ? JOBS_WORKERS_MAX : (int)online;
+}
+
 jobs_result jobs_run(const jobs *j) {
     pool p = {.jobs = j, .sent = j->first, .delivered = j->first};
     p.window = AHEAD * (uint64_t)j->workers;
