@@ -1,4 +1,4 @@
-/* pricing.c: the options of `whirl price` and `whirl choose` (pricing.h). */
+/* pricing.c: `whirl price` and `whirl choose`: two printers of one table of error against cost (host/study/price_table.h). */
 #include "pricing.h"
 
 #include <math.h>
@@ -7,13 +7,29 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "commands.h"
 #include "host/base/alloc.h"
 #include "host/engine/start.h"
+#include "host/io/plot.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/os/atomic_file.h"
 #include "host/os/jobs.h"
+#include "host/os/system.h"
+#include "host/study/choice.h"
+#include "host/study/price_table.h"
+
+/* === options and the scene ==================================================================== */
+
+typedef struct pricing_command {
+    const char *name;   /* "price" */
+    unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
+    const char *head;   /* of its help text */
+    const char *failed; /* why its exit status may be 1 */
+    int (*run)(pricing *p);
+} pricing_command;
 
 typedef struct pricing_row {
     unsigned commands;
@@ -23,7 +39,7 @@ typedef struct pricing_row {
 } pricing_row;
 
 #define ROW(id, who, word, value, text) [id] = {PRICING_##who, word, value, text},
-static const pricing_row rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
+static const pricing_row option_rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
 #undef ROW
 
 enum { TEXT_COLUMN = 23 };
@@ -46,11 +62,11 @@ static void print_help(FILE *out, const pricing_command *c) {
                                        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
     fputs(c->head, out);
     for (int i = 0; i < PRICING_OPTIONS; i++) {
-        if ((rows[i].commands & c->bit) != 0) {
-            const char *value = rows[i].value != NULL ? rows[i].value : "";
-            const int width = fprintf(out, "  %s %s", rows[i].word, value);
+        if ((option_rows[i].commands & c->bit) != 0) {
+            const char *value = option_rows[i].value != NULL ? option_rows[i].value : "";
+            const int width = fprintf(out, "  %s %s", option_rows[i].word, value);
             fprintf(out, "%*s", TEXT_COLUMN - width, "");
-            options_text(out, rows[i].text, TEXT_COLUMN, TEXT_COLUMN,
+            options_text(out, option_rows[i].text, TEXT_COLUMN, TEXT_COLUMN,
                          TEXT_COLUMN + OPTION_TEXT_WIDTH);
         }
     }
@@ -63,11 +79,11 @@ static bool read_words(int count, char **words, pricing_options *o) {
     own_option own[PRICING_OPTIONS + 1] = {{.word = NULL}};
     int all = 0;
     for (int i = 0; i < PRICING_OPTIONS; i++) {
-        if ((rows[i].commands & o->bit) != 0) {
-            own[all++] = (own_option){.word = rows[i].word,
+        if ((option_rows[i].commands & o->bit) != 0) {
+            own[all++] = (own_option){.word = option_rows[i].word,
                                       .text = i == PRICING_VARY ? o->vary : &o->value[i],
                                       .count = i == PRICING_VARY ? &o->vary_count : NULL,
-                                      .is_bare = rows[i].value == NULL};
+                                      .is_bare = option_rows[i].value == NULL};
         }
     }
     const target_reader reader = {.command = o->command, .groups = PRICING_GROUPS, .table = own};
@@ -83,7 +99,7 @@ static bool read_words(int count, char **words, pricing_options *o) {
     return o->target != NULL;
 }
 
-int pricing_run(const pricing_command *c, int count, char **words) {
+static int run_command(const pricing_command *c, int count, char **words) {
     if (options_wants_help(count, words)) {
         print_help(stdout, c);
         return EXIT_DONE;
@@ -107,7 +123,8 @@ int pricing_run(const pricing_command *c, int count, char **words) {
     return code;
 }
 
-void pricing_says_missing(const pricing *p, const char *why) {
+/* --measure is impossible. */
+static void says_missing(const pricing *p, const char *why) {
     fprintf(
         stderr,
         "whirl %s: error: --measure: nothing can be counted on %s: %s\n"
@@ -212,7 +229,8 @@ static void show_progress(void *context, int done, int of) {
     fprintf(stderr, "\r%3d of %d settings ", done, of);
 }
 
-table_wish pricing_wish(const pricing *p) {
+/* The requested table: by the effort and the methods, on all processors, with progress on a terminal. */
+static table_wish wish_of(const pricing *p) {
     const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_wish){.operations = p->effort,
                         .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
@@ -368,4 +386,356 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
                              .records = (int)wanted};
     p->has_trial = true;
     return trial_begin(&p->trial, &wish) ? EXIT_DONE : EXIT_BAD_INPUT;
+}
+
+/* === price ==================================================================================== */
+
+static const char price_head[] =
+    "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
+    "\n"
+    "Tries methods, number types, forms, matrices, tables and many step sizes on a scene\n"
+    "(docs/price.md). Prints the error of each, compared with a reference of higher precision, and its\n"
+    "cost on a board: cycles a simulated second, flash, RAM and stack. Boards without cycle counts have\n"
+    "instructions. The table has at most 12 rows of the Pareto front. A letter after each figure shows\n"
+    "its source.\n"
+    "\n";
+
+static bool write_csv(const char *file, const trials *t, const table *made,
+                      const table_words *words) {
+    FILE *out = atomic_file_open(file);
+    if (out != NULL) {
+        table_csv(out, t, made, words);
+    }
+    return out != NULL && plot_run_csv_end(out, file, true, "price", t->image[0]->name);
+}
+
+/* The cheapest row that keeps the error, in words. */
+static int say_cheapest(FILE *out, const pricing *p, const table *made, const table_words *words) {
+    for (int i = 0; i < made->count; i++) {
+        const table_row *row = &made->row[i];
+        if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
+            char *line =
+                table_run_line(&p->trial, &row->setting, row->pace, row->result.point, words);
+            fprintf(out, "the cheapest within %s: %.2e %s\n  %s\n",
+                    p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
+                    line);
+            free(line);
+            return EXIT_DONE;
+        }
+    }
+    fprintf(stderr, "whirl price: nothing that was tried errs by less than %s\n",
+            p->options->value[PRICING_ERROR]);
+    return EXIT_RUN_FAILED;
+}
+
+static int show(pricing *p, const table *made) {
+    const char *const *value = p->options->value;
+    const char *csv = value[PRICING_CSV];
+    const table_words words = {p->target, p->words, value[PRICING_ALL] != NULL, p->effort};
+    const bool is_json = value[PRICING_JSON] != NULL;
+    FILE *out = is_json || (csv != NULL && strcmp(csv, "-") == 0) ? stderr : stdout;
+    if (value[PRICING_QUIET] == NULL && !is_json) {
+        table_print(out, &p->trial, made, &words);
+    }
+    if (!p->trial.reliable || made == NULL || made->count == 0) {
+        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
+                p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
+        return EXIT_RUN_FAILED;
+    }
+    if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
+        return EXIT_BAD_INPUT;
+    }
+    return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
+}
+
+static int count_front(pricing *p, table *made, const table_wish *w) {
+    const table_words words = {p->target, p->words, false, p->effort};
+    const measured_end end = measured_front(&p->trial, made, &words, w);
+    if (end == MEASURED_MISSING) {
+        says_missing(p, "a tool is missing");
+    }
+    p->trial.stopped = p->trial.stopped || interrupted;
+    return end == MEASURED_MISSING ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+static bool can_measure(const pricing *p) {
+    char text[MEASURED_TEXT];
+    const char *missing = measured_missing(NULL, p->board, text);
+    if (missing != NULL) {
+        says_missing(p, missing);
+    }
+    return missing == NULL;
+}
+
+static int price_scene(pricing *p) {
+    const char *csv = p->options->value[PRICING_CSV];
+    const bool measure = p->options->value[PRICING_MEASURE] != NULL;
+    const table_wish wish = wish_of(p);
+    if (p->options->value[PRICING_JSON] != NULL && csv != NULL && strcmp(csv, "-") == 0) {
+        fputs("whirl price: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
+    if (source_would_be_lost(&p->from, "--csv", csv, "") || !atomic_file_can(csv) ||
+        (measure && !can_measure(p))) {
+        return EXIT_BAD_INPUT;
+    }
+    interrupts_catch();
+    if (wish.progress != NULL) {
+        fputs("\rthe reference   ", stderr);
+    }
+    int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
+    table *made = NULL;
+    if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
+        made = table_new(&p->trial, &wish);
+        code = measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
+    }
+    if (wish.progress != NULL) {
+        fputs("\r                    \r", stderr);
+    }
+    if (code == EXIT_DONE && p->trial.stopped) {
+        code = EXIT_INTERRUPTED;
+    } else if (code == EXIT_DONE) {
+        code = show(p, made);
+        if (p->options->value[PRICING_JSON] != NULL) {
+            const table_words words = {p->target, p->words, true, p->effort};
+            table_json(stdout, &p->trial, made, &words, code);
+        }
+    }
+    table_free(made);
+    return code;
+}
+
+int command_price(int count, char **words) {
+    static const pricing_command price = {
+        "price", PRICING_PRICE, price_head,
+        "there is no reference that could be trusted, no setting that keeps to the motion,\n"
+        "       none with a price, or none within --error",
+        price_scene};
+    return run_command(&price, count, words);
+}
+
+/* === choose =================================================================================== */
+
+static const char choose_head[] =
+    "usage: whirl choose SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --error E [options]\n"
+    "\n"
+    "Finds two settings of method, number type, form and step that keep an error on a board with a\n"
+    "margin of 2: the one with the fewest cycles, and the one with the least flash. Prints their costs,\n"
+    "and the commands that run, generate and count them.\n"
+    "\n"
+    "In Whirl's source tree, with the board's compiler and emulator, the steps are counted. Elsewhere\n"
+    "they are predicted; a scene with contacts then has no answer.\n"
+    "\n";
+static bool fits(const pricing *p) {
+    if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
+        fputs("whirl choose: error: --measure and --predict: one of the two\n", stderr);
+        return false;
+    }
+    if (!p->asks_error) {
+        fputs("whirl choose: error: --error is missing: without it, the cheapest step is none\n"
+              "hint: such as --error 1e-3, a part of the largest value, or --of X --error 0.1mm\n",
+              stderr);
+    }
+    return p->asks_error;
+}
+
+/* "32KB", "2048", "1 MiB": bytes. */
+static bool read_bytes(const char *option, const char *text, double *bytes) {
+    static const struct {
+        const char *word;
+        double bytes;
+    } units[] = {{"", 1.0},         {"B", 1.0},         {"K", 1024.0},   {"k", 1024.0},
+                 {"KB", 1024.0},    {"kB", 1024.0},     {"KiB", 1024.0}, {"M", 1048576.0},
+                 {"MB", 1048576.0}, {"MiB", 1048576.0}, {"bytes", 1.0}};
+    const char *rest;
+    const double number = decimal_read(text, &rest);
+    const bool begins = rest != text;
+    rest += strspn(rest, " ");
+    for (size_t i = 0; begins && i < sizeof units / sizeof units[0]; i++) {
+        if (strcmp(rest, units[i].word) == 0) {
+            *bytes = number * units[i].bytes;
+            if (*bytes > 0.0 && isfinite(*bytes)) {
+                return true;
+            }
+        }
+    }
+    fprintf(stderr,
+            "whirl choose: error: %s takes a number of bytes above zero, not %s\n"
+            "hint: such as 32KB, or 32768\n",
+            option, text);
+    return false;
+}
+
+static bool read_limits(const pricing *p, choice_wish *w) {
+    const dimension per_s = dim_of(0, 0, -1, 0, 0);
+    const char *const *v = p->options->value;
+    w->clock_Hz = p->board->clock_Hz;
+    w->flash_bytes = (double)p->board->flash_bytes;
+    w->ram_bytes = (double)p->board->ram_bytes;
+    return (v[PRICING_RATE] == NULL ||
+            pricing_quantity("choose", p->of, NULL, "--rate", v[PRICING_RATE], per_s,
+                             &w->table.rate_Hz)) &&
+           (v[PRICING_CLOCK] == NULL || pricing_quantity("choose", p->of, NULL, "--clock",
+                                                         v[PRICING_CLOCK], per_s, &w->clock_Hz)) &&
+           (v[PRICING_FLASH] == NULL || read_bytes("--flash", v[PRICING_FLASH], &w->flash_bytes)) &&
+           (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
+}
+
+/* Spaces the records by whole periods, 1, 2, 5, 10, ..., below the most records; false if the horizon is
+ * shorter than a period. */
+static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing) {
+    w->table.periods = 1;
+    if (!(w->table.rate_Hz > 0.0)) {
+        *spacing = pricing_spacing(p->until_s, PRICING_RECORDS);
+        return true;
+    }
+    const whole_ratio rate =
+        w->table.rate_Hz < 1e15 ? ratio_of(w->table.rate_Hz) : (whole_ratio){0, 1};
+    static const uint64_t mantissa[] = {1, 2, 5};
+    uint64_t periods = 1;
+    for (int i = 0;
+         p->until_s * w->table.rate_Hz / (double)periods > (2.5 * PRICING_RECORDS) && i < 36; i++) {
+        periods = mantissa[(i + 1) % 3];
+        for (int k = (i + 1) / 3; k > 0; k--) {
+            periods *= 10;
+        }
+    }
+    w->table.periods = periods;
+    const uint64_t common = ratio_divisor(periods, rate.numerator);
+    *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
+    if (rate.numerator == 0 && w->table.rate_Hz > 1.0) {
+        fprintf(stderr, "whirl choose: error: --rate %.9g Hz is more than any step can follow\n",
+                w->table.rate_Hz);
+        return false;
+    }
+    if (rate.numerator == 0 || p->until_s * w->table.rate_Hz < 1.0 - 1e-9) {
+        fprintf(stderr,
+                "whirl choose: error: not one period of --rate %.9g Hz lies in %.9g s of motion\n"
+                "hint: a later --until, or a higher rate\n",
+                w->table.rate_Hz, p->until_s);
+        return false;
+    }
+    return true;
+}
+
+/* --error in the unit of the trial's errors. */
+static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
+
+static void show_counting(void *context, int counted) {
+    (void)context;
+    fprintf(stderr, "\rcounting on the board: %d so far ", counted);
+}
+
+/* A run with contacts, without a predicted cost. */
+static int says_contacts(const pricing *p, const char *missing) {
+    fprintf(stderr,
+            "whirl choose: error: the cost of contacts must be counted: %s\n"
+            "hint: whirl price %s%s shows errors and evaluations without that\n",
+            missing, p->target, p->words);
+    return EXIT_RUN_FAILED;
+}
+
+static int choose_from(pricing *p, choice_wish *w, bool counts) {
+    const table_words words = {p->target, p->words, false, p->effort};
+    w->table.error = allowed_of(p);
+    w->counts = counts;
+    p->trial.tolerated = w->table.error;
+    p->trial.without_events = p->trial.image[0]->contacts > 0;
+    table *made = table_new(&p->trial, &w->table);
+    choice c = choice_make(&p->trial, made, w);
+    int code = EXIT_DONE;
+    if (counts && !p->trial.stopped &&
+        choice_counted(&p->trial, made, w, &words, &c) == MEASURED_MISSING) {
+        if (p->options->value[PRICING_MEASURE] != NULL) {
+            says_missing(p, "a tool is missing");
+            code = EXIT_BAD_INPUT;
+        } else if (p->trial.without_events) {
+            code = says_contacts(p, "a tool is missing");
+        }
+        w->counts = false;
+        w->prices = "predicted, since a tool is missing that counts";
+        c = choice_make(&p->trial, made, w);
+    }
+    if (w->table.progress != NULL) {
+        fputs("\r                                        \r", stderr);
+    }
+    if (code == EXIT_DONE && p->trial.stopped) {
+        code = EXIT_INTERRUPTED;
+    } else if (code == EXIT_DONE) {
+        const double horizon_s = trial_horizon_s(&p->trial);
+        const bool is_short = c.fastest.row >= 0 && horizon_s < 0.5 * p->until_s;
+        code = c.fastest.row >= 0 && !is_short ? EXIT_DONE : EXIT_RUN_FAILED;
+        if (p->options->value[PRICING_JSON] != NULL) {
+            choice_json(stdout, &p->trial, made, w, &c, &words, code);
+        } else {
+            choice_print(stdout, &p->trial, made, w, &c, &words);
+        }
+        if (is_short) {
+            fprintf(stderr,
+                    "whirl choose: error: errors are known until t = %.6g s only, less than half "
+                    "of %.6g s\n"
+                    "hint: --horizon %.6gs asks for no more\n",
+                    horizon_s, p->until_s, horizon_s);
+        }
+    }
+    table_free(made);
+    return code;
+}
+
+static int choose_begun(pricing *p, choice_wish *w) {
+    const bool predicts = p->options->value[PRICING_PREDICT] != NULL;
+    char text[MEASURED_TEXT];
+    if (p->trial.stopped) {
+        return EXIT_INTERRUPTED;
+    }
+    if (!p->trial.reliable) {
+        figure_reference(stderr, &p->trial);
+        return EXIT_RUN_FAILED;
+    }
+    if (w->table.progress != NULL && !predicts) {
+        fputs("\rbuilding what counts ", stderr);
+    }
+    const char *missing = predicts ? "" : measured_missing(&p->trial, p->board, text);
+    if (p->options->value[PRICING_MEASURE] != NULL && missing != NULL) {
+        says_missing(p, missing);
+        return EXIT_BAD_INPUT;
+    }
+    if (missing != NULL && p->trial.image[0]->contacts > 0) {
+        return says_contacts(p, predicts ? "leave out --predict" : missing);
+    }
+    char *prices = alloc_words(
+        "%s%s",
+        missing == NULL
+            ? "counted on the board: of what is named, its step or its whole run, and its bytes"
+        : predicts ? "predicted, as --predict asks for"
+                   : "predicted, since nothing can be counted: ",
+        missing != NULL ? missing : "");
+    w->prices = prices;
+    const int done = choose_from(p, w, missing == NULL);
+    free(prices);
+    return done;
+}
+
+static int choose_scene(pricing *p) {
+    choice_wish w = {.table = wish_of(p)};
+    whole_ratio spacing;
+    if (!fits(p) || !read_limits(p, &w) || !space_records(p, &w, &spacing) ||
+        (p->options->value[PRICING_MEASURE] != NULL && !can_measure(p))) {
+        return EXIT_BAD_INPUT;
+    }
+    w.counting = w.table.progress != NULL ? show_counting : NULL;
+    interrupts_catch();
+    const int code = pricing_begin(p, spacing);
+    return code == EXIT_DONE ? choose_begun(p, &w) : code;
+}
+
+int command_choose(int count, char **words) {
+    static const pricing_command choose = {
+        "choose", PRICING_CHOOSE, choose_head,
+        "nothing fits (it says what would, and how many settings were left), or there is no\n"
+        "       reference that could be trusted",
+        choose_scene};
+    return run_command(&choose, count, words);
 }

@@ -64,14 +64,6 @@ typedef enum pricing_option {
 
 typedef struct pricing pricing;
 
-typedef struct pricing_command {
-    const char *name;   /* "price" */
-    unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
-    const char *head;   /* of its help text */
-    const char *failed; /* why its exit status may be 1 */
-    int (*run)(pricing *p);
-} pricing_command;
-
 typedef struct pricing_options {
     const char *command; /* "price" */
     unsigned bit;
@@ -86,9 +78,6 @@ typedef struct pricing_options {
 enum { PRICING_GROUPS = OPTIONS_CHANGE };
 
 pricing_options pricing_defaults(const char *command, int word_count);
-/* Reads the words, opens the scene, runs the command. */
-int pricing_run(const pricing_command *c, int count, char **words);
-
 /* --- the scene -------------------------------------------------------------------------------------*/
 
 struct pricing {
@@ -119,14 +108,10 @@ int pricing_open(pricing *p, const pricing_options *o);
 void pricing_close(pricing *p);
 /* The board of --board, which has prices; NULL is reported. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* Reports that --measure is impossible, with the reason. */
-void pricing_says_missing(const pricing *p, const char *why);
 /* A positive quantity of the command line, in SI; false: reported. Its dimension is that of the quantity `name`, or, if
  * that is NULL, `wanted`. */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
-/* The requested table: by the effort and the methods, on all processors, with progress on a terminal. */
-table_wish pricing_wish(const pricing *p);
 /* Computes the references at records of this spacing up to the horizon: an exit code. */
 int pricing_begin(pricing *p, whole_ratio spacing);
 /* Least records of `whirl price` to the horizon; the most are two and a half times as many. */

@@ -1,11 +1,12 @@
-/* test_price_settings.c: priced settings (host/study/trial.h): their number, order, and options, parsed by the
- * test. Also reference rows and trials. */
+/* test_price_settings.c: priced settings (host/study/trial.h): their number, order, and options, read back.
+ * Also reference rows and trials. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/cli/options.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/os/system.h"
 #include "host/study/reference_run.h"
@@ -23,59 +24,12 @@ void suite_price_trials(void);
 
 /* === price settings =========================================================================== */
 
-static const struct {
-    const char *word;
-    const engine_kind *kind;
-    bool compensated;
-} numbers[] = {{"float", &engine_float, false},
-               {"float compensated", &engine_float, true},
-               {"double", &engine_double, false},
-               {"fixed", &engine_fixed, false}};
-static const struct {
-    const char *word;
-    image_tables form;
-    int cells;
-} tables[] = {{"none", TABLES_NONE, 0},         {"linear", TABLES_LINEAR, 0},
-              {"linear 64", TABLES_LINEAR, 64}, {"linear 1024", TABLES_LINEAR, 1024},
-              {"cubic", TABLES_CUBIC, 0},       {"cubic 32", TABLES_CUBIC, 32},
-              {"cubic 256", TABLES_CUBIC, 256}};
-enum { NUMBERS = sizeof numbers / sizeof numbers[0], TABLES = sizeof tables / sizeof tables[0] };
-
-static int number_of(const setting *s) {
-    for (int i = 0; i < NUMBERS; i++) {
-        if (numbers[i].kind == s->number && numbers[i].compensated == s->image.compensated) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE("a number that is none of the list");
-    return 0;
-}
-
-static int tables_of(const setting *s) {
-    for (int i = 0; i < TABLES; i++) {
-        if (tables[i].form == s->image.tables && tables[i].cells == s->image.cells) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE("tables that are none of the list");
-    return 0;
-}
-
-/* Index among all combinations, the last axis fastest. */
-static long place_of(const setting *s) {
-    long at = (long)s->image.method;
-    at = at * NUMBERS + number_of(s);
-    at = at * IMAGE_ANGLES + (long)s->image.angles;
-    at = at * IMAGE_MATRICES + (long)s->image.matrix;
-    return at * TABLES + tables_of(s);
-}
-
 /* Three numbers by every method, with sines rotated, looked up, in one of six tables, or in one of two matrices. Also
  * fixed point. */
 static void test_there_are_all_and_each_once(void) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
-    long before = -1;
+    int before = -1;
     int matrices = 0;
     int in_fixed = 0;
     int looked_up = 0;
@@ -83,8 +37,8 @@ static void test_there_are_all_and_each_once(void) {
         const setting s = setting_at(i);
         const image_settings *m = &s.image;
         const bool plain = m->angles == ANGLES_TURNED && m->tables == TABLES_NONE;
-        TEST_ASSERT_TRUE(place_of(&s) > before);
-        before = place_of(&s);
+        TEST_ASSERT_GREATER_THAN_INT(before, setting_order(&s));
+        before = setting_order(&s);
         TEST_ASSERT_TRUE(m->matrix == MATRIX_NONE || (m->method == WH_RK4 && plain));
         TEST_ASSERT_TRUE(m->tables == TABLES_NONE || m->angles == ANGLES_TURNED);
         matrices += m->matrix != MATRIX_NONE;
@@ -103,104 +57,63 @@ static void test_there_are_all_and_each_once(void) {
     TEST_ASSERT_EQUAL_INT(3 * WH_METHODS, looked_up);
 }
 
-static void test_words_are_those_of_the_axes(void) {
+/* As on a command line of `whirl run`. */
+static setting read_back(const char *text, int *count) {
+    char copy[SETTING_TEXT];
+    char *words[16];
+    common_options o = options_defaults();
+    bool bad = false;
+    *count = 0;
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *word = strtok(copy, " "); word != NULL; word = strtok(NULL, " ")) {
+        words[(*count)++] = word;
+    }
+    for (int at = 0; at < *count;) {
+        const bool taken =
+            options_take("run", OPTIONS_ENGINE | OPTIONS_NUMBER, *count, words, &at, &o, &bad);
+        TEST_ASSERT_TRUE_MESSAGE(taken && !bad, text);
+    }
+    const setting s = {o.integration, o.number};
+    options_forget(&o);
+    return s;
+}
+
+static void test_words_and_options_say_the_setting_and_no_more(void) {
     static const char *const headings[] = {"method", "number", "angles", "matrix", "tables"};
+    static const char *const numbers[] = {"float", "float compensated", "double", "fixed"};
     for (int i = 0; i < AXES; i++) {
         TEST_ASSERT_EQUAL_STRING(headings[i], setting_heading((setting_axis)i));
     }
     for (int i = 0; i < setting_count(); i++) {
         const setting s = setting_at(i);
-        TEST_ASSERT_EQUAL_STRING(wh_methods[s.image.method].word, setting_word(&s, AXIS_METHOD));
-        TEST_ASSERT_EQUAL_STRING(numbers[number_of(&s)].word, setting_word(&s, AXIS_NUMBER));
-        TEST_ASSERT_EQUAL_STRING(s.image.angles == ANGLES_TURNED ? "turned" : "lookup",
-                                 setting_word(&s, AXIS_ANGLES));
-        TEST_ASSERT_EQUAL_STRING(image_matrix_words[s.image.matrix], setting_word(&s, AXIS_MATRIX));
-        TEST_ASSERT_EQUAL_STRING(tables[tables_of(&s)].word, setting_word(&s, AXIS_TABLES));
-    }
-}
-
-/* --- options, read back --------------------------------------------------------------------------------*/
-
-static int word_in(const char *const *words, int count, const char *word) {
-    for (int i = 0; i < count; i++) {
-        if (strcmp(words[i], word) == 0) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE(word);
-    return 0;
-}
-
-typedef struct read_options {
-    setting s;
-    int options;
-    bool has_method, has_number;
-} read_options;
-
-/* As on a command line; the default is double. */
-static read_options options_read(const char *text) {
-    read_options r = {.s = {IMAGE_SETTINGS_DEFAULT, &engine_double}};
-    char option[32];
-    char word[32];
-    while (text[0] != '\0') {
-        TEST_ASSERT_EQUAL_CHAR(' ', text[0]);
-        TEST_ASSERT_TRUE(text[1] == '-');
-        text = said_word(text, option, sizeof option);
-        r.options++;
-        if (strcmp(option, "--compensated") == 0) {
-            r.s.image.compensated = true;
-            continue;
-        }
-        text = said_word(text, word, sizeof word);
-        if (strcmp(option, "--method") == 0) {
-            r.has_method = true;
-            int method = 0;
-            while (method < WH_METHODS && strcmp(wh_methods[method].word, word) != 0) {
-                method++;
-            }
-            TEST_ASSERT_TRUE_MESSAGE(method < WH_METHODS, word);
-            r.s.image.method = (wh_method)method;
-        } else if (strcmp(option, "--number") == 0) {
-            r.has_number = true;
-            r.s.number = strcmp(word, "float") == 0 ? &engine_float : &engine_fixed;
-            TEST_ASSERT_TRUE(r.s.number == &engine_float || strcmp(word, "fixed") == 0);
-        } else if (strcmp(option, "--angles") == 0) {
-            r.s.image.angles = (image_angles)word_in(image_angles_words, IMAGE_ANGLES, word);
-        } else if (strcmp(option, "--matrix") == 0) {
-            r.s.image.matrix = (image_matrix_of)word_in(image_matrix_words, IMAGE_MATRICES, word);
-        } else if (strcmp(option, "--tables") == 0) {
-            r.s.image.tables = (image_tables)word_in(image_tables_words, IMAGE_TABLES_FORMS, word);
-        } else if (strcmp(option, "--cells") == 0) {
-            r.s.image.cells = (int)strtol(word, NULL, 10);
-        } else {
-            TEST_FAIL_MESSAGE(option);
-        }
-    }
-    return r;
-}
-
-static void test_options_say_the_setting_and_no_more(void) {
-    for (int i = 0; i < setting_count(); i++) {
-        const setting s = setting_at(i);
+        const image_settings *m = &s.image;
         char text[SETTING_TEXT];
+        int words;
+        const int number = s.number == &engine_fixed    ? 3
+                           : s.number == &engine_double ? 2
+                                                        : m->compensated;
+        TEST_ASSERT_EQUAL_STRING(wh_methods[m->method].word, setting_word(&s, AXIS_METHOD));
+        TEST_ASSERT_EQUAL_STRING(numbers[number], setting_word(&s, AXIS_NUMBER));
+        TEST_ASSERT_EQUAL_INT(number, setting_number(&s));
+        TEST_ASSERT_EQUAL_STRING(m->angles == ANGLES_TURNED ? "turned" : "lookup",
+                                 setting_word(&s, AXIS_ANGLES));
+        TEST_ASSERT_EQUAL_STRING(image_matrix_words[m->matrix], setting_word(&s, AXIS_MATRIX));
+        snprintf(text, sizeof text, m->cells > 0 ? "%s %d" : "%s", image_tables_words[m->tables],
+                 m->cells);
+        TEST_ASSERT_EQUAL_STRING(text, setting_word(&s, AXIS_TABLES));
+        /* with a number, and for `whirl derive` without */
+        const int least = 2 + (m->compensated ? 1 : 0) + 2 * (m->angles != ANGLES_TURNED) +
+                          2 * (m->tables != TABLES_NONE) + 2 * (m->cells > 0);
         TEST_ASSERT_EQUAL_PTR(text, setting_options(&s, true, text));
-        read_options r = options_read(text);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(place_of(&s), place_of(&r.s), text);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(s.image.matrix == MATRIX_NONE, r.has_method, text);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(s.number != &engine_double, r.has_number, text);
-        const int options = (s.image.compensated ? 1 : 0) + (s.number != &engine_double ? 1 : 0) +
-                            (s.image.angles != ANGLES_TURNED ? 1 : 0) +
-                            (s.image.tables != TABLES_NONE ? 1 : 0) + (s.image.cells > 0 ? 1 : 0) +
-                            1;
-        TEST_ASSERT_EQUAL_INT_MESSAGE(options, r.options, text);
-        /* for `whirl derive` the number is printed only if the code differs */
-        setting_options(&s, false, text);
-        r = options_read(text);
-        TEST_ASSERT_FALSE_MESSAGE(r.has_number, text);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(options - (s.number != &engine_double ? 1 : 0), r.options,
+        const setting again = read_back(text, &words);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(setting_order(&s), setting_order(&again), text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(least + 2 * (s.number != &engine_double), words, text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(m->matrix == MATRIX_NONE, strstr(text, "--method") != NULL,
                                       text);
-        r.s.number = s.number;
-        TEST_ASSERT_EQUAL_INT_MESSAGE(place_of(&s), place_of(&r.s), text);
+        setting derived_so = read_back(setting_options(&s, false, text), &words);
+        derived_so.number = s.number;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(setting_order(&s), setting_order(&derived_so), text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(least, words, text);
         TEST_ASSERT_EQUAL_STRING(s.number == &engine_fixed ? " --number fixed" : "",
                                  setting_form(&s));
     }
@@ -258,8 +171,7 @@ static void test_a_setting_is_its_own_where_it_is_taken(void) {
 
 void suite_price_settings(void) {
     RUN_TEST(test_there_are_all_and_each_once);
-    RUN_TEST(test_words_are_those_of_the_axes);
-    RUN_TEST(test_options_say_the_setting_and_no_more);
+    RUN_TEST(test_words_and_options_say_the_setting_and_no_more);
     RUN_TEST(test_a_setting_is_its_own_where_it_is_taken);
 }
 
