@@ -58,7 +58,7 @@ $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
 
 count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,$(1))" \
-    mk/count/count_board.sh $(1) $(FIGURES)/bench.csv
+    mk/count/count_rows.sh $(FIGURES)/bench.csv $(1)
 
 # The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
 WORST_STEPS ?= 1000000
@@ -90,8 +90,8 @@ bench-now: $(GEN)/.stamp
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
 	@for program in bench bench_compensated bench_matrix bench_double $(addprefix tools/,$(BY_HAND)); do \
-	    CC="$(CC)" FLAGS="$(OPT)" \
-	        mk/count/count_host.sh build/$$program $(FIGURES)/bench.csv || exit 1; done
+	    BOARD=host CC="$(CC)" FLAGS="$(OPT)" \
+	        mk/count/count_rows.sh $(FIGURES)/bench.csv build/$$program || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
 	@$(call count_board,$(ELF)/bench_compensated.elf)
 	@$(call count_board,$(ELF)/bench_ahead.elf)

@@ -65,7 +65,7 @@ print-hashes:
 	@for elf in $(SINGLE_SCENES); do $(call emulate,$$elf) || exit 1; done
 	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
 bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(BOARD_RUN_BY) # a step of linear scenes as one matrix, on BOARD
-	@BOARD=$(BOARD) CC=$(BOARD_CC) EMULATE="$(call emulate,IMAGE)" mk/count/single_rows.sh $(filter %.elf,$^)
+	@BOARD=$(BOARD) CC=$(BOARD_CC) EMULATE="$(call emulate,IMAGE)" mk/count/count_rows.sh /dev/null $(filter %.elf,$^)
 print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(BOARD_RUN_BY)
 	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 

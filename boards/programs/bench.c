@@ -1,7 +1,6 @@
 /* bench.c: the program whose instructions are counted: single steps of every generated scene.
  *
- * The same source runs on every board under the counting plugin (count_board.sh) and on the PC under callgrind
- * (count_host.sh). It only prints the intervals' meanings on the console:
+ * The same source runs on every board under the counting plugin and on the PC under callgrind (count_rows.sh). It only prints the intervals' meanings on the console:
  *
  *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each, or, if METHOD ends in "-ahead",
  *                                            STEPS_A_CALL steps

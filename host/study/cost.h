@@ -47,10 +47,9 @@ typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_FIXED, COST_NUMBERS } c
 extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double", "fixed" */
 
 typedef struct cost_board {
-    const char *name;  /* its folder of boards/, or "host" for this kind of machine (x86-64) */
-    const char *core;  /* "Cortex-M4F" */
-    const char *chips; /* known chips with that core, for people; "" */
-    bool fpu;          /* float in hardware */
+    const char *name; /* its folder of boards/, or "host" for this kind of machine (x86-64) */
+    const char *core; /* "Cortex-M4F" */
+    bool fpu;         /* float in hardware */
     /* How its cycles are known: COST_ESTIMATED, COST_SIMULATED, or COST_RANGE: cycles an instruction, least and most. */
     cost_basis cycles;
     double cycles_least; /* COST_RANGE only, else 0 */

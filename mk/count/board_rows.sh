@@ -17,37 +17,18 @@ folder=$2
 shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-image=$EMULATE
-
-# run ELF: console and counts of that image, with its rows added to $work/rows
-run() {
-    elf=$1
-    EMULATE=$(echo "$image" | sed "s:IMAGE:$elf:")
-    if [ -n "${PLUGIN:-}" ]; then
-        obtained=estimated
-        count ""
-    else
-        obtained=simulated
-        sh -c "$EMULATE counts=$work/counts" >"$work/console"
-    fi
-    awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_of "$CC")" -v flags="$FLAGS" \
-        -v obtained=$obtained -f "$(dirname "$0")/figures.awk" "$work/console" "$work/counts" >>"$work/rows"
-}
 
 if [ -n "${BENCH:-}" ]; then
-    run "$BENCH"
+    counted "$BENCH"
 else
     for scene in "$@"; do
-        run "$folder/bench_$scene.elf"
+        counted "$folder/bench_$scene.elf"
     done
 fi
 
 [ -s "$csv" ] || echo "commit,compiler,flags,board,scene,setting,instructions,cycles,cycles_obtained,flash_bytes,ram_bytes,stack_bytes" >"$csv"
 for scene in "$@"; do
-    bytes=$("$SIZE" -A "$folder/size_$scene.elf" | awk '
-        $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
-        $1 == ".data" || $1 == ".bss" { ram += $2 }
-        END { print flash "," ram }')
+    bytes=$(bytes_of "$SIZE" "$folder/size_$scene.elf" | tr " " ,)
     awk -F, -v scene="$scene" -v bytes="$bytes" '
         $5 == scene && $7 != "record" {
             begin = $1 "," $3 "," $4 "," $2 "," $5 "," $7

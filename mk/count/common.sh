@@ -88,3 +88,45 @@ count() {
         fi
     fi
 }
+
+# callgrind ELF: the intervals of a program of this machine, as the plugin says them, in $work/counts, and the console. A part is
+# dumped and cleared at either end of each, so every second part is one.
+callgrind() {
+    status=0
+    valgrind --tool=callgrind --callgrind-out-file="$work/parts" --combine-dumps=yes \
+        --toggle-collect=wh_scene_step --toggle-collect=wh_scene_step_d --toggle-collect=bench_pair \
+        --toggle-collect=bench_one --toggle-collect=bench_two --toggle-collect=naive_step \
+        --dump-before=wh_count_begin --dump-after=wh_count_end "$1" >"$work/console" 2>"$work/log" || status=$?
+    if ! grep -q '^count ' "$work/console"; then
+        cat "$work/console" "$work/log" >&2
+        return 1
+    fi
+    awk '/^part: / { part = $2 } /^(summary|totals): / { total[part] = $2 }
+        END { for (i = 2; i in total; i += 2) { print "interval", i / 2 - 1, total[i] } }' "$work/parts" >"$work/counts"
+}
+
+# counted ELF: its rows (figures.awk) go to $work/rows: by callgrind on the host, by $PLUGIN, or by simavr. $EMULATE runs the
+# image IMAGE.
+counted() {
+    elf=$1 image=${image:-${EMULATE:-}} obtained=
+    EMULATE=$(echo "$image" | sed "s:IMAGE:$elf:")
+    if [ "$BOARD" = host ]; then
+        callgrind "$elf"
+    elif [ -n "${PLUGIN:-}" ]; then
+        obtained=estimated
+        count ""
+    else
+        obtained=simulated
+        sh -c "$EMULATE counts=$work/counts" >"$work/console"
+    fi
+    awk -v commit="$(commit_of_checkout)" -v board="$BOARD" -v compiler="$(compiler_of "$CC")" -v flags="${FLAGS:-}" \
+        -v obtained=$obtained -f "$(dirname "$0")/figures.awk" "$work/console" "$work/counts" >>"$work/rows"
+}
+
+# bytes_of SIZE ELF: flash and RAM of an image.
+bytes_of() {
+    "$1" -A "$2" | awk '
+        $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
+        $1 == ".data" || $1 == ".bss" { ram += $2 }
+        END { print flash, ram }'
+}

@@ -6,7 +6,6 @@
  *     begin, end    addresses of two functions without a body, wh_count_begin() and wh_count_end():
  *                   one return instruction each
  *     profile=on    also say how often every single address was executed between markers
- *     first, last   the intervals (numbered from 0) whose instructions go into the profile
  *     every=N       N intervals after each other count as one, which has the instructions of the largest; the last ones
  *                   may be fewer
  *     cycles=CORE   estimate cycles, too, as a Cortex of that name takes them: m0, m3 or m4 (thumb_cycles.h)
@@ -85,13 +84,10 @@ static place *buckets[BUCKETS];
 
 static uint64_t begin_address;
 static uint64_t end_address;
-static uint64_t first_profiled;
-static uint64_t last_profiled = UINT64_MAX;
-static bool profile;
+static bool profile; /* count the executions of each address */
 static uint64_t every = 1;
 
 static bool counting;
-static bool profiling; /* counting, and this interval goes into the profile */
 static uint64_t count;
 static thumb_core core;
 static uint64_t cycles;
@@ -161,7 +157,7 @@ static bool follows(uint64_t address) {
         return last != NULL;
     }
     cycles += last->timing.jumping;
-    if (profiling) {
+    if (profile) {
         last->jumps++;
     }
     return false;
@@ -175,7 +171,7 @@ static void on_plain(unsigned cpu, void *data) {
         cycles += thumb_cycles(before == NULL ? NULL : &before->timing, &here->timing);
         last = here;
         count++;
-        if (profiling) {
+        if (profile) {
             here->executions++;
         }
     }
@@ -196,7 +192,6 @@ static void on_begin(unsigned cpu, void *data) {
         fail("an interval begins inside another");
     }
     counting = true;
-    profiling = profile && interval_count >= first_profiled && interval_count <= last_profiled;
     count = 0;
     cycles = 0;
     last = NULL;
@@ -357,10 +352,6 @@ int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int
             begin_address = number_of(value);
         } else if ((value = value_of(argv[i], "end")) != NULL) {
             end_address = number_of(value);
-        } else if ((value = value_of(argv[i], "first")) != NULL) {
-            first_profiled = number_of(value);
-        } else if ((value = value_of(argv[i], "last")) != NULL) {
-            last_profiled = number_of(value);
         } else if ((value = value_of(argv[i], "every")) != NULL) {
             every = number_of(value);
         } else if ((value = value_of(argv[i], "cycles")) != NULL) {

@@ -77,10 +77,7 @@ compile "$gen.c" "$mine/plain.o"
 # shellcheck disable=SC2086
 compile boards/programs/size.c "$mine/size.o" -include "$gen.h" "-DPRICE_SCENE=$id"
 link "$mine/size.elf" "$mine/size.o" "$mine/plain.o"
-"$BOARD_SIZE" -A "$mine/size.elf" | awk '
-    $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
-    $1 == ".data" || $1 == ".bss" { ram += $2 }
-    END { print flash, ram }' >"$work/bytes"
+bytes_of "$BOARD_SIZE" "$mine/size.elf" >"$work/bytes"
 
 # shellcheck disable=SC2086
 {

@@ -67,10 +67,7 @@ if [ "$1" = case ]; then
         $BOARD_CC $BOARD_CFLAGS -w -include "$gen.h" -c $smallest -o "$mine.image.o"
         if $BOARD_CC $BOARD_LDFLAGS -o "$mine.elf" "$mine.image.o" "$mine.o" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS \
             2>"$mine.errors"; then
-            "$BOARD_SIZE" -A "$mine.elf" | awk -v id="$id" '
-                $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }
-                $1 == ".data" || $1 == ".bss" { ram += $2 }
-                END { print id, flash, ram }' >"$mine.bytes"
+            echo "$id $(bytes_of "$BOARD_SIZE" "$mine.elf")" >"$mine.bytes"
         else
             echo "measure.sh: $target $*: its firmware does not fit into $BOARD: $(head -n 1 "$mine.errors")" >&2
             rm -f "$mine.o"
@@ -115,7 +112,7 @@ bench() {
     EMULATE=$(echo "$emulate" | sed "s|@|$elf|")
     rm -f "$work/console" "$work/counts"
     if [ "$BOARD" = host ]; then
-        "$here/count_callgrind.sh" "$elf" "$work" || return 0
+        callgrind "$elf" || return 0
     elif [ -n "${PLUGIN:-}" ]; then
         (count "") 2>"$work/said" || { grep -q '^interval' "$work/counts" 2>/dev/null || cat "$work/said" >&2; }
     else

@@ -1,7 +1,7 @@
 /* naive_main.c: main program for a mechanism stepped by hand-written code or by another library (mk/peers). It first checks the
  * motion. Its commands are those of boards/programs/bench.c:
  *
- *     PROGRAM            the steps that mk/count/count_host.sh counts
+ *     PROGRAM            the steps that mk/count/count_rows.sh counts
  *     PROGRAM steps N    N steps only
  *     PROGRAM time N     N steps; prints the nanoseconds per step */
 #include <math.h>
