@@ -58,13 +58,12 @@ static const command_usage usage = {
         "\n"
         "Summary, records and plot use the declared units. A column whose name has no unit is SI: theta\n"
         "[deg] is in degrees, theta in radians. No output file may be the model file.\n",
-    .why = {
-        [EXIT_ROW_OF(EXIT_DONE)] = "",
-        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-            "it diverged, or a number was not finite (the message has the time, the place and a\n"
-            "       remedy; the records so far are kept), or a warning applies (see --strict)",
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+                "it diverged, or a number was not finite (the message has time, place and remedy;\n"
+                "       records so far are kept), or a warning applies (see --strict)",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
+            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 typedef struct run_options {
     common_options common;
