@@ -56,11 +56,11 @@ define link_board
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(IMAGE_LIBS) $(BOARD_LDLIBS)
 endef
 
-# program NAME SOURCES LIBRARIES: the program NAME of this machine, in float, and the board's NAME.elf.
+# program NAME SOURCES LIBRARIES HOST-SOURCES BOARD-SOURCES: the program NAME of this machine, in float, and the board's NAME.elf.
 define program
-$(B)/$(1): $(call objects,float,$(2) boards/host/board.c) $(call libraries,float,$(3))
+$(B)/$(1): $(call objects,float,$(2) boards/host/board.c $(4)) $(call libraries,float,$(3))
 	$$(link)
-$(ELF)/$(1).elf: $(call objects,$(BOARD),$(2)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
+$(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(5)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
 	$$(link_board)
 endef
 
@@ -99,16 +99,8 @@ $(STATION): $(call objects,$(FLASHED),boards/programs/station.c) $(or $(FLASHED_
 	$(link_board)
 
 # Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
-define pil_program
-$(B)/$(1): $(call objects,float,$(2) boards/host/board.c boards/host/link.c) $(call libraries,float,$(3))
-	$$(link)
-$(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(BOARD_LINK)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),$(3))
-	$$(link_board)
-endef
-$(eval $(call pil_program,pil_rig,boards/programs/pil_rig.c,frames rig whirl scenes))
-$(eval $(call pil_program,pil_swing,boards/programs/pil_swing.c,frames rig whirl scenes))
-$(eval $(call pil_program,pil_dialled,boards/programs/pil_dialled.c,frames rig whirl scenes))
-$(eval $(call pil_program,pil_carriage,boards/programs/pil_carriage.c,frames rig whirl scenes))
+pil_program = $(call program,$(1),$(2),$(3),boards/host/link.c,$(BOARD_LINK))
+$(foreach p,pil_rig pil_swing pil_dialled pil_carriage,$(eval $(call pil_program,$(p),boards/programs/$(p).c,frames rig whirl scenes)))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
 # A controller from outside the tree: CONTROLLER names its C files, and the first of them the program.
 CONTROLLER_LIBRARIES ?= frames whirl
@@ -118,12 +110,7 @@ $(foreach f,$(CONTROLLER),$(if $(wildcard $(f)),,$(error CONTROLLER=$(f): there 
 $(eval $(call pil_program,$(pil_own),$(abspath $(CONTROLLER)),$(CONTROLLER_LIBRARIES)))
 endif
 # Over the board's own console, of every board that has room for it; here on a pseudo-terminal.
-$(B)/pil_line: $(call objects,float,boards/programs/pil_line.c boards/shared/link_console.c boards/host/board.c boards/host/terminal.c) \
-    $(call libraries,float,frames rig whirl scenes)
-	$(link)
-$(ELF)/pil_line.elf: $(call objects,$(BOARD),boards/programs/pil_line.c boards/shared/link_console.c) $(BOARD_OBJECTS) \
-    $(call libraries,$(BOARD),frames rig whirl scenes)
-	$(link_board)
+$(eval $(call program,pil_line,boards/programs/pil_line.c boards/shared/link_console.c,frames rig whirl scenes,boards/host/terminal.c))
 PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf) $(ELF)/pil_line.elf)
 
@@ -163,14 +150,12 @@ else
 # The images that are held to the firmware rules and whose sizes are told.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 
-# Programs that touch what guards the stack, and must not come back (tests/boards/guard.sh).
+# Programs that touch what guards the stack, and must not come back (tests/boards/guard.sh); the watchdog, of boards that have one
+# (tests/boards/watchdog.sh).
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
-$(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
-	$(link_board)
-
-# The watchdog, of boards that have one (tests/boards/watchdog.sh).
 WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
-$(ELF)/watchdog.elf: $(call objects,$(BOARD),tests/boards/watchdog.c $(BOARD_WATCHDOG)) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+$(WATCHDOG): $(call objects,$(BOARD),$(BOARD_WATCHDOG))
+$(GUARDS) $(WATCHDOG): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
 .PHONY: board-images short-images board-tests run-suites print-hashes print-short-hashes print-matrix-hashes bench-matrix

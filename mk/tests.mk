@@ -202,45 +202,24 @@ flags-now: build/whirl
 	@WHIRL=build/whirl sh tests/flags.sh
 
 # --- tools --------------------------------------------------------------------------------------
-$(B)/tools/sine_exhaustive: $(call objects,host,tests/tools/sine_exhaustive.c) $(LIB_FLOAT)
-	$(link)
-
-$(B)/tools/functions_exhaustive: $(call objects,host,tests/tools/functions_exhaustive.c) $(LIB_FLOAT)
-	$(link)
-
-$(B)/tools/root_exhaustive: $(call objects,host,tests/tools/root_exhaustive.c) $(LIB_FLOAT)
-	$(link)
-
-$(B)/tools/tables_exhaustive: $(call objects,host,tests/tools/tables_exhaustive.c tests/host/table_check.c) $(LIB_HOST) \
-    $(LIB_FLOAT) $(LIB_DOUBLE)
-	$(link)
-
-# Energies and the centre of mass over many steps.
-$(B)/tools/long_runs: $(call objects,host,tests/tools/long_runs.c tests/host/motion.c $(UNITY_DIR)/unity.c) \
-    $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
-	$(link)
-
-# The rig's station in simulated time, on a line of a given speed; and who reads what that brought, for itself.
+# tool NAME LIBRARIES MORE-FILES: of tests/tools/NAME.c.
+define tool
+$(B)/tools/$(1): $(call objects,host,tests/tools/$(1).c $(3)) $(2)
+	$$(link)
+endef
+LIBS_ALL := $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
+$(foreach t,sine functions root,$(eval $(call tool,$(t)_exhaustive,$(LIB_FLOAT))))
+$(eval $(call tool,tables_exhaustive,$(LIBS_ALL),tests/host/table_check.c))
+$(eval $(call tool,long_runs,$(LIBS_ALL),tests/host/motion.c $(UNITY_DIR)/unity.c))
+$(eval $(call tool,tel_check))
+$(eval $(call tool,mechanisms,$(LIBS_ALL),tests/host/mechanism.c))
+$(eval $(call tool,linkages,,tests/host/linkage.c))
+$(eval $(call tool,faults,$(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE),$(wildcard tests/host/faults_*.c)))
+# The rig's station in simulated time, on a line of a given speed.
 $(B)/tools/sim_station: $(call objects,float,boards/programs/station.c tests/tools/sim_board.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
-$(B)/tools/tel_check: $(call objects,host,tests/tools/tel_check.c)
-	$(link)
-
-# Generated mechanisms, all of which derive.
-$(B)/tools/mechanisms: $(call objects,host,tests/tools/mechanisms.c tests/host/mechanism.c) $(LIB_HOST) \
-    $(LIB_FLOAT) $(LIB_DOUBLE)
-	$(link)
-
-# Random planar linkages.
-$(B)/tools/linkages: $(call objects,host,tests/tools/linkages.c tests/host/linkage.c)
-	$(link)
-
-# The campaign of faults (rig.mk).
-$(B)/tools/faults: $(call objects,host,tests/tools/faults.c $(wildcard tests/host/faults_*.c)) $(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE)
-	$(link)
-
-# The rig's firmware against a bench that is written from docs/dev/pil.md and links nothing of the project.
+# A bench for the rig's firmware that is written from docs/dev/pil.md and links nothing of the project.
 $(B)/tools/rig_bench: $(call objects,host,$(wildcard tests/outside/*.c))
 	$(link)
 
