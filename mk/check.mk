@@ -282,11 +282,18 @@ docs-renew: docs-programs ##- all pages with what their commands print now: DOC_
 # In the gate, and by `make hashes-all`.
 HASH_BUILDS ?= gcc-O0 gcc-O2 clang-O2 clang-O3
 HASH_BUILDS_ALL := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
-# The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
-# machine's builds.
+# Builds by this machine's compilers of what HASHED names; those of the warnings' gates have their objects from there.
+HASHED ?= scenes
 hash_folder = $(or $(hash_folder_$(1)),build/hash/$(1))
 hash_folder_gcc-O2 := $(GCC_FOLDER)
 hash_folder_clang-O2 := $(CLANG_FOLDER)
+hash_make = $(or $(hash_make_$(1)),$(MAKE) B=build/hash/$(1) CC=$(firstword $(subst -, ,$(1))) OPT=-$(lastword $(subst -, ,$(1))))
+hash_make_gcc-O2 = $(GCC_BUILD)
+hash_make_clang-O2 = $(CLANG_BUILD)
+$(addprefix hash-,$(HASH_BUILDS_ALL)): hash-%:
+	+@$(call hash_make,$*) $(HASHED:scenes%=$(call hash_folder,$*)/scenes%)
+# The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
+# machine's builds.
 build_hashes = $(MAKE) $(addprefix hash-,$(HASH_BUILDS)) && $(foreach b,$(1),$(call on_board,$(b),board-images) &&) true
 compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
     $(foreach h,$(HASH_BUILDS),$(h) $(call hash_folder,$(h))/scenes) \
@@ -332,7 +339,7 @@ hash_hosts = $(foreach h,$(1),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 $(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
 	@$(call need,$(host_cc_$*))
 	@$(call need,$(host_run_$*))
-	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/scenes
+	@$(call host_make,$*) $(HASHED:scenes%=build/hosts/$*/scenes%)
 
 # Every board; those with an image for each scene beside this machine's program that runs as few steps.
 BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
@@ -348,12 +355,3 @@ hashes-all-now: $(GEN)/.stamp
 $(B)/scenes_short: boards/programs/scenes.c $(call objects,float,boards/host/board.c) $(call libraries,float,scenes whirl)
 	$(say) LINK $@
 	$(Q)$(CC) $(FLAGS_float) -DSCENE_STEPS_MOST=$(SINGLE_STEPS)U -o $@ $(filter %.c %.o,$^) $(filter %.a,$^)
-
-# Those of the warnings' gates have their objects from there.
-hash-gcc-O2:
-	+@$(GCC_BUILD) $(GCC_FOLDER)/scenes
-hash-clang-O2:
-	+@$(CLANG_BUILD) $(CLANG_FOLDER)/scenes
-$(addprefix hash-,$(filter-out gcc-O2 clang-O2,$(HASH_BUILDS_ALL))): hash-%:
-	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) \
-	    build/hash/$*/scenes

@@ -50,19 +50,13 @@ endif
 HARD_BUILDS ?= gcc-O0 gcc-O2 clang-O2
 HARD_HOSTS ?=
 HARD_BOARDS ?= $(BOARDS)
-.PHONY: hashes-hard $(addprefix hard-build-,$(HASH_BUILDS_ALL)) $(addprefix hard-host-,$(HASH_HOSTS))
-$(addprefix hard-build-,$(HASH_BUILDS_ALL)): hard-build-%:
-	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) build/hash/$*/scenes_hard
-$(addprefix hard-host-,$(HASH_HOSTS)): hard-host-%:
-	@$(call need,$(host_cc_$*))
-	@$(call need,$(host_run_$*))
-	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) build/hosts/$*/scenes_hard
+.PHONY: hashes-hard
 ##@ Tests and quality
 hashes-hard: build/whirl $(HARD_C) ##- the same bits on every board of the hard cases of docs/hard_cases.md (a minute; HARD_BOARDS="...")
-	+@$(MAKE) $(addprefix hard-build-,$(HARD_BUILDS)) $(addprefix hard-host-,$(HARD_HOSTS))
+	+@$(MAKE) HASHED=scenes_hard $(addprefix hash-,$(HARD_BUILDS)) $(addprefix hash-host-,$(HARD_HOSTS))
 	+@$(foreach b,$(HARD_BOARDS),$(call on_board,$(b),hard-images) &&) true
 	@sh tests/hashes.sh build/hash/hard "the interpreter" "sh tests/hard_hashes.sh $(HARD_UNTIL) $(HARD)" \
-	    $(foreach h,$(HARD_BUILDS),$(h) build/hash/$(h)/scenes_hard) \
+	    $(foreach h,$(HARD_BUILDS),$(h) $(call hash_folder,$(h))/scenes_hard) \
 	    $(foreach h,$(HARD_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes_hard") \
 	    $(foreach b,$(HARD_BOARDS),"$(b)" "$(call on_board,$(b),print-hard-hashes)")
 

@@ -36,6 +36,8 @@ host_folder = $(or $(host_folder_$(1)),build/hosts/$(1))
 host_folder_gcc-O2 = $(GCC_FOLDER)
 host_folder_clang-O2 = $(CLANG_FOLDER)
 
+host_make = $(MAKE) B=$(call host_folder,$(1)) CC="$(host_cc_$(1))" OPT=-O1 $(host_set_$(1))
+
 host_run_aarch64 = qemu-aarch64
 host_run_armhf   = qemu-arm
 # Node's fast calls into WASI use freed memory after the program's memory has grown (github.com/nodejs/node, issue 53087).
@@ -68,8 +70,7 @@ HOSTS_SUITES ?= m32 aarch64 armhf
 ##@ Tests and quality
 hosts-suites: $(addprefix suites-,$(HOSTS_SUITES)) ##- the portable suites built for other processors, emulated (many minutes)
 $(addprefix suites-,$(HOSTS)): suites-%: $(GEN)/.stamp $(UNITY_DIR)/unity.c
-	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) \
-	    build/hosts/$*/tests/core_float build/hosts/$*/tests/core_double
+	@$(call host_make,$*) build/hosts/$*/tests/core_float build/hosts/$*/tests/core_double
 	@sh tests/run.sh build/hosts/$*/log $(foreach r,float double,"$(host_is_$*): portable suites, $(r)" \
 	    "$(host_run_$*) build/hosts/$*/tests/core_$(r)")
 
@@ -82,6 +83,6 @@ $(MECHANISMS_FILE): build/tools/mechanisms
 $(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI))): host-%: $(GEN)/builtin_models.c $(MECHANISMS_FILE)
 	@$(call need,$(host_cc_$*))
 	@[ -z "$(host_run_$*)" ] || { $(call need,$(host_run_$*)); }
-	@$(MAKE) B=$(call host_folder,$*) CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) $(call host_folder,$*)/whirl
+	@$(call host_make,$*) $(call host_folder,$*)/whirl
 	$(say) WRITE build/hosts/out/$*
 	$(Q)sh tests/hosts/write.sh build/hosts/out/$* $(MECHANISMS_FILE) $(host_run_$*) $(call host_folder,$*)/whirl

@@ -97,20 +97,13 @@ settings_boards_double = $(filter-out $(BOARDS_SINGLE),$(SETTINGS_BOARDS))
 settings_on_board = $(call on_board,$(1),SETTINGS=$(SETTINGS) BOARD_SECONDS=3600 KIND=$(2) print-settings)
 
 compare_settings = "In $(1):" "interpreter $(1)" "cat $(SETTINGS_IN)/$(1).hashes" \
-    $(foreach h,$(SETTINGS_BUILDS),"$(h) $(1)" build/hash/$(h)/bits/$(SETTINGS)_$(1)) \
+    $(foreach h,$(SETTINGS_BUILDS),"$(h) $(1)" $(call hash_folder,$(h))/bits/$(SETTINGS)_$(1)) \
     $(foreach h,$(SETTINGS_HOSTS),"$(h) $(1)" "$(host_run_$(h)) build/hosts/$(h)/bits/$(SETTINGS)_$(1)") \
     $(foreach b,$(settings_boards_$(1)),"$(b) $(1)" "$(call settings_on_board,$(b),$(1))")
 
-.PHONY: hashes-settings $(addprefix settings-build-,$(SETTINGS_BUILDS)) $(addprefix settings-host-,$(HASH_HOSTS))
-$(addprefix settings-build-,$(SETTINGS_BUILDS)): settings-build-%:
-	@$(MAKE) B=build/hash/$* CC=$(firstword $(subst -, ,$*)) OPT=-$(lastword $(subst -, ,$*)) settings-programs
-$(addprefix settings-host-,$(HASH_HOSTS)): settings-host-%:
-	@$(call need,$(host_cc_$*))
-	@$(call need,$(host_run_$*))
-	@$(MAKE) B=build/hosts/$* CC="$(host_cc_$*)" OPT=-O1 $(host_set_$*) settings-programs
-
+.PHONY: hashes-settings
 ##@ Tests and quality
 hashes-settings: settings-written ##- the same bits on every board with every setting of six scenes (half an hour; SETTINGS=some SETTINGS_BOARDS="...")
-	+@$(MAKE) $(addprefix settings-build-,$(SETTINGS_BUILDS)) $(addprefix settings-host-,$(SETTINGS_HOSTS))
+	+@$(MAKE) HASHED=settings-programs $(addprefix hash-,$(SETTINGS_BUILDS)) $(addprefix hash-host-,$(SETTINGS_HOSTS))
 	+@$(foreach b,$(SETTINGS_BOARDS),$(call on_board,$(b),SETTINGS=$(SETTINGS) settings-images) &&) true
 	@HASH_SECONDS=7200 sh tests/hashes.sh build/hash/settings_$(SETTINGS) $(foreach k,$(SETTINGS_KINDS),-- $(call compare_settings,$(k)))
