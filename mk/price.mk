@@ -151,9 +151,8 @@ size-now: $(GEN)/.stamp
 	@$(MAKE) board-images
 	@mkdir -p $(FIGURES)
 	@$(call size_of,$(IMAGES))
-	@SIZE=$(BOARD_SIZE) mk/size/libraries.sh $(call libraries,$(BOARD),whirl rig virtual scenes)
-	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(call libraries,$(BOARD),whirl)
-	@list=boards/$(BOARD)/most_bytes.txt; [ ! -f $$list ] || SIZE=$(BOARD_SIZE) mk/size/most.sh $(ELF)/$(GEN) $$list
+	@CC=$(BOARD_CC) CPU="$(BOARD_CPU)" SIZE=$(BOARD_SIZE) mk/size/functions.sh $(ELF)/$(GEN) boards/$(BOARD)/most_bytes.txt \
+	    $(call libraries,$(BOARD),whirl rig virtual scenes)
 endif
 
 ##@ Boards

@@ -1,32 +1,47 @@
 #!/bin/sh
-# functions.sh: bytes of flash of the core's own functions, each with all that it calls, and of all together.
-#
-#   CC=arm-none-eabi-gcc CPU="-mcpu=cortex-m4 ..." SIZE=arm-none-eabi-size functions.sh libwhirl.a
-#
-# Each is linked alone, from the library that firmware is linked from.
+# functions.sh OBJECTS LIST LIBRARY...: bytes of all that each library holds, of which a program takes only the parts that it calls;
+# of the core's own functions, each with all that it calls, linked alone from the first library, and of all together; and of steps:
+# no scene of LIST, lines "SCENE BYTES", may have a longer one. OBJECTS holds the scenes' objects. Where steps still looked every
+# sine up at every stage (commit 31fbe43) they took the bytes of boards/mps2-an386/most_bytes.txt; what is cheaper since must not
+# be larger. Exit status 1: a step is longer, or there is none of that name. CC, CPU, SIZE: of the board.
 set -eu
-
-library=$1
+objects=$1 list=$2
+shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-bytes_of() { # bytes_of FUNCTION...: code and constants of an image of these
-    wanted=
-    for function in "$@"; do
-        wanted="$wanted -Wl,-u,$function"
-    done
-    # shellcheck disable=SC2086 # lists of words
-    $CC $CPU -nostdlib -Wl,--gc-sections -Wl,-e,"$1" $wanted -o "$work/image" \
-        "$library" -lgcc
-    "$SIZE" "$work/image" | awk 'NR == 2 { print $1 + $2 }'
-}
+printf '%-28s %8s %8s\n' "library, all of it" "flash B" "ram B"
+for library in "$@"; do
+    "$SIZE" -t "$library" | awk -v name="$(basename "$library" .a)" '
+        $NF == "(TOTALS)" { printf "%-28s %8d %8d\n", name, $1 + $2, $2 + $3 }'
+done
 
+function_bytes() { # function_bytes NAME FUNCTION...: code and constants of an image of these
+    name=$1
+    shift
+    # shellcheck disable=SC2086,SC2046 # lists of words
+    $CC $CPU -nostdlib -Wl,--gc-sections -Wl,-e,"$1" $(printf ' -Wl,-u,%s' "$@") -o "$work/image" "$library" -lgcc
+    "$SIZE" "$work/image" | awk -v name="$name" 'NR == 2 { printf "%-28s %8d\n", name, $1 + $2 }'
+}
+library=$1
 # All that core/function.h lists.
 all=$(printf '#include "core/function.h"\n#define NAME(name) wh_##name\nWH_FUNCTIONS(NAME, NAME)\n' |
     $CC -ffreestanding -E -P -I. -x c - | tail -n 1)
 printf '%-28s %8s\n' "function" "flash B"
-for function in $all; do
-    printf '%-28s %8d\n' "$function" "$(bytes_of "$function")"
-done
+for function in $all; do function_bytes "$function" "$function"; done
 # shellcheck disable=SC2086 # a list of words
-printf '%-28s %8d\n' "all of them" "$(bytes_of $all)"
+function_bytes "all of them" $all
+
+[ -f "$list" ] || exit 0
+passed=0 failed=0
+while read -r scene most; do
+    bytes=$($SIZE -A "$objects/$scene.o" | awk '$1 == ".text.advance" { print $2 }')
+    if [ -n "$bytes" ] && [ "$bytes" -le "$most" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "not ok - $scene: a step of ${bytes:-no} bytes, of at most $most"
+    fi
+done <"$list"
+echo "steps of scenes without contacts, bytes: $passed within their most, $failed not"
+[ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
