@@ -1,10 +1,6 @@
 #!/bin/sh
-# run.sh: the whole way once, for someone who sees Whirl for the first time: energies, equations,
-# motion, firmware. Called by `make run`, which has built everything that is used here.
-#
-#     sh mk/demo/run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...
-#
-# WHIRL is the program, the two images are for the emulated board, and EMULATE is the command that
+# run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...: the whole way once, for someone who sees Whirl for the first time: energies,
+# equations, motion, firmware. Called by `make run`, which has built everything that is used here. EMULATE is the command that
 # runs an image, with IMAGE where its path belongs. Exit status 0 when everything agreed.
 set -eu
 
@@ -17,11 +13,8 @@ mkdir -p "$out"
 failed=0
 
 title() { printf '\n=== %s\n\n' "$*"; }
-run_image() { # run_image FILE: the image's console output
-    sh -c "$(printf '%s' "$emulate" | sed "s|IMAGE|$1|")"
-}
+run_image() { sh -c "$(printf '%s' "$emulate" | sed "s|IMAGE|$1|")"; } # the image's console output
 
-# --- energies -------------------------------------------------------------------------------------
 title "1. The energies of an epicyclic gear on a carriage (core/models/epicyclic.whirl)"
 # from the mechanism's name to its first effect
 lines=$("$whirl" list --as table core/models/epicyclic.whirl | awk -F '\t' '
@@ -31,72 +24,52 @@ sed -n "${lines}p" core/models/epicyclic.whirl
 title "2. Its equations of motion (build/whirl derive core/models/epicyclic.whirl)"
 "$whirl" derive core/models/epicyclic.whirl | sed -n '/^equations of motion/,$p'
 
-# --- motion ---------------------------------------------------------------------------------------
 title "3. The motion, on this computer, in double and in the boards' float"
-# simulate SCENE CM: runs both ways; sets hash_SCENE and spread_SCENE.
-simulate() {
-    scene=$1 cm=$2
+for scene in epicyclic_from_rest thomson_a; do
     "$whirl" run "$scene" --number float >"$out/$scene.float.txt"
     "$whirl" run "$scene" --every 1ms --csv "$out/$scene.csv" --plot "$out/$scene.svg" >"$out/$scene.txt"
     "$whirl" run "$scene" --every 1ms --plot "$out/$scene.png" --quiet
     sed -n '1,2p' "$out/$scene.txt"
-    hash=$(sed -n 's/^state hash *//p' "$out/$scene.float.txt")
-    eval "hash_$scene=$hash"
     # the centre of mass must stay where it started; anything else is the method's error
-    spread=$(tr -d '\r' <"$out/$scene.csv" | awk -F, -v name="$cm" '
-        NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i; next }
+    tr -d '\r' <"$out/$scene.csv" | awk -F, '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == "x_cm") c = i; next }
         NR == 2 { start = $c }
         { d = $c - start; if (d < 0) d = -d; if (d > worst) worst = d }
-        END { printf "%.1e", worst }')
-    eval "spread_$scene=$spread"
-    printf '  the centre of mass moves by at most %s m\n' "$spread"
-}
-simulate epicyclic_from_rest x_cm
-simulate thomson_a x_cm
+        END { printf "%.1e", worst }' >"$out/$scene.spread"
+    printf '  the centre of mass moves by at most %s m\n' "$(cat "$out/$scene.spread")"
+done
 
-# --- the same bits on a controller ----------------------------------------------------------------
 title "4. The same scenes on an emulated Cortex-M4F (QEMU, mps2-an386)"
 run_image "$scenes" >"$out/board_scenes.txt"
-compare() {
-    scene=$1
+for scene in epicyclic_from_rest thomson_a; do
     board=$(sed -n "s/^scene $scene steps [0-9]* hash \(0x[0-9a-f]*\) ok\$/\1/p" "$out/board_scenes.txt")
-    eval "here=\$hash_$scene"
+    here=$(sed -n 's/^state hash *//p' "$out/$scene.float.txt")
     if [ -n "$board" ] && [ "$board" = "$here" ]; then
-        eval "same_$scene='the same bits'"
+        echo "the same bits"
     else
-        eval "same_$scene=DIFFERENT"
+        echo DIFFERENT
         failed=1
-    fi
+    fi >"$out/$scene.same"
     printf '  %-22s PC float %s   board %s\n' "$scene" "$here" "${board:-missing}"
-}
-compare epicyclic_from_rest
-compare thomson_a
+done
 
-# --- the rig --------------------------------------------------------------------------------------
 title "5. The eccentric-mass rig: its controller as firmware, motor and sensors emulated"
-if run_image "$firmware" >"$out/rig.txt"; then
-    rig="ran to its end and stopped safely"
-else
-    rig=FAILED
-    failed=1
-fi
+rig="ran to its end and stopped safely"
+run_image "$firmware" >"$out/rig.txt" || { rig=FAILED; failed=1; }
 cat "$out/rig.txt"
 "$whirl" run rig_fixed --plot "$out/rig_fixed.svg" --csv "$out/rig_fixed.csv" --quiet
 "$whirl" run rig_fixed --plot "$out/rig_fixed.png" --quiet
 
-# --- where to look --------------------------------------------------------------------------------
 title "Plots and records"
-for scene in epicyclic_from_rest thomson_a rig_fixed; do
-    printf '  %s/%s.svg  .png  .csv\n' "$out" "$scene"
-done
+printf "  $out/%s.svg  .png  .csv\n" epicyclic_from_rest thomson_a rig_fixed
 
 title "Summary"
 row() { printf '  %-44s %s\n' "$1" "$2"; }
-row "epicyclic gear: centre of mass moves at most" "$spread_epicyclic_from_rest m in 9 s"
-row "Thomson's device: centre of mass at most" "$spread_thomson_a m in 10 s"
-row "epicyclic gear, PC and controller" "$same_epicyclic_from_rest"
-row "Thomson's device, PC and controller" "$same_thomson_a"
-# measured NAME: what the rig's report says of it, from the measured part
+row "epicyclic gear: centre of mass moves at most" "$(cat "$out/epicyclic_from_rest.spread") m in 9 s"
+row "Thomson's device: centre of mass at most" "$(cat "$out/thomson_a.spread") m in 10 s"
+row "epicyclic gear, PC and controller" "$(cat "$out/epicyclic_from_rest.same")"
+row "Thomson's device, PC and controller" "$(cat "$out/thomson_a.same")"
+# measured NAME, formula NAME: what the rig's report says of it
 measured() { sed -n '/^Measured/,/^Formula/s/^ *'"$1"'  *//p' "$out/rig.txt"; }
 formula() { sed -n '/^Formula/,$s/^ *'"$1"'  *//p' "$out/rig.txt"; }
 row "rig: speed, asked for $(formula speed)" "$(measured speed)"
