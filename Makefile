@@ -47,7 +47,6 @@ include mk/price.mk
 include mk/curves.mk
 include mk/peers.mk
 include mk/figures.mk
-include mk/stability.mk
 include mk/hosts.mk
 include mk/check.mk
 include mk/coverage.mk
@@ -267,7 +266,7 @@ conclusions: ## the dissertation's claims beside Whirl's numbers, with a verdict
 	@$(MAKE) conclusions-now
 
 .PHONY: stability
-stability: ##- the stability maps of docs/stability.md, anew: every script of mk/stability (minutes)
+stability: ##- the plots of docs/hard_cases.md and the maps of docs/stability.md, anew (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host plot
 	@$(MAKE) stability-now
 

@@ -23,3 +23,14 @@ conclusions-now: build/whirl build/firmware
 	@sh mk/conclusions/table.sh print
 conclusions-renew: build/whirl build/firmware ##- the same, written into docs/conclusions.md
 	@sh mk/conclusions/table.sh renew docs/conclusions.md
+
+# What docs/hard_cases.md and docs/stability.md show of runs. What a run says of the step, the range or the angle is what the page
+# is about.
+HARD_FIGS := $(sort $(wildcard mk/stability/*.fig))
+.PHONY: stability-now
+stability-now: build/whirl
+	@$(call need,gnuplot)
+	@rm -rf $(FIGURES)/hard && mkdir -p $(FIGURES)/hard docs/figures/hard
+	@sh mk/figures/figures.sh build/whirl $(FIGURES)/hard $(HARD_FIGS) 2>$(FIGURES)/hard.said || { cat $(FIGURES)/hard.said >&2; exit 1; }
+	@cp $(HARD_FIGS:mk/stability/%.fig=$(FIGURES)/hard/%.svg) docs/figures/hard/
+	@sh mk/stability/maps.sh build/whirl docs
