@@ -48,8 +48,6 @@ const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig ki
 uint64_t symbol_bit(const symbol *sym, int primes);
 poly *poly_scratch(int terms);
 const poly *poly_intern(algebra *a, poly *candidate);
-const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
-                          const poly *y);
 
 /* The derivative of a function by its argument x (which = 0) or y (1), at these arguments (calculus.c). y may be NULL
  * for a function of one argument. */
@@ -59,18 +57,12 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 /* --- the order of the normal form (poly.c): negative, 0 for the same, positive -------------------*/
 
 /* The order of atoms, apart from their arguments. */
-uint64_t atom_rank(const atom *x);
-int atom_order(const atom *x, const atom *y);
-int mono_order(const mono *x, const mono *y);
 int poly_order(const poly *x, const poly *y);
 
 /* --- looking (poly.c) ---------------------------------------------------------------------------*/
 
 /* x + y, or zero if the sum is only a rounding error of decimals. */
 double coefficient_sum(double x, double y);
-bool exponent_is_whole(double x); /* and small enough for a counter */
-/* Is a power of a sum multiplied out? Powers of sums of positions are not, from the exponent `kept` on. */
-bool power_multiplies_out(const poly *base, double exponent, double kept);
 /* A sum of positions, parameters and numbers only, without rates and functions? */
 bool poly_is_place(const poly *p);
 
@@ -90,10 +82,7 @@ typedef struct poly_sum {
 } poly_sum;
 
 /* Count work; sets a->overflow above the limit. */
-void algebra_work(algebra *a, size_t amount);
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
-/* Sum up `row` by itself, then add it to `s`. `row` is then empty; its memory is reused. */
-void sum_add_row(poly_sum *s, poly_sum *row);
 /* The sum; frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);
 

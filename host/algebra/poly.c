@@ -10,6 +10,8 @@
 #include "host/base/hashing.h"
 #include "host/number/folding.h"
 
+static void algebra_work(algebra *a, size_t amount);
+
 /* === the order of the normal form ============================================================= */
 /* The order of atoms, products and sums depends on their contents, never on the time of creation. So an expression has
  * the same form after any other work, and with any compiler. Equal objects are identical, so two different pointers
@@ -31,7 +33,7 @@ static int of_numbers(double x, double y) {
 }
 
 /* Symbols first: positions, then rates, then accelerations, each as declared; then calls, powers, groups. */
-uint64_t atom_rank(const atom *x) {
+static uint64_t atom_rank(const atom *x) {
     uint64_t rank = (uint64_t)x->kind << 60;
     if (x->kind == ATOM_SYMBOL) {
         rank += ((uint64_t)x->primes << 40) + ((uint64_t)x->symbol->kind << 32);
@@ -40,7 +42,7 @@ uint64_t atom_rank(const atom *x) {
     return rank + (uint64_t)x->function;
 }
 
-int atom_order(const atom *x, const atom *y) {
+static int atom_order(const atom *x, const atom *y) {
     if (x == y) {
         return 0;
     }
@@ -55,7 +57,7 @@ int atom_order(const atom *x, const atom *y) {
 }
 
 /* The pure number comes first: size_of_sum() in poly.c relies on it. */
-int mono_order(const mono *x, const mono *y) {
+static int mono_order(const mono *x, const mono *y) {
     if (x == y) {
         return 0;
     }
@@ -115,7 +117,7 @@ double coefficient_sum(double x, double y) {
                                                                             : folding_sum(x, y);
 }
 
-bool exponent_is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }
+static bool exponent_is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }
 
 bool poly_is_place(const poly *p) {
     for (int i = 0; i < p->count; i++) {
@@ -132,7 +134,8 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-bool power_multiplies_out(const poly *base, double exponent, double kept) {
+/* Is a power of a sum multiplied out? Powers of sums of positions are not, from the exponent `kept` on. */
+static bool power_multiplies_out(const poly *base, double exponent, double kept) {
     if (exponent <= 0.0 || !exponent_is_whole(exponent) ||
         (exponent >= kept && poly_is_place(base))) {
         return false;
@@ -190,7 +193,8 @@ static void collect(poly_sum *s) {
     s->count = kept;
 }
 
-void sum_add_row(poly_sum *s, poly_sum *row) {
+/* Sum up `row` by itself, then add it to `s`. `row` is then empty; its memory is reused. */
+static void sum_add_row(poly_sum *s, poly_sum *row) {
     collect(row);
     for (size_t i = 0; i < row->count; i++) {
         push(s, row->items[i].mono, row->items[i].coefficient);
@@ -274,7 +278,7 @@ char *algebra_limit(const algebra *a) {
                               : alloc_words("more than %.0f operands", POLY_SIZE_MAX);
 }
 
-void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
+static void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
 
 /* A new object's number. Its slots in the hash table take some 48 bytes more. */
 static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
@@ -350,8 +354,8 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes) {
     return atom_intern(a, &candidate);
 }
 
-const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
-                          const poly *y) {
+static const atom *atom_of_polys(algebra *a, atom_kind kind, function_id function, const poly *x,
+                                 const poly *y) {
     const atom candidate = {.kind = kind,
                             .function = function,
                             .argument = {x, y},

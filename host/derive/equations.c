@@ -7,6 +7,8 @@
 
 #include "host/base/alloc.h"
 
+static void contact_laws_free(contact_laws *laws);
+
 /* sum_i d(value)/dq_i q_i'. */
 static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
     const poly *sum = poly_number(a, 0.0);
@@ -135,7 +137,7 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     return laws;
 }
 
-void contact_laws_free(contact_laws *laws) {
+static void contact_laws_free(contact_laws *laws) {
     if (laws == NULL) {
         return;
     }
@@ -194,7 +196,7 @@ statement_force *forces_derive(algebra *a, const instance *inst, int *count) {
     return forces;
 }
 
-void forces_free(statement_force *forces, int count) {
+static void forces_free(statement_force *forces, int count) {
     for (int i = 0; i < count; i++) {
         free(forces[i].force);
     }

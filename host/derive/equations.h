@@ -48,7 +48,6 @@ bool contact_loosens(const contact_statement *h);
 
 /* The active contacts of the instance; NULL without any. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
-void contact_laws_free(contact_laws *laws);
 
 /* Can this contact, or any of them, change the momentum of coordinate i? */
 bool contact_law_pushes(const contact_law *law, int i);
@@ -69,7 +68,6 @@ typedef struct statement_force {
 /* The forces of the active statements, in the order of the file; *count of them. Empty for a system. The algebra may
  * overflow. Free with forces_free(). */
 statement_force *forces_derive(algebra *a, const instance *inst, int *count);
-void forces_free(statement_force *forces, int count);
 
 /* The total of these forces on coordinate i. */
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i);

@@ -344,8 +344,9 @@ static image *with_matrix(image_draft *d, const equations *e, image_use use, dia
     return made;
 }
 
-image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
-                  image_use use, diags *errors) {
+/* As image_make(), but without the variants of other ways of folding. */
+static image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
+                         image_use use, diags *errors) {
     image_settings done = *settings;
     program *p = program_make(e, conserve, settings, errors);
     if (p == NULL || !program_look_up(p, e, &done, errors)) {

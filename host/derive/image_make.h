@@ -12,10 +12,6 @@
  * that a message can quote the failed one (host/check/nonfinite.h). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN } image_use;
 
-/* As image_make(), but without the variants of other ways of folding. */
-image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
-                  image_use use, diags *errors);
-
 /* The same lists with the starts, inputs, step and end of `inst`. It must be an instance of the same mechanism and
  * scene with the same parameters. Another step gets a matrix of its own. Free `base` last. NULL, reported, if there is
  * no such matrix. */

@@ -102,7 +102,7 @@ void noise_records_lower(const equations *e, lowering *l, noise_records *r) {
     }
 }
 
-int noise_record_node(const equations *e, const int *node, const symbol *record) {
+static int noise_record_node(const equations *e, const int *node, const symbol *record) {
     const mechanism *m = e->instance->mechanism;
     int k = 0;
     while (m->noises[k].record != record) {
@@ -120,7 +120,7 @@ void noise_records_free(noise_records *r) {
 
 _Static_assert((int)COORDINATES_MAX == IMAGE_COMPONENTS_MAX, "the parser's bound is the image's");
 
-int layout_turn(void *context, const symbol *s) {
+static int layout_turn(void *context, const symbol *s) {
     const layout *map = context;
     const bool moves = s->kind == SYM_COORDINATE || s->kind == SYM_STATE;
     return moves ? map->angle_number[s->index] : -1;
@@ -136,7 +136,7 @@ static int input_leaf(const layout *map, op_list *t, const symbol *s) {
     return op_list_constant(t, map->equations->instance->input[s->index]);
 }
 
-int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
+static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     const layout *map = context;
     if (s == &conservation_time) {
         return op_list_leaf(t, OP_TIME, 0);

@@ -28,7 +28,6 @@ noise_records noise_records_find(const equations *e, const conservation *conserv
 /* Enter them before lowering the polys that contain them. */
 void noise_records_lower(const equations *e, lowering *l, noise_records *r);
 /* The operation of this record. */
-int noise_record_node(const equations *e, const int *node, const symbol *record);
 void noise_records_free(noise_records *r);
 
 typedef struct layout {
@@ -62,8 +61,6 @@ void layout_free(layout *map);
 const poly *layout_ready(const layout *map, const poly *p);
 
 /* `leaf` and `turn` of a lowering whose context is a layout; and such a lowering onto `t`. */
-int layout_leaf(void *context, op_list *t, const symbol *s, int primes);
-int layout_turn(void *context, const symbol *s);
 lowering layout_lowering(layout *map, op_list *t);
 
 #endif

@@ -16,7 +16,7 @@
  * spring between two masses that move together. */
 #define GHOST 1e-14
 
-int affine_states(const image *im) { return im->angles + im->reals; }
+static int affine_states(const image *im) { return im->angles + im->reals; }
 int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
 
 /* The column of a leaf, or -1 if it is neither state nor input. */
@@ -132,7 +132,8 @@ int affine_rates(const image *im, twofold *rates) {
     return bad;
 }
 
-void affine_takes(const image *im, int number, bool *taking) {
+/* taking[columns]: the columns on which operation `number` of the step's list depends, turn angles included. */
+static void affine_takes(const image *im, int number, bool *taking) {
     const op_list *t = im->list[IMAGE_STEP];
     bool *needed = alloc(number + 1, sizeof *needed);
     int operand[2];

@@ -10,16 +10,12 @@
 /* The coefficients of an affine right-hand side, x' = A x + B u + c, from its operation list. */
 
 /* The states of a scene, angles first, and the columns: states, inputs, and the constant. */
-int affine_states(const image *im);
 int affine_columns(const image *im);
 
 /* rates[states * columns]: the rates of the states, row by row, with the list's own round-off. Each operation is
  * repeated on its operands' coefficients. Returns -1, or the first operation that is not affine; rates[] is then
  * unchanged. */
 int affine_rates(const image *im, twofold *rates);
-
-/* taking[columns]: the columns on which operation `number` of the step's list depends, turn angles included. */
-void affine_takes(const image *im, int number, bool *taking);
 
 /* Make the matrix and its list, as the image's settings require; the image must be otherwise complete. Returns false,
  * reported, if there is no such matrix: events, a ledger, another method, a nonlinear term, or numbers that grow too

@@ -10,6 +10,8 @@
 #include "host/derive/equations.h"
 #include "host/derive/tables.h"
 
+static void ledger_lists_free(ledger_lists *l);
+
 #define SAME_KIND(id, ...) \
     _Static_assert((int)CONTACT_##id == (int)WH_##id, "the core handles contacts in this order");
 CONTACT_KIND_ROWS(SAME_KIND)
@@ -23,7 +25,9 @@ static const poly *ready(const equations *e, const conservation *c, const poly *
     return conservation_settle(e, c, equations_fold(e, p));
 }
 
-int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
+/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their
+ * number. */
+static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
     const contact_laws *laws = e->contacts;
     int count = 0;
     for (int k = 0; k < (laws != NULL ? laws->count : 0); k++) {
@@ -246,7 +250,8 @@ static bool have_impulses(const equations *e, diags *errors) {
     return true;
 }
 
-contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors) {
+/* Enter the lists. `s` is the folded system. NULL after an error, reported. */
+static contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors) {
     const equations *e = map->equations;
     const contact_laws *laws = e->contacts;
     if (map->form != WH_SECOND_ORDER) {
@@ -272,7 +277,8 @@ contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *er
     return c;
 }
 
-uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
+/* `hash` with the lists and the table mixed in. */
+static uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
     hash = wh_hash_u64(hash, op_list_hash(c->signals));
     hash = wh_hash_u64(hash, op_list_hash(c->forces));
     hash = c->sets != NULL ? wh_hash_u64(hash, op_list_hash(c->sets)) : hash;
@@ -286,7 +292,7 @@ uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
     return hash;
 }
 
-void contact_lists_free(contact_lists *c) {
+static void contact_lists_free(contact_lists *c) {
     if (c == NULL) {
         return;
     }
@@ -416,7 +422,10 @@ static bool can_keep(const layout *map, diags *errors) {
     return true;
 }
 
-ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors) {
+/* Enter the lists of a scene with so many contacts and the energy integral `integral` (NULL: T + V, see equations.h).
+ * NULL after an error, reported. */
+static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
+                                       diags *errors) {
     const equations *e = map->equations;
     if (!can_keep(map, errors)) {
         return NULL;
@@ -447,7 +456,7 @@ ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
     return l;
 }
 
-void ledger_lists_free(ledger_lists *l) {
+static void ledger_lists_free(ledger_lists *l) {
     if (l == NULL) {
         return;
     }

@@ -28,16 +28,6 @@ typedef struct contact_lists {
     op_list *sets; /* NULL without sets */
 } contact_lists;
 
-/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their
- * number. */
-int contact_lists_polys(const equations *e, const conservation *c, const poly **p);
-
-/* Enter the lists. `s` is the folded system. NULL after an error, reported. */
-contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors);
-/* `hash` with the lists and the table mixed in. */
-uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash);
-void contact_lists_free(contact_lists *c);
-
 /* === the ledger =============================================================================== */
 /* The ledger of a scene as operation lists for core/ledger.h, and the meaning of its entries.
  *
@@ -64,11 +54,6 @@ typedef struct ledger_lists {
     op_list *powers;
     op_list *levels;
 } ledger_lists;
-
-/* Enter the lists of a scene with so many contacts and the energy integral `integral` (NULL: T + V, see equations.h).
- * NULL after an error, reported. */
-ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts, diags *errors);
-void ledger_lists_free(ledger_lists *l);
 
 typedef struct program {
     layout layout;

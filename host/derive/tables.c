@@ -470,7 +470,7 @@ static product_sum sum_of(collecting *c, int i) {
     abort();
 }
 
-products products_of(const op_list *list, refusal *why) {
+static products products_of(const op_list *list, refusal *why) {
     products p = {.coefficients = op_list_new(list->angles, 0),
                   .result = alloc(list->results, sizeof *p.result),
                   .results = list->results,
@@ -490,7 +490,7 @@ products products_of(const op_list *list, refusal *why) {
     return p;
 }
 
-void products_free(products *p) {
+static void products_free(products *p) {
     op_list_free(p->coefficients);
     free(p->symbol);
     free(p->result);

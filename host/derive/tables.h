@@ -38,9 +38,6 @@ typedef struct refusal {
     int angle; /* the turn angle concerned, or -1 */
 } refusal;
 
-products products_of(const op_list *list, refusal *why);
-void products_free(products *p);
-
 /* Default number of cells of a table, for one turn. */
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 

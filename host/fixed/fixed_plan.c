@@ -22,7 +22,8 @@ static bool has_noise(const image *im) {
 static const char refused_part[] =
     "--number float; or put it into an effect, and leave that out: --without EFFECT";
 
-bool fixed_has_step(const image *im, diags *errors) {
+/* Contacts, ledger, noise, other methods and settings: false, reported. */
+static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (has_noise(im)) {
         diag_error(errors, im->at, refused_part,
@@ -88,7 +89,8 @@ static bool ranges_are_bounded(const image *im, const enclosure *range, diags *e
     return good;
 }
 
-bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
+/* Ranges of the reals and inputs: larger than anything may be, or a start outside its own: false, reported. */
+static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
 }
 

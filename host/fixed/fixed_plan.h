@@ -9,12 +9,6 @@
 
 /* === statements that fixed point refuses, each at its place =================================== */
 
-/* Contacts, ledger, noise, other methods and settings: false, reported. */
-bool fixed_has_step(const image *im, diags *errors);
-
-/* Ranges of the reals and inputs: larger than anything may be, or a start outside its own: false, reported. */
-bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors);
-
 /* Code takes inputs that no run has tested. So each input without a declared range is reported, with the range of a
  * run; false: there is one. */
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);

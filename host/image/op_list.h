@@ -196,9 +196,6 @@ void op_list_share_sums(op_list *t);
 void op_list_order(op_list *t);
 /* Estimate of the least number of loads and stores of the list in its order, with some twenty registers. */
 int op_list_carried(const op_list *t);
-/* Reorder the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
- * operation may precede its operands. */
-void op_list_renumber(op_list *t, const int *order, const int *number);
 
 /* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
 bool op_list_reads_turns(const op_list *t);

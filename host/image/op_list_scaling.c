@@ -8,6 +8,8 @@
 #include "host/base/alloc.h"
 #include "host/number/gauss.h"
 
+static bool op_list_is_raw(const op *o);
+
 /* === which operations may be multiplied together ============================================== */
 /* The operations of a list that can be multiplied together. Each operation is multiplied by x to an exponent of its
  * own. A sum needs equal exponents of its parts; a product adds them. Constants, and products with constants, accept
@@ -326,7 +328,8 @@ typedef struct multiplied {
     int *made; /* [from->count] on `to`: multiplied values, but raw values as they are */
 } multiplied;
 
-bool op_list_is_raw(const op *o) {
+/* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
+static bool op_list_is_raw(const op *o) {
     switch (op_rows[o->code].kind) {
     case OP_IS_LEAF:
     case OP_IS_WAVE:

@@ -21,9 +21,6 @@ void op_list_gauge(op_list **t, int price);
 
 /* --- its parts ----------------------------------------------------------------------------------------------- */
 
-/* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
-bool op_list_is_raw(const op *o);
-
 /* Vectors of exponents: all values may be multiplied by x to these, for any x > 0. The first entries are one for each
  * operation. Then come two for each operation, for its raw operands, which may be used as they are or multiplied. */
 typedef struct op_list_freedoms {

@@ -8,6 +8,8 @@
 #include "host/base/hashing.h"
 #include "host/image/op_list.h"
 
+static void op_list_renumber(op_list *t, const int *order, const int *number);
+
 /* === dependencies between operations ========================================================== */
 /* The cost of a list, and of its order. */
 
@@ -739,7 +741,9 @@ int op_list_operations(const op_list *t) {
     return operations;
 }
 
-void op_list_renumber(op_list *t, const int *order, const int *number) {
+/* Reorder the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
+ * operation may precede its operands. */
+static void op_list_renumber(op_list *t, const int *order, const int *number) {
     op *ops = alloc_more(NULL, t->room, sizeof *ops);
     for (int i = 0; i < t->count; i++) {
         ops[i] = t->ops[order[i]];

@@ -17,7 +17,8 @@ static const char *ending_of(const char *file) {
     return dot == NULL ? "" : dot + 1;
 }
 
-bool gnuplot_can_draw(const char *file) {
+/* True when the file ends in .svg, .png or .pdf. */
+static bool gnuplot_can_draw(const char *file) {
     const char *ending = ending_of(file);
     return strcmp(ending, "svg") == 0 || strcmp(ending, "png") == 0 || strcmp(ending, "pdf") == 0;
 }

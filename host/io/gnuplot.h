@@ -71,8 +71,6 @@ typedef struct gnuplot {
     const char *text;
 } gnuplot;
 
-/* True when the file ends in .svg, .png or .pdf. */
-bool gnuplot_can_draw(const char *file);
 /* The same; false is reported, with the option that named the file. */
 bool gnuplot_can_draw_for(const char *command, const char *option, const char *file);
 

@@ -146,7 +146,8 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     return true;
 }
 
-char *panels_next(const char **list) {
+/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. Free it. */
+static char *panels_next(const char **list) {
     if (*list == NULL) {
         return NULL;
     }
@@ -227,8 +228,9 @@ bool plot_is_path(const plot_choice *choice) {
     return choice->x != NULL && strcmp(choice->x, "t") != 0 && strcmp(choice->x, "time") != 0;
 }
 
-bool panels_make(panels *p, const char *command, const plot_choice *choice, const plot_run *runs,
-                 int count) {
+/* False is reported. Call panels_free() in any case. */
+static bool panels_make(panels *p, const char *command, const plot_choice *choice,
+                        const plot_run *runs, int count) {
     *p = (panels){.runs = count, .x = alloc(count, sizeof *p->x)};
     if (!name_runs(p, command, choice->legend, runs)) {
         return false;
@@ -254,7 +256,7 @@ bool panels_make(panels *p, const char *command, const plot_choice *choice, cons
     return added && labels_fit(p, command, choice->ylabel);
 }
 
-void panels_free(panels *p) {
+static void panels_free(panels *p) {
     for (int i = 0; i < p->quantities; i++) {
         free(p->quantity[i].name);
         free(p->quantity[i].column);

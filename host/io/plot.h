@@ -90,13 +90,6 @@ typedef struct panels {
     int runs;
 } panels;
 
-/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. Free it. */
-char *panels_next(const char **list);
-/* False is reported. Call panels_free() in any case. */
-bool panels_make(panels *p, const char *command, const plot_choice *choice, const plot_run *runs,
-                 int count);
-void panels_free(panels *p);
-
 /* Draw to `file` (gnuplot.h). Titles and names (UTF-8) appear literally, with blanks for control characters. In a unit,
  * the exponent after ^ is raised. Neither they nor the file's name can act as gnuplot commands. False, reported, if the
  * choice does not fit, the file cannot be written, or gnuplot is missing or fails. */

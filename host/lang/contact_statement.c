@@ -6,6 +6,10 @@
 #include "host/lang/parser.h"
 #include "host/lang/statements.h"
 
+static contact_statement contact_begun(const parser *in, const statement_word *word);
+
+static bool add_contact(parser *in, const contact_statement *made);
+
 /* === the condition of a hold ================================================================== */
 /* The condition of `hold ... while`:
  *
@@ -123,7 +127,8 @@ static const expr *parse_any(parser *in, reading *how, bool *is_condition) {
     return parse_joined(in, how, WORD_OR, FN_MAX, parse_both, is_condition);
 }
 
-const expr *parse_condition(parser *in, word_id statement) {
+/* Comparisons joined by `and`, `or` as one expression: true when above zero. Hints quote the statement. */
+static const expr *parse_condition(parser *in, word_id statement) {
     reading how = {statement, 0};
     bool is_condition = false;
     const expr *made = parse_any(in, &how, &is_condition);
@@ -338,7 +343,7 @@ static void append(parser *in, const contact_statement **list, int *count,
     *list = longer;
 }
 
-bool add_contact(parser *in, const contact_statement *made) {
+static bool add_contact(parser *in, const contact_statement *made) {
     mechanism *into = in->builder->made;
     if (in->draft == NULL) {
         check_friction_once(in, made);
@@ -352,7 +357,7 @@ bool add_contact(parser *in, const contact_statement *made) {
     return true;
 }
 
-contact_statement contact_begun(const parser *in, const statement_word *word) {
+static contact_statement contact_begun(const parser *in, const statement_word *word) {
     return (contact_statement){
         .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
 }

@@ -248,7 +248,8 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     return made;
 }
 
-const expr *expr_name(parser *in, const token *name) {
+/* --- names (expression.c) --- */
+static const expr *expr_name(parser *in, const token *name) {
     expr *made = expr_new(in, EXPR_SYMBOL, name->at);
     if (token_is_word(name, WORD_PI)) {
         made->op = EXPR_NUMBER;

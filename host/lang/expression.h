@@ -11,13 +11,9 @@
 /* --- grammar (expression.c, contact_statement.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL: gave up */
 bool parse_close(parser *in, place open);                       /* the ')' that closes `open` */
-/* Comparisons joined by `and`, `or` as one expression: true when above zero. Hints quote the statement. */
-const expr *parse_condition(parser *in, word_id statement);
 /* The current unit token; *text is its text without blanks. */
 bool parse_unit(parser *in, unit_scale *result, const char **text);
 
-/* --- names (expression.c) --- */
-const expr *expr_name(parser *in, const token *name);
 /* The line of a later statement of the mechanism that declares the name, or 0. */
 int name_declared_later(const token *name);
 /* Report an unknown coordinate, with the nearest known name as a hint. */

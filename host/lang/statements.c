@@ -243,7 +243,7 @@ static bool has_kinetic_energy(const mechanism *made) {
     return false;
 }
 
-void finish_mechanism(parser *in, builder *done) {
+static void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
     made->is_system = done->has_equations;
     if (done->nameless || done->broken || done->mixed) {

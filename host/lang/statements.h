@@ -16,13 +16,10 @@ statement_reader read_when;                                /* contact_statement.
 statement_reader read_noise;                               /* declare.c */
 
 /* Begin the contact of the current statement. Add it to its mechanism or to the current scene; returns true. */
-contact_statement contact_begun(const parser *in, const statement_word *word);
-bool add_contact(parser *in, const contact_statement *made);
 void contact_on_system(parser *in, const contact_statement *each);
 
 /* Read the whole text except the scenes. These are noted and read last: they may name later effects. */
 void read_file(parser *in);                                      /* statements.c */
-void finish_mechanism(parser *in, builder *made);                /* statements.c */
 void finish_inputs(parser *in, mechanism *made);                 /* derivative.c */
 void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */
 

@@ -8,6 +8,8 @@
 #include "host/base/spelling.h"
 #include "host/number/functions.h"
 
+static dimension dim_of_quantity(quantity_id which);
+
 /* === units ==================================================================================== */
 
 #define PI 3.14159265358979323846
@@ -557,7 +559,7 @@ static const quantity_row quantities[] = {
 };
 enum { QUANTITIES = sizeof quantities / sizeof quantities[0] };
 
-dimension dim_of_quantity(quantity_id which) {
+static dimension dim_of_quantity(quantity_id which) {
     const signed char *e = quantities[which].exponents;
     return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
 }

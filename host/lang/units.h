@@ -59,7 +59,6 @@ typedef struct dimension {
 
 /* A dimension with whole exponents. */
 dimension dim_of(int length, int mass, int time, int current, int temperature);
-dimension dim_of_quantity(quantity_id which);
 dimension dim_none(void);
 dimension dim_energy(void); /* also torque */
 

@@ -161,7 +161,8 @@ bool schema_take(schema *s, const char *line) {
     return strncmp(line, "OK 0=", 5) == 0 && take_states(s, line);
 }
 
-bool schema_value(const schema_field *field, const uint8_t *bytes, double *value) {
+/* The value at bytes[field->size]; false if it has no value. */
+static bool schema_value(const schema_field *field, const uint8_t *bytes, double *value) {
     uint32_t raw = 0;
     for (unsigned i = 0; i < field->size; i++) {
         raw |= (uint32_t)bytes[i] << 8 * i;

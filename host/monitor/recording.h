@@ -41,9 +41,6 @@ typedef struct schema {
  * unreadable answer changes nothing. */
 bool schema_take(schema *s, const char *line);
 
-/* The value at bytes[field->size]; false if it has no value. */
-bool schema_value(const schema_field *field, const uint8_t *bytes, double *value);
-
 /* Bytes of fields[count]. */
 unsigned schema_bytes(const schema_field *fields, int count);
 

@@ -19,7 +19,7 @@ twofold double_double_ratio(uint64_t numerator, uint64_t denominator) {
     return double_double_div(of_whole(numerator), of_whole(denominator));
 }
 
-twofold double_double_neg(twofold a) { return (twofold){-a.high, -a.low}; }
+static twofold double_double_neg(twofold a) { return (twofold){-a.high, -a.low}; }
 
 twofold double_double_scale(twofold a, double power_of_two) {
     return (twofold){a.high * power_of_two, a.low * power_of_two};

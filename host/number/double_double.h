@@ -21,7 +21,6 @@ twofold double_double_add(twofold a, twofold b);
 twofold double_double_sub(twofold a, twofold b);
 twofold double_double_mul(twofold a, twofold b);
 twofold double_double_div(twofold a, twofold b);
-twofold double_double_neg(twofold a);
 /* a times a power of two, exactly. */
 twofold double_double_scale(twofold a, double power_of_two);
 

@@ -15,7 +15,8 @@
 /* === faults of readings ======================================================================= */
 /* Faults of sensors, the load cell and the line. */
 
-double fault_draw(const fault_plan *plan, fault_case *f) {
+/* A new random number from 0 to below 1. */
+static double fault_draw(const fault_plan *plan, fault_case *f) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
     hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
     hash = wh_hash_u64(hash, f->draws++);
@@ -207,7 +208,8 @@ static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     f->pending_count = kept;
 }
 
-void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
+/* Apply an active fault, or its pending readings, to the readings at time_s. */
+static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const fault_place at = fault_rows[f->kind].place;
     if (f->active && at == FAULT_EDGES) {
         break_edges(plan, f, time_s, r);

@@ -171,10 +171,4 @@ void fault_print_kinds(FILE *out);
 
 /* --- between the files of faults --------------------------------------------------------------------------------*/
 
-/* A new random number from 0 to below 1. */
-double fault_draw(const fault_plan *plan, fault_case *f);
-
-/* Apply an active fault, or its pending readings, to the readings at time_s. */
-void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r);
-
 #endif

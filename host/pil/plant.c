@@ -237,7 +237,7 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
     return true;
 }
 
-void recorded_enter(recorded *r, void *run, uint64_t steps) {
+static void recorded_enter(recorded *r, void *run, uint64_t steps) {
     if (r->rows != NULL && steps % r->every == 0) {
         records_read(r->rows, run, ratio_times(steps, r->rows->image->step));
         (void)records_write(r->rows);

@@ -54,7 +54,6 @@ typedef struct recorded {
  * steps. False, reported, if every_s is not a whole number of steps, or the file cannot be written. With `name` NULL
  * nothing is recorded. */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
-void recorded_enter(recorded *r, void *run, uint64_t steps);
 /* False, reported, if the file is incomplete. */
 bool recorded_close(recorded *r);
 

@@ -53,7 +53,9 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest, double *ratio) {
+/* The let that equals *ratio times a part of p (`whole`: all of p), and *rest of p without it; or NULL. */
+static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
+                              double *ratio) {
     let_row *best = NULL;
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
         let_row *r = &s->lets->row[i];
@@ -74,7 +76,8 @@ const symbol *show_let(const show *s, const poly *p, bool whole, const poly **re
     return best->let;
 }
 
-const symbol *show_let_factor(const show *s, const atom *x, double exponent) {
+/* The let that equals this power. */
+static const symbol *show_let_factor(const show *s, const atom *x, double exponent) {
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
         let_row *r = &s->lets->row[i];
         const poly_term *t = &r->value->terms[0];
@@ -156,7 +159,8 @@ void show_symbol(const show *s, const symbol *sym, int primes) {
     }
 }
 
-bool show_as_fraction(double value, double *top, double *bottom) {
+/* value = top / bottom with small whole numbers? If not, top is the value and bottom 1. */
+static bool show_as_fraction(double value, double *top, double *bottom) {
     for (int whole = 1; whole <= 360; whole++) {
         const double q = whole;
         const double p = number_floor(value * q + 0.5);
@@ -350,7 +354,8 @@ static void show_atom(const show *s, const atom *x, double exponent) {
 
 enum { RANKS = 4 + PRIMES_MAX }; /* of show_rank() */
 
-int show_rank(const atom *x) {
+/* Position of a factor in a product: 0 parameters, 1 inputs, 2 coordinates, then the others. */
+static int show_rank(const atom *x) {
     if (x->kind != ATOM_SYMBOL) {
         return 3;
     }
@@ -373,7 +378,8 @@ void show_separate(const show *s, bool *first) {
     *first = false;
 }
 
-void show_factors(const show *outer, const piece *p, int side, bool *first) {
+/* The factors above (side 1) or below (-1) the fraction bar. */
+static void show_factors(const show *outer, const piece *p, int side, bool *first) {
     show inner = *outer;
     const show *s = &inner;
     for (int i = 0; i < p->mono->count; i++) {
@@ -398,7 +404,7 @@ void show_factors(const show *outer, const piece *p, int side, bool *first) {
     }
 }
 
-int show_count_below(const piece *p) {
+static int show_count_below(const piece *p) {
     int count = 0;
     for (int i = 0; i < p->mono->count; i++) {
         count += p->mono->factors[i].exponent < 0.0;
@@ -407,7 +413,7 @@ int show_count_below(const piece *p) {
 }
 
 /* The size of the coefficient times the factors: 2*m*r*sin(a)/3. A lone number is written, a factor 1 is not. */
-void show_product(const show *s, const piece *p, double size) {
+static void show_product(const show *s, const piece *p, double size) {
     double top;
     double bottom;
     show_as_fraction(size, &top, &bottom);

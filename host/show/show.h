@@ -53,21 +53,12 @@ const poly *show_common(algebra *a, const poly *p);
 
 /* === one product for readers ================================================================== */
 
-/* value = top / bottom with small whole numbers? If not, top is the value and bottom 1. */
-bool show_as_fraction(double value, double *top, double *bottom);
 /* A common factor of these coefficients: its top and bottom divide those of all fractions. With `whole`, dividing by it
  * gives whole numbers. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
-/* Position of a factor in a product: 0 parameters, 1 inputs, 2 coordinates, then the others. */
-int show_rank(const atom *x);
 /* The sign between two factors, unless this is the first. */
 void show_separate(const show *s, bool *first);
-/* The factors above (side 1) or below (-1) the fraction bar. */
-void show_factors(const show *outer, const piece *p, int side, bool *first);
-int show_count_below(const piece *p);
-/* size * factors, as a fraction if there are factors below the bar; a factor 1 is omitted. */
-void show_product(const show *s, const piece *p, double size);
 /* A let, and its expression. */
 typedef struct let_row {
     const symbol *let;
@@ -83,10 +74,6 @@ struct show_lets {
 
 /* From now on, sums and functions with a name in the file (`let`) are printed as that name. */
 void show_lets_begin(show *s, const equations *e);
-/* The let that equals *ratio times a part of p (`whole`: all of p), and *rest of p without it; or NULL. */
-const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest, double *ratio);
-/* The let that equals this power. */
-const symbol *show_let_factor(const show *s, const atom *x, double exponent);
 /* A sum in parentheses. */
 void show_grouped(const show *s, const poly *p);
 

@@ -10,6 +10,8 @@
 #include "host/lang/value.h"
 #include "host/number/functions.h"
 
+static void show_equation(const show *s, const equations *e, int i);
+
 /* === show break =============================================================================== */
 /* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned. A sum inside parentheses or below
  * a root is broken in place. */
@@ -406,7 +408,8 @@ static void latex_rows(const show *s, const contact_law *law, const contact_set 
     }
 }
 
-void show_contacts(const show *s, const equations *e) {
+/* The same after the equations, in the style of `s` and with its names for sums. */
+static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
     bool first = true;
@@ -570,7 +573,8 @@ static void write_left_side(const show *s, const equations *e, int i) {
     }
 }
 
-void show_equation(const show *s, const equations *e, int i) {
+/* One equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
+static void show_equation(const show *s, const equations *e, int i) {
     show_row row;
     const show *to = show_row_begin(&row, s);
     fputs("  ", to->out);
@@ -665,7 +669,8 @@ static const char *free_letter(const mechanism *m, const char *const *letters) {
     return *letters;
 }
 
-int show_y_number(const equations *e, int unknown_index, int primes) {
+/* y(1) ... y(N): values first, then rates, and so on, numbered as in the dissertation. */
+static int show_y_number(const equations *e, int unknown_index, int primes) {
     int number = 1;
     for (int level = 0; level <= primes; level++) {
         for (int i = 0; i < e->count; i++) {

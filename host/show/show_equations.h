@@ -14,22 +14,13 @@
  * line begins with `prefix`. */
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
 
-/* The same after the equations, in the style of `s` and with its names for sums. */
-void show_contacts(const show *s, const equations *e);
-
 /* The equations of motion, one for each coordinate, with terms collected by second derivative and factored; then the
  * first-order form. */
 void show_text(FILE *out, const equations *e);
 void show_latex(FILE *out, const equations *e);
 
-/* One equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
-void show_equation(const show *s, const equations *e, int i);
-
 /* The definitions of the printed names: `heading`, rows separated by `behind`, `footing`; nothing if no name was used. */
 void show_lets_end(show *s, const char *heading, const char *behind, const char *footing);
-
-/* y(1) ... y(N): values first, then rates, and so on, numbered as in the dissertation. */
-int show_y_number(const equations *e, int unknown_index, int primes);
 
 /* Symbolic solution for the highest derivatives by Cramer's rule: top[i] over *bottom. False if the result is too long
  * to read. */
