@@ -357,7 +357,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
      * this is. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
-        op_list_gauge(&p->step, op_list_gauge_price(p->step));
+        op_list_scale(&p->step, op_list_scaling_price(p->step));
     }
     image_draft d = image_draft_new();
     image *im = d.made;

@@ -14,7 +14,7 @@ static uint32_t seed_of(const noise *of) {
 
 /* The operation that adds noise k to `node`. */
 static int with_noise(const equations *e, lowering *l, const noise *each, int node) {
-    op_list *t = l->tape;
+    op_list *t = l->list;
     const poly *deviation = poly_from_expr(e->algebra, each->deviation);
     const int size = lower(l, equations_fold(e, deviation));
     return op_list_add(t, node, op_list_mul(t, size, op_list_noise(t, seed_of(each))));
@@ -258,7 +258,7 @@ const poly *layout_ready(const layout *map, const poly *p) {
 
 lowering layout_lowering(layout *map, op_list *t) {
     return (lowering){.algebra = map->equations->algebra,
-                      .tape = t,
+                      .list = t,
                       .leaf = layout_leaf,
                       .turn = layout_turn,
                       .context = map};

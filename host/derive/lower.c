@@ -510,7 +510,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
 
 /* The phase of an angle: numbers times turn angles, a fixed offset, and the remaining part in radians. */
 static int phase_of(lowering *l, const poly *angle) {
-    double *multiple = alloc(l->tape->angles, sizeof *multiple);
+    double *multiple = alloc(l->list->angles, sizeof *multiple);
     double offset = 0.0;
     const poly *rest = poly_number(l->algebra, 0.0);
     for (int i = 0; i < angle->count; i++) {
@@ -525,7 +525,7 @@ static int phase_of(lowering *l, const poly *angle) {
         }
     }
     const int radians = poly_is_zero(rest) ? -1 : lower(l, rest);
-    const int phase = op_list_phase(l->tape, multiple, offset, radians);
+    const int phase = op_list_phase(l->list, multiple, offset, radians);
     free(multiple);
     return phase;
 }
@@ -536,7 +536,7 @@ static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
     const wave w = l->waves[i];
-    op_list *t = l->tape;
+    op_list *t = l->list;
     if (w.cosine >= 0) {
         return w.cosine;
     }
@@ -568,7 +568,7 @@ static int cosine_of(lowering *l, int i) {
 
 static int sine_of(lowering *l, int i) {
     const wave w = l->waves[i];
-    op_list *t = l->tape;
+    op_list *t = l->list;
     if (w.sine >= 0) {
         return w.sine;
     }
@@ -693,7 +693,7 @@ typedef struct product {
 
 static void product_multiply(lowering *l, product *p, int node, int exponent) {
     double value;
-    if (op_list_is_constant(l->tape, node, &value)) {
+    if (op_list_is_constant(l->list, node, &value)) {
         p->coefficient = folding_product(p->coefficient, folding_power(value, exponent));
         return;
     }
@@ -705,9 +705,9 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
     }
     if (p->count == FACTORS_MAX) { /* never observed, but still correct */
         const int last = FACTORS_MAX - 1;
-        const int first = op_list_power(l->tape, p->powers[last].node, p->powers[last].exponent);
-        const int more = op_list_power(l->tape, node, exponent);
-        p->powers[last].node = op_list_mul(l->tape, first, more);
+        const int first = op_list_power(l->list, p->powers[last].node, p->powers[last].exponent);
+        const int more = op_list_power(l->list, node, exponent);
+        p->powers[last].node = op_list_mul(l->list, first, more);
         p->powers[last].exponent = 1;
         return;
     }
@@ -716,20 +716,20 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
 
 static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
-        return l->leaf(l->context, l->tape, x->symbol, x->primes);
+        return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
     /* a phase has 1.5e-9 rad: enough for a turn angle, which has the same digits, but not for a small number */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
-        return op_list_div(l->tape, s, waves_cosine(l, x->argument[0]));
+        return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
     }
     const int first = lower(l, x->argument[0]);
     const int second = x->argument[1] == NULL ? -1 : lower(l, x->argument[1]);
     switch (x->kind) {
     case ATOM_SYMBOL:
     case ATOM_GROUP: break;
-    case ATOM_POWER: return op_list_pow(l->tape, first, second);
-    case ATOM_CALL: return op_list_call(l->tape, x->function, first, second);
+    case ATOM_POWER: return op_list_pow(l->list, first, second);
+    case ATOM_CALL: return op_list_call(l->list, x->function, first, second);
     }
     return first;
 }
@@ -739,19 +739,19 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
     double size = fabs(f->exponent);
     if (size != number_floor(size)) {
         if (2.0 * size == number_floor(2.0 * size) && size < 32.0) {
-            node = op_list_unary(l->tape, OP_SQRT, node);
+            node = op_list_unary(l->list, OP_SQRT, node);
             size *= 2.0;
         } else {
-            node = op_list_power(l->tape, node, size);
+            node = op_list_power(l->list, node, size);
             size = 1.0;
         }
     }
     if (size > EXPONENT_MAX) {
-        node = op_list_power(l->tape, node, size);
+        node = op_list_power(l->list, node, size);
         size = 1.0;
     }
     if (f->exponent < 0.0) {
-        node = op_list_div(l->tape, op_list_constant(l->tape, 1.0), node);
+        node = op_list_div(l->list, op_list_constant(l->list, 1.0), node);
     }
     product_multiply(l, p, node, (int)size);
 }
@@ -759,7 +759,7 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
 /* Sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
 static int sum_of_like(lowering *l, const product *products, const int *nodes, const bool *member,
                        int count, double size) {
-    op_list *t = l->tape;
+    op_list *t = l->list;
     int sum = op_list_constant(t, 0.0);
     for (int sign = 0; sign < 2; sign++) {
         for (int i = 0; i < count; i++) {
@@ -773,7 +773,7 @@ static int sum_of_like(lowering *l, const product *products, const int *nodes, c
 
 /* Products without a common factor: terms with coefficients of the same size are added first. */
 static int sum_flat(lowering *l, const product *products, int count) {
-    op_list *t = l->tape;
+    op_list *t = l->list;
     int *nodes = alloc(count, sizeof *nodes);
     bool *done = alloc(count, sizeof *done);
     bool *member = alloc(count, sizeof *member);
@@ -877,8 +877,8 @@ static int most_shared(const lowering *l, const product *products, int count) {
         for (int k = 0; k < products[i].count; k++) {
             const int node = products[i].powers[k].node;
             const int uses = times_in(nodes, total, node);
-            const bool rate = l->tape->ops[node].code == OP_RATE;
-            const bool best_rate = best >= 0 && l->tape->ops[best].code == OP_RATE;
+            const bool rate = l->list->ops[node].code == OP_RATE;
+            const bool best_rate = best >= 0 && l->list->ops[best].code == OP_RATE;
             if (uses > best_uses || (uses == best_uses && best >= 0 && rate && !best_rate)) {
                 best = node;
                 best_uses = uses;
@@ -891,7 +891,7 @@ static int most_shared(const lowering *l, const product *products, int count) {
 
 /* Consumes the products. */
 static int sum_of(lowering *l, product *products, int count) {
-    op_list *t = l->tape;
+    op_list *t = l->list;
     if (count <= 0) {
         return op_list_constant(t, 0.0);
     }

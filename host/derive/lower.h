@@ -27,8 +27,8 @@ typedef struct wave wave;
 
 typedef struct lowering {
     algebra *algebra;
-    op_list *tape;
-    /* The operation for a symbol outside sines (a leaf of the tape). */
+    op_list *list;
+    /* The operation for a symbol outside sines (a leaf of the list). */
     int (*leaf)(void *context, op_list *t, const symbol *sym, int primes);
     /* Index of the symbol's turn angle, or -1. */
     int (*turn)(void *context, const symbol *sym);

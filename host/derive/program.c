@@ -550,7 +550,7 @@ static int slope_of(layout *map, lowering *l, component of, const int *highest) 
     if (up == map->equations->unknowns[of.unknown].order) {
         return highest[of.unknown];
     }
-    return op_list_leaf(l->tape, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
+    return op_list_leaf(l->list, OP_LINEAR, map->real_number[of.unknown * map->order_room + up]);
 }
 
 static op_list *make_step(layout *map, const linear_system *s) {

@@ -12,7 +12,7 @@
 #include "host/image/op_list.h"
 #include "host/number/folding.h"
 
-/* === solving n linear equations by entering operations into a tape ============================ */
+/* === solving n linear equations by entering operations into a list ============================ */
 /* Gaussian elimination and Cramer's rule, as operations. */
 
 static int minus_product(op_list *t, int from, int x, int y) {
@@ -772,7 +772,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
                   int *solution) {
     const int n = s->n;
     lowering l = *like;
-    l.tape = t;
+    l.list = t;
     l.waves = NULL;
     l.wave_count = l.wave_room = 0;
     l.lead = how->lead;
@@ -801,7 +801,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
 
 /* -1 if this arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
-    op_list *t = op_list_new(l->tape->angles, s->n);
+    op_list *t = op_list_new(l->list->angles, s->n);
     int weight = -1;
     if (enter(l, t, s, how, t->result)) {
         for (int i = 0; i < s->n; i++) {
@@ -922,5 +922,5 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
     if (s->sparing) {
         try_leads(l, s, &best);
     }
-    enter(l, l->tape, s, &best.how, solution);
+    enter(l, l->list, s, &best.how, solution);
 }

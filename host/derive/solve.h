@@ -23,8 +23,8 @@ typedef struct linear_system {
     bool precise;
 } linear_system;
 
-/* Enter the solution into l->tape and store the operation for each unknown in solution[n]. The caller sets `leaf`,
- * `turn` and `context` of *l. Several arrangements are tried on separate tapes; the cheapest is entered. */
+/* Enter the solution into l->list and store the operation for each unknown in solution[n]. The caller sets `leaf`,
+ * `turn` and `context` of *l. Several arrangements are tried on separate lists; the cheapest is entered. */
 void solve_highest(lowering *l, const linear_system *system, int *solution);
 
 #endif

@@ -194,7 +194,7 @@ static void find_mirrors(op_list_tables *of) {
 
 /* The error of each table, at `TRIED` places a cell, including its middle and its knots: the largest errors are at or
  * near these. */
-static void measure(const table_functions *f, op_list_tables *of) {
+static void set_errors(const table_functions *f, op_list_tables *of) {
     enum { TRIED = 16 };
     const op_list *c = f->list;
     const int n = 1 << of->bits;
@@ -245,7 +245,7 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
         }
     }
     find_mirrors(into);
-    measure(f, into);
+    set_errors(f, into);
     free(all);
     free(value);
     free(slope);

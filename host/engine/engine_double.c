@@ -13,7 +13,7 @@ uint64_t engine_evaluation(const image *im) {
 }
 
 struct evaluator {
-    const op_list *tape;
+    const op_list *list;
     registers registers;
     bool wraps;
 };
@@ -35,7 +35,7 @@ void evaluator_wrap(evaluator *ev) { ev->wraps = true; }
 
 /* The angles as the list's phases take them. */
 static const double *phases_of(const evaluator *ev, const double *angle_rad, double *wrapped) {
-    for (int i = 0; i < ev->tape->angles && ev->wraps; i++) {
+    for (int i = 0; i < ev->list->angles && ev->wraps; i++) {
         wrapped[i] = number_centred(angle_rad[i], 6.283185307179586477);
     }
     return ev->wraps ? wrapped : angle_rad;
@@ -45,7 +45,7 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
                    const double *rate, const double *input, double *result) {
     double wrapped[IMAGE_COMPONENTS_MAX];
     const double *phase = phases_of(ev, angle_rad, wrapped);
-    evaluate(ev->tape, ev->registers,
+    evaluate(ev->list, ev->registers,
              (leaves){NULL, phase, angle_rad, time_s, linear, rate, input, NULL}, result);
 }
 
@@ -57,7 +57,7 @@ void evaluator_rounding(const evaluator *ev, const double *angle_rad, double lea
     double wrapped[IMAGE_COMPONENTS_MAX];
     const registers *r = &ev->registers;
     const double *phase = phases_of(ev, angle_rad, wrapped);
-    engine_operations += 2U * (uint64_t)ev->tape->count;
-    rounding_of(ev->tape, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
+    engine_operations += 2U * (uint64_t)ev->list->count;
+    rounding_of(ev->list, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
                 error);
 }

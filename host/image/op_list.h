@@ -29,7 +29,7 @@
  *           l, r, u   in Octave: the linear component, rate, input with the number a.
  *
  * Four more files evaluate each operation: host/engine/evaluate.inc, host/engine/rounding.c, host/derive/solve.c,
- * host/image/op_list_gauge.c, which also multiplies it. */
+ * host/image/op_list_scaling.c, which also multiplies it. */
 
 /* clang-format off */
 #define OP_ROWS(X) \

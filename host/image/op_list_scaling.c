@@ -615,12 +615,12 @@ enum {
 #define CLEARLY 0.5
 #define LESS 0.99
 
-int op_list_gauge_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
+int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 
 /* --- one list -------------------------------------------------------------------------------------------------*/
 
 /* The best list so far. */
-typedef struct gauge_search {
+typedef struct scaling_search {
     const op_list *like;
     const op_list *from; /* the last round's */
     int most;            /* operations */
@@ -629,7 +629,7 @@ typedef struct gauge_search {
     int operations;
     double *times; /* [3 * from->count] */
     int64_t tried; /* total operations of tried lists */
-} gauge_search;
+} scaling_search;
 
 /* x to the e: whole powers as products, which are exact here. */
 static double power(double x, double e) {
@@ -644,12 +644,12 @@ static double power(double x, double e) {
 }
 
 /* More operations are accepted for a clearly lower bias, as many for a lower one, fewer for an equal one. */
-static bool is_better(const gauge_search *s, double bias, int operations) {
+static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
 }
 
-static void try_number(gauge_search *s, const double *exponent, double x) {
+static void try_number(scaling_search *s, const double *exponent, double x) {
     if (s->tried >= PATIENCE) {
         return;
     }
@@ -676,7 +676,7 @@ static void try_number(gauge_search *s, const double *exponent, double x) {
 
 /* Products of small primes, the simplest first. Decimals times enough fives are whole numbers over powers of two;
  * thirds times three are whole. Factors of two change nothing. */
-static void try_primes(gauge_search *s, const double *exponent) {
+static void try_primes(scaling_search *s, const double *exponent) {
     for (int all = 1; all <= FIVES + THREES + SEVENS; all++) {
         for (int fives = -FIVES; fives <= FIVES; fives++) {
             for (int threes = -THREES; threes <= THREES; threes++) {
@@ -693,7 +693,7 @@ static void try_primes(gauge_search *s, const double *exponent) {
 }
 
 /* Numbers that turn the constant of a product into one. */
-static void try_vanishing(gauge_search *s, const double *exponent) {
+static void try_vanishing(scaling_search *s, const double *exponent) {
     int tried = 0;
     double number;
     for (int i = 0; i < s->from->count && tried < VANISHING; i++) {
@@ -709,7 +709,7 @@ static void try_vanishing(gauge_search *s, const double *exponent) {
     }
 }
 
-static void try_reals(gauge_search *s, const double *exponent) {
+static void try_reals(scaling_search *s, const double *exponent) {
     const double golden = 0.6180339887498949;
     for (int k = 1; k <= REALS; k++) {
         try_number(s, exponent, 1.0 + number_remainder(k * golden, 1.0));
@@ -717,7 +717,7 @@ static void try_reals(gauge_search *s, const double *exponent) {
 }
 
 /* Is the number of operations acceptable for a generic number, which turns no constant into one? */
-static bool affordable(const gauge_search *s, const double *exponent) {
+static bool affordable(const scaling_search *s, const double *exponent) {
     for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(1.2345678901, exponent[i]);
     }
@@ -728,7 +728,7 @@ static bool affordable(const gauge_search *s, const double *exponent) {
 }
 
 /* Simple numbers first, for every freedom: the round may end early. */
-static void search_round(gauge_search *s) {
+static void search_round(scaling_search *s) {
     op_list_freedoms f = op_list_freedoms_of(s->from);
     bool *can = alloc((int64_t)f.count + 1, sizeof *can);
     s->tried = 0;
@@ -748,17 +748,17 @@ static void search_round(gauge_search *s) {
     op_list_freedoms_free(&f);
 }
 
-void op_list_gauge(op_list **t, int price) {
+void op_list_scale(op_list **t, int price) {
     const double bias = op_list_bias(*t, *t);
     if ((*t)->count > LONGEST || !(bias > 0.0)) {
         return;
     }
     op_list *found = NULL;
-    gauge_search s = {.like = *t,
-                      .from = *t,
-                      .most = op_list_operations(*t) + price,
-                      .bias = bias,
-                      .operations = op_list_operations(*t)};
+    scaling_search s = {.like = *t,
+                        .from = *t,
+                        .most = op_list_operations(*t) + price,
+                        .bias = bias,
+                        .operations = op_list_operations(*t)};
     for (int round = 0; round < ROUNDS; round++) {
         s.times = alloc(3 * (int64_t)s.from->count + 1, sizeof *s.times);
         search_round(&s);

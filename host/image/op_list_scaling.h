@@ -1,4 +1,4 @@
-/* op_list_scaling.h: the gauge freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
+/* op_list_scaling.h: the scaling freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
  * or in the equations of a system. Some factors suit the constants of float better: 1.08 - 0.36 s^2 over M is 27 - 9
  * s^2 over 25 M, where no constant is rounded. */
 #ifndef IMAGE_OP_LIST_SCALING_H
@@ -13,11 +13,11 @@
 double op_list_bias(const op_list *t, const op_list *like);
 
 /* Most additional operations of a better list: one, and one for each forty operations. */
-int op_list_gauge_price(const op_list *t);
+int op_list_scaling_price(const op_list *t);
 
 /* Replace *t by a list that gives the same results, except for double's round-off, with at most half the bias. Without
  * such a list within the allowed number of additional operations, *t stays. */
-void op_list_gauge(op_list **t, int price);
+void op_list_scale(op_list **t, int price);
 
 /* --- its parts ----------------------------------------------------------------------------------------------- */
 

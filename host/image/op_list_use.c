@@ -250,7 +250,7 @@ int op_list_carried(const op_list *t) {
     return times;
 }
 
-/* === tape order =============================================================================== */
+/* === order of a list ========================================================================== */
 /* A reordering of a finished list's operations with few live values. A list starts in order of entry: a whole matrix
  * before its first row is eliminated. In a large list more values wait than a processor has registers, and a third of
  * the instructions move them to memory and back. Here the next operation is always one that ends the most lives. Ties

@@ -251,7 +251,7 @@ long double long_call(function_id function, long double x, long double y) {
 /* --- lists -----------------------------------------------------------------------------------------*/
 
 struct long_list {
-    const op_list *tape;
+    const op_list *list;
     long double *value;
     long double *sine;
     long double *cosine;
@@ -298,7 +298,7 @@ static long double cell_of(const op_list *t, long double phase_rad) {
 #define B (l->value[o->b])
 
 static long double value_of(long_list *l, int i, const long_leaves *in) {
-    const op *o = &l->tape->ops[i];
+    const op *o = &l->list->ops[i];
     switch (o->code) {
     case OP_CONSTANT: return (long double)o->value;
     case OP_LINEAR: return in->linear[o->a];
@@ -309,7 +309,7 @@ static long double value_of(long_list *l, int i, const long_leaves *in) {
     case OP_TIME: return in->time_s;
     case OP_RADIANS: return in->angle_rad[o->a];
     case OP_PHASE:
-        long_sincos(phase_of(l->tape, o, in) + (o->b >= 0 ? B : 0.0L), &l->sine[i], &l->cosine[i]);
+        long_sincos(phase_of(l->list, o, in) + (o->b >= 0 ? B : 0.0L), &l->sine[i], &l->cosine[i]);
         return 0.0L;
     case OP_SIN: return l->sine[o->a];
     case OP_COS: return l->cosine[o->a];
@@ -325,9 +325,9 @@ static long double value_of(long_list *l, int i, const long_leaves *in) {
     case OP_MAX: return long_call(FN_MAX, A, B);
     case OP_CALL: return long_call(o->function, A, o->b >= 0 ? B : 0.0L);
     case OP_POW: return long_power(A, B);
-    case OP_CELL: return cell_of(l->tape, phase_of(l->tape, o, in));
+    case OP_CELL: return cell_of(l->list, phase_of(l->list, o, in));
     case OP_LINE:
-    case OP_CUBIC: return (long double)l->tape->tables.number[(size_t)A + (size_t)o->value];
+    case OP_CUBIC: return (long double)l->list->tables.number[(size_t)A + (size_t)o->value];
     }
     return 0.0L;
 }
@@ -336,7 +336,7 @@ static long double value_of(long_list *l, int i, const long_leaves *in) {
 #undef B
 
 void long_list_run(long_list *l, const long_leaves *in, long double *result) {
-    const op_list *t = l->tape;
+    const op_list *t = l->list;
     for (int i = 0; i < t->count; i++) {
         l->value[i] = value_of(l, i, in);
     }

@@ -383,7 +383,7 @@ TEST(tape_entered, functions_of_constants) {
 void suite_tape_entered(void) { die = dice_of("tape_entered", 4170); }
 
 /* === tape freed =============================================================================== */
-/* Parts of op_list_gauge() (host/image/op_list_gauge.h). The effect of rounded constants on results has a closed
+/* Parts of op_list_scale() (host/image/op_list_scale.h). The effect of rounded constants on results has a closed
  * form. Lists have known freedoms, and scaled by them they compute the same. */
 
 /* A short decimal from 0.1 to 10 that float does not hold. */
@@ -768,7 +768,7 @@ TEST(tape_freed, operands_are_entered_in_one_order) {
 void suite_tape_freed(void) { die = dice_of("tape_freed", 4190); }
 
 /* === tape gauged ============================================================================== */
-/* Gauges that op_list_gauge() must find (host/image/op_list_gauge.h). The lists have a factor that makes all
+/* Gauges that op_list_scale() must find (host/image/op_list_scale.h). The lists have a factor that makes all
  * constants exact: products of small primes, and constants that vanish. */
 
 /* A sum of two products of leaves with integers below 120 times `unit`. */
@@ -807,7 +807,7 @@ static void expect_none_off(op_list *t) {
     results_of(t, before);
     const double bias = op_list_bias(t, t);
     TEST_ASSERT_TRUE(bias > 1e-10);
-    op_list_gauge(&t, 0);
+    op_list_scale(&t, 0);
     TEST_ASSERT_TRUE(op_list_bias(t, t) <= 1e-6 * bias);
     TEST_ASSERT_TRUE(op_list_operations(t) <= operations);
     results_of(t, after);
@@ -873,7 +873,7 @@ TEST(tape_gauged, constants_vanish) {
         double before;
         double after;
         results_of(t, &before);
-        op_list_gauge(&t, 0);
+        op_list_scale(&t, 0);
         results_of(t, &after);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, before, after);
         TEST_ASSERT_TRUE(op_list_operations(t) <= operations);
@@ -897,7 +897,7 @@ TEST(tape_gauged, long_lists_are_left_alone) {
         op_list_prune(longer);
         TEST_ASSERT_EQUAL_INT(250 + over, longer->count);
         const uint64_t hash = op_list_hash(longer);
-        op_list_gauge(&longer, 0);
+        op_list_scale(&longer, 0);
         TEST_ASSERT_EQUAL(over == 1, hash == op_list_hash(longer));
         op_list_free(longer);
     }
@@ -909,7 +909,7 @@ TEST(tape_gauged, what_a_better_list_may_cost) {
     int sum = op_list_leaf(t, OP_INPUT, 0);
     for (int operations = 0; operations < 200; operations++) {
         TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t));
-        TEST_ASSERT_EQUAL_INT((int)(1.0 + floor(operations / 40.0)), op_list_gauge_price(t));
+        TEST_ASSERT_EQUAL_INT((int)(1.0 + floor(operations / 40.0)), op_list_scaling_price(t));
         sum = op_list_unary(t, OP_ABS, sum);
     }
     op_list_free(t);

@@ -154,7 +154,7 @@ static bool hold(const char *text, uint64_t seed, tally *all) {
         op_list *gauged = im->list[IMAGE_STEP];
         const int more = op_list_operations(gauged) - op_list_operations(plain);
         const bool changed = op_list_hash(gauged) != op_list_hash(plain);
-        TEST_ASSERT_TRUE_MESSAGE(more <= op_list_gauge_price(plain), text);
+        TEST_ASSERT_TRUE_MESSAGE(more <= op_list_scaling_price(plain), text);
         expect_equal(plain, gauged, &d, seed, text);
         all->lists++;
         if (changed) {
@@ -228,9 +228,9 @@ TEST(tape_gauge, a_quotient_gets_whole_numbers) {
     op_list_prune(t);
     const int operations = op_list_operations(t);
     TEST_ASSERT_TRUE(op_list_bias(t, t) > 1e-8);
-    op_list_gauge(&t, 0);
+    op_list_scale(&t, 0);
     TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* no free operation here */
-    op_list_gauge(&t, 1);
+    op_list_scale(&t, 1);
     TEST_ASSERT_EQUAL_INT(operations + 1, op_list_operations(t));
     TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-14);
     for (int i = 0; i < t->count; i++) {
@@ -242,16 +242,16 @@ TEST(tape_gauge, a_quotient_gets_whole_numbers) {
 
 TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
-    static const double left[] = {0.1, 0.5}; /* of the bias; op_list_gauge() promises the second */
+    static const double left[] = {0.1, 0.5}; /* of the bias; op_list_scale() promises the second */
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);
         program *p = before_gauge(&d, names[k]);
         op_list **step = &p->step;
         const uint64_t hash = op_list_hash(*step);
         const double bias = op_list_bias(*step, *step);
-        op_list_gauge(step, 0);
+        op_list_scale(step, 0);
         TEST_ASSERT_TRUE_MESSAGE(op_list_hash(*step) == hash, names[k]);
-        op_list_gauge(step, op_list_gauge_price(*step));
+        op_list_scale(step, op_list_scaling_price(*step));
         TEST_ASSERT_TRUE_MESSAGE(op_list_bias(*step, *step) < left[k] * bias, names[k]);
         program_free(p);
         derived_free(&d);
@@ -267,7 +267,7 @@ TEST(tape_gauge, what_needs_nothing_stays) {
         t->result[0] = op_list_mul(t, op_list_constant(t, number[k]), op_list_mul(t, w, w));
         op_list_prune(t);
         const uint64_t hash = op_list_hash(t);
-        op_list_gauge(&t, number[k] == 0.3 ? 0 : 3);
+        op_list_scale(&t, number[k] == 0.3 ? 0 : 3);
         TEST_ASSERT_TRUE(op_list_hash(t) == hash);
         op_list_free(t);
     }
