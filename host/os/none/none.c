@@ -65,6 +65,8 @@ int system_end(FILE *command) {
 
 /* --- points one after the other ------------------------------------------------------------------------*/
 
+int jobs_workers(void) { return 1; }
+
 jobs_result jobs_run(const jobs *j) {
     for (uint64_t point = j->first; point < j->end; point++) {
         char *text[2];
