@@ -228,6 +228,29 @@ static void test_no_limit(void) {
     }
 }
 
+/* From 90 degrees a pendulum swings wider in each long step and goes over the top, a little below the limit of its small swings,
+ * 2.83 root(l/g). No longer step is taken for stable again, up to ten times the limit, in a run of nine to 35 such steps. */
+static void test_pendulums_from_a_right_angle(void) {
+    static const char text[] = "mechanism pendulum\ncoordinate a [rad]\nparameter l = 0.19 [m]\n"
+                               "T = 1 [kg]*(l*a')^2/2\nV = -9.81 [N]*l*cos(a)\n"
+                               "scene s { start a = 90 [deg]; step 1 [ms]; until 5 [s] }\n";
+    enum { LONG = 60 };
+    const unsigned many = few_or_all(40, 200);
+    char lengths[40];
+    drawn_map m;
+    snprintf(lengths, sizeof lengths, "l=0.05..0.4:%u", many);
+    open_map(&m, &(map_asked){text, {"step=0.05..3:60,log", lengths}, WH_RK4, 1e-3, NULL});
+    for (uint64_t p = 0; p < many; p++) {
+        const double limit_s = sqrt(8.0 * map_row(&m.map, p) / 9.81);
+        for (uint64_t i = 0; i < LONG; i++) {
+            const double part = map_along(&m.map, i) / limit_s;
+            const bool diverges = cell_of(&m, p, i)->verdict == MAP_DIVERGES;
+            TEST_ASSERT_TRUE(part < 1.0 ? part > 0.9 || !diverges : diverges);
+        }
+    }
+    close_map(&m);
+}
+
 /* Growth by 20 is bounded, by 1e4 is not. If half the step is too long as well, the two runs grow
  * alike, and the finest run of the row decides. */
 static void test_what_bounds_are(void) {
@@ -377,6 +400,7 @@ void suite_map(void) {
     RUN_TEST(test_springs_of_all_methods);
     RUN_TEST(test_decays_of_all_methods);
     RUN_TEST(test_no_limit);
+    RUN_TEST(test_pendulums_from_a_right_angle);
     RUN_TEST(test_what_bounds_are);
     RUN_TEST(test_where_a_tolerance_and_the_energy_end);
     RUN_TEST(test_pairs_without_a_run);
