@@ -4,44 +4,15 @@
 #   target: ... ## words      a target
 #   target: ... ##- words     one that authors use: listed with all=1
 #   ## target-NAME: words     a family of targets, whatever NAME is (##- with all=1)
-
 /^##@ / {
     section = substr($0, 5)
-    if (!(section in lines)) {
-        sections[++count] = section
-    }
-    next
+    if (!(section in lines)) { sections[++count] = section; lines[section] = "" }
 }
-
-/##- / && !all {
-    next
-}
-
-/^[a-z][a-z0-9-]*:.*##-? / {
-    target = $0
+(/^[a-z][a-z0-9-]*:.*##-? / || /^##-? [a-z][a-zA-Z0-9-]*: /) && (all || !/##- /) {
+    target = words = $0
+    sub(/^##-? /, "", target)
     sub(/:.*/, "", target)
-    words = $0
-    sub(/^.*##-? /, "", words)
-    add(target, words)
-}
-
-/^##-? [a-z][a-zA-Z0-9-]*: / {
-    target = $2
-    sub(/:$/, "", target)
-    words = $0
-    sub(/^##-? [^ ]* /, "", words)
-    add(target, words)
-}
-
-function add(target, words) {
+    sub(/^##-? [^ ]* |^.*##-? /, "", words)
     lines[section] = lines[section] sprintf("  make %-22s %s\n", target, words)
 }
-
-END {
-    for (i = 1; i <= count; i++) {
-        if (lines[sections[i]] == "") {
-            continue
-        }
-        printf "\n%s\n%s", sections[i], lines[sections[i]]
-    }
-}
+END { for (i = 1; i <= count; i++) if (lines[sections[i]] != "") printf "\n%s\n%s", sections[i], lines[sections[i]] }

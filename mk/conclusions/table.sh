@@ -6,9 +6,8 @@
 set -eu
 here=$(dirname "$0")
 mode=${1:?usage: table.sh print | check PAGE | renew PAGE [ROWS]}
-page=
-[ "$mode" = print ] || page=${2:?table.sh: which page?}
-[ "$mode" = print ] && rows=${2:-$here/claims.rows} || rows=${3:-$here/claims.rows}
+[ "$mode" = print ] || { page=${2:?table.sh: which page?}; shift; }
+rows=${2:-$here/claims.rows}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -25,9 +24,8 @@ for failed in "$scratch"/*.failed; do
     exit 1
 done
 sort -n "$scratch/list" | while read -r row outputs; do
-    [ -n "$outputs" ] || continue
     # shellcheck disable=SC2086 # names of files, without blanks
-    (cd "$scratch" && awk -F '[ ,()]+' -f "$row.take" $outputs) >"$scratch/$row.ours"
+    [ -z "$outputs" ] || (cd "$scratch" && awk -F '[ ,()]+' -f "$row.take" $outputs) >"$scratch/$row.ours"
 done
 awk -v from="$scratch/" -f "$here/table.awk" "$scratch/rows" >"$scratch/table"
 case $mode in
@@ -41,10 +39,9 @@ renew)
 check)
     grep '^|' "$page" >"$scratch/stated" || true
     awk -F ' [|] ' '
-        { key = $1 $2 }
-        FNR == NR { stated[key] = $6; next }
-        key in stated && stated[key] != $6 {
-            print "error: the verdict has changed from \"" stated[key] "\" to \"" $6 "\":" > "/dev/stderr"; print "  " $0 > "/dev/stderr"
+        FNR == NR { stated[$1 $2] = $6; next }
+        $1 $2 in stated && stated[$1 $2] != $6 {
+            print "error: the verdict has changed from \"" stated[$1 $2] "\" to \"" $6 "\":\n  " $0 > "/dev/stderr"
         }' "$scratch/stated" "$scratch/table"
     cmp -s "$scratch/stated" "$scratch/table" || {
         diff "$scratch/stated" "$scratch/table" | grep '^[<>]' | head -n 20 >&2
@@ -53,11 +50,8 @@ check)
         exit 1
     }
     ;;
-*)
-    echo "table.sh: print, check or renew, not '$mode'" >&2
-    exit 2
-    ;;
+*) echo "table.sh: print, check or renew, not '$mode'" >&2; exit 2 ;;
 esac
-awk -F ' [|] ' 'NR > 2 { n[$6]++; all++ }
-    END { printf "%d claims: %d hold, %d do not, %d are opinions, %d not yet\n", all, n["holds"], n["does not hold"],
+awk -F ' [|] ' 'NR > 2 { n[$6]++ }
+    END { printf "%d claims: %d hold, %d do not, %d are opinions, %d not yet\n", NR - 2, n["holds"], n["does not hold"],
         n["opinion"], n["not yet"] }' "$scratch/table" >&2
