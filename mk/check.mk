@@ -337,8 +337,7 @@ HASH_HOSTS := aarch64 wasm
 hash_hosts = $(foreach h,$(1),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 .PHONY: $(addprefix hash-host-,$(HASH_HOSTS))
 $(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
-	@$(call need,$(host_cc_$*))
-	@$(call need,$(host_run_$*))
+	@$(call host_needs,$*)
 	@$(call host_make,$*) $(HASHED:scenes%=build/hosts/$*/scenes%)
 
 # Every board; those with an image for each scene beside this machine's program that runs as few steps.

@@ -10,39 +10,8 @@ HOSTS := gcc clang gcc-O0 musl m32 aarch64 armhf wasm
 HOSTS_CI := gcc-O2 clang-O2 musl wasm
 MULTIARCH = $(shell gcc -print-multiarch)
 
-# For each: the compiler, settings of its build, what runs it, and its words in the table.
-host_cc_gcc     = gcc
-host_cc_clang   = clang
-host_cc_gcc-O0  = gcc
-host_cc_gcc-O2  = gcc
-host_cc_clang-O2 = clang
-host_cc_musl    = musl-gcc
-host_cc_m32     = gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/$(MULTIARCH)
-host_cc_aarch64 = aarch64-linux-gnu-gcc
-host_cc_armhf   = arm-linux-gnueabihf-gcc
-host_cc_wasm    = clang --target=wasm32-wasi --sysroot=/usr
-
-host_set_gcc-O0  = OPT=-O0
-host_set_gcc-O2  = $(STRICT)
-host_set_clang-O2 = $(STRICT)
-host_set_musl    = LINK_EXTRA=-static
-host_set_aarch64 = LINK_EXTRA=-static
-host_set_armhf   = LINK_EXTRA=-static
-# WebAssembly has no processes and no signals (host/os/none), and a small stack unless it is told.
-host_set_wasm    = SYSTEM=none AR=llvm-ar EXTRA=-D_WASI_EMULATED_SIGNAL LINK_EXTRA=-Wl,-z,stack-size=8388608
-
-# Where each is built; the warnings' gates have built these two (mk/check.mk).
-host_folder = $(or $(host_folder_$(1)),build/hosts/$(1))
-host_folder_gcc-O2 = $(GCC_FOLDER)
-host_folder_clang-O2 = $(CLANG_FOLDER)
-
-host_make = $(MAKE) B=$(call host_folder,$(1)) CC="$(host_cc_$(1))" OPT=-O1 $(host_set_$(1))
-
-host_run_aarch64 = qemu-aarch64
-host_run_armhf   = qemu-arm
-# Node's fast calls into WASI use freed memory after the program's memory has grown (github.com/nodejs/node, issue 53087).
-host_run_wasm    = node --no-warnings --no-turbo-fast-api-calls tests/hosts/wasi.mjs
-
+# For each its words in the table; what they do not say of its compiler, of settings of its build and of what runs it. Two are where
+# the warnings' gates have built them (mk/check.mk).
 host_is_gcc     = gcc -O1, x86-64
 host_is_clang   = clang -O1, x86-64
 host_is_gcc-O0  = gcc -O0, x86-64
@@ -53,6 +22,25 @@ host_is_m32     = gcc -O1 -m32 -msse2 -mfpmath=sse
 host_is_aarch64 = gcc -O1, aarch64, static, qemu-aarch64
 host_is_armhf   = gcc -O1, armhf, static, qemu-arm
 host_is_wasm    = clang -O1, wasm32-wasi, node
+
+host_cc_musl    = musl-gcc
+host_cc_m32     = gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/$(MULTIARCH)
+host_cc_aarch64 = aarch64-linux-gnu-gcc
+host_cc_armhf   = arm-linux-gnueabihf-gcc
+host_cc_wasm    = clang --target=wasm32-wasi --sysroot=/usr
+host_set_gcc-O0 = OPT=-O0
+# WebAssembly has no processes and no signals (host/os/none), and a small stack unless it is told.
+host_set_wasm   = SYSTEM=none AR=llvm-ar EXTRA=-D_WASI_EMULATED_SIGNAL LINK_EXTRA=-Wl,-z,stack-size=8388608
+host_run_aarch64 = qemu-aarch64
+host_run_armhf  = qemu-arm
+# Node's fast calls into WASI use freed memory after the program's memory has grown (github.com/nodejs/node, issue 53087).
+host_run_wasm   = node --no-warnings --no-turbo-fast-api-calls tests/hosts/wasi.mjs
+
+host_folder = $(or $(hash_folder_$(1)),build/hosts/$(1))
+host_cc = $(or $(host_cc_$(1)),$(firstword $(host_is_$(1))))
+host_make = $(MAKE) B=$(call host_folder,$(1)) CC="$(call host_cc,$(1))" OPT=-O1 $(host_set_$(1)) \
+    $(if $(hash_folder_$(1)),$(STRICT)) $(if $(findstring static,$(host_is_$(1))),LINK_EXTRA=-static)
+host_needs = $(call need,$(call host_cc,$(1)))$(if $(host_run_$(1)), && { $(call need,$(host_run_$(1))); })
 
 .PHONY: hosts-now gate-hosts $(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI)))
 hosts-now:
@@ -81,8 +69,7 @@ $(MECHANISMS_FILE): build/tools/mechanisms
 	$(Q)$< $(MECHANISMS) $(SEED) >$@
 
 $(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI))): host-%: $(GEN)/builtin_models.c $(MECHANISMS_FILE)
-	@$(call need,$(host_cc_$*))
-	@[ -z "$(host_run_$*)" ] || { $(call need,$(host_run_$*)); }
+	@$(call host_needs,$*)
 	@$(call host_make,$*) $(call host_folder,$*)/whirl
 	$(say) WRITE build/hosts/out/$*
 	$(Q)sh tests/hosts/write.sh build/hosts/out/$* $(MECHANISMS_FILE) $(host_run_$*) $(call host_folder,$*)/whirl
