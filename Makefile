@@ -55,9 +55,11 @@ include mk/hard.mk
 include mk/rig.mk
 include mk/flash.mk
 
+# What has neither a slash nor a dot in its name is no file.
+.PHONY: FORCE $(shell cat Makefile mk/*.mk | sed -n 's/^\([a-z][a-z0-9 -]*\):\([^=].*\)\{0,1\}$$/\1/p')
+
 ##@ Start here
 
-.PHONY: help
 help: ## this list
 	@echo "Whirl: write a mechanism's energies, get its motion and its firmware."
 	@awk -f mk/help.awk Makefile mk/*.mk
@@ -65,38 +67,31 @@ help: ## this list
 	@echo "make help-all names the others: campaigns, parts of the tests, the pages' tables."
 	@echo "V=1 shows the commands; -j2 uses two cores. BOARD= names a folder of boards/."
 
-.PHONY: help-all
 help-all: ## all targets, those for authors as well
 	@awk -v all=1 -f mk/help.awk Makefile mk/*.mk
 
-.PHONY: deps
 deps: ## install the Debian packages that are missing for everything below
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
 	@echo "All packages are there."
 
-.PHONY: run
 run: ## the whole way: a mechanism's energies, its motion, its firmware on an emulated board
 	@CC="$(CC)" mk/setup/deps.sh host plot firmware
 	@$(MAKE) $(PARALLEL) run-now
 
-.PHONY: rig
 rig: ## the rig's firmware on this machine (with BOARD= in its emulator), its rotor a model's, its console for any terminal program
 	@CC="$(CC)" mk/setup/deps.sh host $(if $(ASKED_BOARD),$(BOARD_DEPS))
 	@$(MAKE) $(PARALLEL) rig-now
 
-.PHONY: pil
 pil: ## processor in the loop: the rig's firmware on BOARD against a plant of its own, and its tape everywhere
 	@CC="$(CC)" mk/setup/deps.sh host firmware
 	@$(MAKE) $(PARALLEL) pil-now
 
-.PHONY: whirl
 whirl: $(B)/whirl ## the command line program, build/whirl
 
 # The program, and the core that the C it writes is compiled with: -I $(PREFIX)/share/whirl.
 PREFIX ?= /usr/local
 INSTALLED = $(DESTDIR)$(PREFIX)
 CORE_ROOMS := core core/contact core/number core/step
-.PHONY: install uninstall
 install: $(B)/whirl ## the program, its man pages and the core's sources into PREFIX (/usr/local), below DESTDIR
 	$(Q)mkdir -p "$(INSTALLED)/bin" "$(INSTALLED)/share/whirl/boards/shared" \
 	    $(CORE_ROOMS:%="$(INSTALLED)/share/whirl/%")
@@ -108,176 +103,143 @@ install: $(B)/whirl ## the program, its man pages and the core's sources into PR
 uninstall: ## remove what `make install` put there
 	$(Q)rm -f "$(INSTALLED)/bin/whirl" "$(INSTALLED)"/share/man/man1/whirl*.1
 	$(Q)rm -rf "$(INSTALLED)/share/whirl"
-.PHONY: man
 man: $(B)/whirl ##- the man pages into build/man: man -l build/man/whirl-run.1
 	$(Q)WHIRL=$(B)/whirl sh mk/commands.sh man $(B)/man
 
 ##@ Tests and quality
 
-.PHONY: test
 test: ## the tests, on this machine and on the emulated board (what takes longer: check); ends with "N passed, N failed"
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host plot firmware tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) $(PARALLEL) test-now
 
-.PHONY: check
 check: ## the quality gates: warnings, layout, lint, sanitizers, firmware rules, equal bits
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) $(PARALLEL) check-now
 
-.PHONY: full
 full: ## all cases of what `make test` and `make check` take fewer of; ends with "N passed, N failed" (most of an hour)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) $(PARALLEL) full-now
 
-.PHONY: hashes
 hashes: ## the same bits from every compiler, optimisation level, board and the interpreter
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) hashes-now
 
-.PHONY: hashes-all
 hashes-all: ##- the same bits on every board there is, on AArch64 and in WebAssembly (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality hosts
 	@$(MAKE) HASH_BUILDS="$(HASH_BUILDS_ALL)" hashes-all-now
 
-.PHONY: test-boards
 test-boards: ## the portable suites, the stack's guard and the firmware rules on every board (half an hour)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host firmware boards tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) test-boards-now
 
-.PHONY: hosts
 hosts: ## the same generated code from whirl built by other compilers, C libraries and processors (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host quality hosts
 	@$(MAKE) hosts-now
 
-.PHONY: flags
 flags: ## other people's compiler flags: the same bits or a refusal (a minute or two)
 	@CC="$(CC)" mk/setup/deps.sh host firmware quality
 	@$(MAKE) flags-now
 
-.PHONY: mutants
 mutants: ##- small changes of the code, and whether the tests notice: MUTANTS, SEED, FOLDERS (an hour or two)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host plot tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@MAKE="$(MAKE)" sh mk/mutants/mutants.sh
 
-.PHONY: properties
 properties: ##- random linkages and hybrids against their energies in numbers: PROPERTIES of each, SEED (10,000: two hours on two cores)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) properties-now
 
-.PHONY: rig-truth
 rig-truth: ##- the rig's measurement against the truth, its intervals against 1,000 noisy runs of each kind (a minute)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
 	@$(MAKE) $(PARALLEL) rig-truth-now
 
-.PHONY: faults
 faults: ##- the rig's controller against faults of plant and links: RUNS (20,000: half an hour; with BOARD= in its emulator 2,000), SEED
 	@CC="$(CC)" mk/setup/deps.sh host $(if $(ASKED_BOARD),firmware boards)
 	@$(MAKE) $(PARALLEL) faults-now
 
-.PHONY: sine-exhaustive
 sine-exhaustive: $(B)/tools/sine_exhaustive ##- the sine's worst error, over all 2^32 angles (minutes)
 	$(Q)$<
 
-.PHONY: functions-exhaustive
 functions-exhaustive: $(B)/tools/functions_exhaustive ##- the float functions' worst errors, over all 2^32 floats (half an hour at most)
 	$(Q)$<
 
-.PHONY: root-exhaustive
 root-exhaustive: $(B)/tools/root_exhaustive ##- the square root in integers, over all 2^32 numbers (a minute)
 	$(Q)$<
 
-.PHONY: long-runs
 long-runs: $(B)/tools/long_runs ##- energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (an hour)
 	$(Q)$< $(or $(LONG_STEPS),1e8)
 
-.PHONY: tables-exhaustive
 tables-exhaustive: $(B)/tools/tables_exhaustive ##- tables of --tables against their functions, over all 2^32 phases (a quarter of an hour)
 	$(Q)$<
 
-.PHONY: fuzz
 fuzz: ##- broken files at the parser, odd mechanisms at the rest, for FUZZ_SECONDS each
 	@CC="$(CC)" mk/setup/deps.sh host quality
 	@$(MAKE) fuzz-now
 
-.PHONY: format
 format: ##- lay out every C file as .clang-format says
 	@CC="$(CC)" mk/setup/deps.sh quality
 	$(Q)clang-format -i $(C_FILES)
 
 ##@ Price
 
-.PHONY: price
 price: ## what accuracy costs: error against cycles of eight scenes on every board, fronts counted; into docs/ (a quarter of an hour)
 	@CC="$(CC)" mk/setup/deps.sh host plot firmware boards quality bench
 	@$(MAKE) price-now
 
-.PHONY: bench
 bench: ## instructions a step, counted, on this machine and on the emulated boards
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) bench-now
 
-.PHONY: bench-boards
 bench-boards: ##- a step of five scenes on every board: instructions, cycles, bytes; into docs/dev/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
 
-.PHONY: bench-peers
 bench-peers: ##- the same steps and derivations by other libraries, as ratios; into docs/dev/price.md (installs them, large)
 	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
 	@$(MAKE) bench-peers-now
 
-.PHONY: price-rows
 price-rows: ##- steps of a hundred scenes counted on every board: build/cost/rows.csv, for price-table (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench
 	@$(MAKE) price-rows-now
 
-.PHONY: worst-step
 worst-step: ## the most instructions of a step with events, over a million random steps a scene (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) worst-now
 
-.PHONY: rig-steps
 rig-steps: ##- instructions that a control step of the rig takes on BOARD, at most RIG_STEP_MOST (a minute)
 	@CC="$(CC)" mk/setup/deps.sh host firmware bench
 	@$(MAKE) rig-steps-now
 
-.PHONY: size
 size: ## bytes of flash, of memory and of stack of BOARD's images, and of the functions
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) size-now
 
 ##@ The dissertation
 
-.PHONY: figures
 figures: ## the dissertation's figures and the findings' plots, in build/figures
 	@CC="$(CC)" mk/setup/deps.sh host plot
 	@$(MAKE) figures-now
 
-.PHONY: conclusions
 conclusions: ## the dissertation's claims beside Whirl's numbers, with a verdict each (a minute)
 	@CC="$(CC)" mk/setup/deps.sh host
 	@$(MAKE) conclusions-now
 
-.PHONY: stability
 stability: ##- the plots of docs/hard_cases.md and the maps of docs/stability.md, anew (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host plot
 	@$(MAKE) stability-now
 
 ##@ Boards
 
-.PHONY: emulate
 emulate: ## run BOARD's firmware in the emulator
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) emulate-now
 
-.PHONY: too-large
 too-large: ##- list anew what does not fit into BOARD, one with small memory (many minutes)
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) whirl
@@ -286,10 +248,8 @@ too-large: ##- list anew what does not fit into BOARD, one with small memory (ma
 
 ##@ Cleaning
 
-.PHONY: clean
 clean: ## remove what was built, except the fetched test framework
 	$(Q)[ ! -d build ] || find build -mindepth 1 -maxdepth 1 ! -name unity -exec rm -rf {} +
 
-.PHONY: distclean
 distclean: ##- remove build/ altogether
 	$(Q)rm -rf build

@@ -117,9 +117,7 @@ PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf) $(ELF)/pil_line.
 # On BOARD and on an M3: the tape of one on the other.
 PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)
 ##@ Tests and quality
-.PHONY: pil-images pil-now
 pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
-.PHONY: pil-image
 pil-image: $(if $(CONTROLLER),$(B)/$(pil_own) $(if $(BOARD_LINK),$(ELF)/$(pil_own).elf)) ## the same of a controller of your own: CONTROLLER="my.c more.c"
 	@[ -n "$(CONTROLLER)" ] || { echo "error: no controller; such as: make pil-image CONTROLLER=path/to/my.c BOARD=mps2-an386" >&2; exit 2; }
 pil-now: $(B)/whirl
@@ -158,7 +156,6 @@ $(WATCHDOG): $(call objects,$(BOARD),$(BOARD_WATCHDOG))
 $(GUARDS) $(WATCHDOG): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
-.PHONY: board-images short-images board-tests run-suites print-hashes print-short-hashes print-matrix-hashes bench-matrix
 board-images: $(IMAGES)
 board-tests: $(TESTS_ELF) $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
 run-suites: # the portable suites, what guards the stack, the watchdog, and first light
@@ -191,7 +188,6 @@ BOARDS := $(sort $(BOARD) $(boards_test) $(boards_check))
 BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))
 SINGLE_STEPS ?= 2000
 on_board = $(MAKE) -s BOARD=$(1) $(2)
-.PHONY: emulate-command
 emulate-command: # of an image named IMAGE
 	@echo '$(call emulate,IMAGE)'
 
@@ -201,7 +197,6 @@ include $(wildcard boards/*/family.mk)
 
 -include $(wildcard $(foreach b,$(sort $(BOARD) $(FLASHED)),$(patsubst %.c,$(B)/$(b)/%.d,$(UNITY_DIR)/unity.c $(PORTABLE_C) $(BOARD_C) $(TEST_C) $(SCENE_C) $(B)/tests/core_suites.c)))
 
-.PHONY: emulate-now
 emulate-now: $(GEN)/.stamp
 	@$(MAKE) $(ELF)/firmware.elf
 	@$(call emulate,$(ELF)/firmware.elf)

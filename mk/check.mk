@@ -6,13 +6,11 @@ GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input
 GATES += libm cycles hashes+flashed hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
-.PHONY: check-now
 check-now: $(GEN)/.stamp
 	@sh tests/gates.sh build/check "$(MAKE)" $(GATES)
 
 ##@ Tests and quality
 ##- gate-NAME: one quality gate alone; `make check` names them
-.PHONY: $(addprefix gate-,$(subst +, ,$(GATES)))
 
 gate-house:
 	@sh tests/house.sh
@@ -24,7 +22,6 @@ gate-house:
 TARGET_C := $(filter-out boards/programs/% boards/host/%,$(BOARD_C))
 PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
-.PHONY: objects test-objects board-objects board-own-objects
 TESTS_C := $(HOST_TEST_C) $(wildcard tests/tools/*.c tests/outside/*.c tests/fuzz/*.c)
 test-objects: $(call objects,host,$(TESTS_C)) $(call objects,chip,$(CHIP_TEST_C)) \
     $(call objects,float,$(CORE_TEST_C)) $(call objects,double,$(CORE_TEST_C) $(SCENE_C))
@@ -62,7 +59,7 @@ gate-format:
 
 # One process a file, so that two cores have work to the end. The core is linted as double, too. The analyzer follows so
 # many paths of a function: a fifth of the time that 75000 take, and of 81 null pointers planted before the returns of long
-# functions it misses two that those find. tidy-deep follows all.
+# functions it misses two that those find. `make gate-tidy TIDY_PATHS=` follows all.
 TIDY_PATHS := -Xclang -analyzer-config -Xclang max-nodes=10000
 tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2) $(TIDY_PATHS)' _
 CHIP_TIDY_C := $(filter tests/chip/%,$(CHIP_TEST_C)) tests/boards/f405_plant.c
@@ -74,11 +71,6 @@ gate-tidy: $(GEN)/.stamp
 	@$(call tidy,$(CORE_C) $(RIG_C) $(STATION_C),$(LINT_FLAGS) -DWH_DOUBLE=1)
 	+@$(foreach b,$(BOARDS),$(call on_board,$(b),tidy-board) &&) true
 
-.PHONY: tidy-deep
-tidy-deep: ##- gate-tidy with all paths of the static analyzer, a quarter of an hour
-	+@$(MAKE) gate-tidy TIDY_PATHS=
-
-.PHONY: tidy-board
 tidy-board:
 	@$(call tidy,$(sort $(BOARD_OWN_C) $(BOARD_FLASHED_C)),$(BOARD_TIDY) $(LINT_FLAGS))
 
@@ -115,7 +107,6 @@ gate-long: $(GEN)/.stamp
 CLI_ASKS = $(sort $(LONG_FEW) $(shell grep -l WHIRL_FULL $(CLI_TESTS)))
 FULL_LIST := build/check/full.list
 full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'sh tests/each.sh build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
-.PHONY: full-now
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	@mkdir -p $(dir $(FULL_LIST)) && { $(call suites_of,$$(grep -lE "few_or_all|usual_or" tests/host/test_*.c)); printf 'test_%s.c\n' $(HOST_FULL); } | sort -u >$(FULL_LIST)
@@ -158,7 +149,6 @@ ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))
 # What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
 # be compiled anew, and once more by the next gate.
-.PHONY: asan-run
 asan-run: $(filter-out $(if $(filter double,$(ASAN_REALS)),,%/core_double) %/price_table,$(TEST_PROGRAMS)) $(B)/tests/quick_suites.list $(B)/whirl
 	@mkdir -p build/tests
 	@printf 'test_%s.c\n' $(HOST_LESS_ASAN) | grep -vxFf - $(B)/tests/host_suites.list >$(ASAN_LIST)
@@ -172,7 +162,6 @@ gate-sanitizers: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(ASAN_BUILD) asan-run
 
-.PHONY: sanitizers-all
 sanitizers-all: $(GEN)/.stamp ##- gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
 	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= CORE_RUNS= SCENE_OPT=-O0 ASAN_REALS="float double" asan-run
 
@@ -201,7 +190,6 @@ gate-fuzz:
 
 # --- firmware -------------------------------------------------------------------------------------
 # No heap, no libm, no double arithmetic and no recursion in any image's symbols.
-.PHONY: image-rules
 gate-firmware:
 	@for board in $(BOARDS); do $(MAKE) B=build BOARD=$$board image-rules || exit 1; done
 image-rules: board-images $(PIL_IMAGES) $(LIGHT_IMAGE)
@@ -219,12 +207,10 @@ gate-flashed: $(GEN)/.stamp
 	+@$(MAKE) -s small-now
 
 # The core, the controller and the console as what is flashed has them where flash is short, on this machine.
-.PHONY: small-now
 small-now: $(GEN)/.stamp
 	@$(MAKE) -s B=build/small EXTRA="-Werror -DWH_SMALL=1" build/small/tests/core_float
 	@build/small/tests/core_float >build/small/suites.log || { grep FAIL build/small/suites.log >&2; exit 1; }
 	@grep Failures build/small/suites.log
-.PHONY: flashed-rules flashed-tests
 flashed-rules: board-own-objects $(STATION) $(LIGHT_IMAGE)
 	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(STATION) $(LIGHT_IMAGE)" UNDRIVEN="$(LIGHT)" \
 	    sh boards/check_image.sh $(STATION) $(LIGHT_IMAGE)
@@ -263,7 +249,6 @@ docs-programs: $(GEN)/.stamp
 	+@$(call on_board,mps2-an385,pil-images)
 	+@$(call on_board,netduinoplus2,board-images)
 
-.PHONY: docs-programs docs-all docs-renew
 gate-docs: docs-programs
 	@for f in $$(sed -n '/^```sh [rs]/,/^```$$/p' README.md | grep -o 'build/[a-z0-9_/.-]*' | sort -u); do \
 	    case " build/whirl $(RUN_IMAGES) " in *" $$f "*) ;; *) \
@@ -302,7 +287,7 @@ compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl ha
 compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "sh tests/matrix_hashes.sh $(MATRIX)" \
     "this machine" build/scenes_matrix $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-matrix-hashes)")
 
-.PHONY: hashes-matrix hashes-now hashes-all-now $(addprefix hash-,$(HASH_BUILDS_ALL))
+.PHONY: $(addprefix hash-,$(HASH_BUILDS_ALL))
 hashes-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS))
 	@$(MAKE) hash-host-wasm

@@ -17,7 +17,6 @@ $(foreach b,float double,$(eval $(B)/$(b)/core/%.o $(B)/$(b)/tests/core/%.o: FIL
 endif
 
 ##@ Tests and quality
-.PHONY: coverage coverage-now
 coverage: ##- lines and branches of the core that the portable suites reach; fails below 99 and 97 per cent (minutes)
 	@UNITY="$(UNITY)" CC=gcc mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
@@ -32,7 +31,6 @@ coverage-now: $(GEN)/.stamp
 ifdef REACHED
 $(foreach b,host float double,$(foreach d,core host tests/core tests/host,$(eval $(B)/$(b)/$(d)/%.o: FILE_FLAGS += $(REACHED))))
 LINK_EXTRA += $(call objects,host,mk/mutants/reach.c)
-.PHONY: reachers
-reachers: $(call objects,host,mk/mutants/reach.c)
+reachers-now: $(call objects,host,mk/mutants/reach.c)
 	@$(MAKE) $(B)/whirl $(B)/tests/host
 endif

@@ -3,7 +3,6 @@
 FIGS := $(sort $(wildcard mk/figures/fig*.fig))
 FINDINGS := $(sort $(wildcard mk/figures/finding_*.fig))
 
-.PHONY: figures-now figures-docs
 figures-now: build/whirl build/pil_rig build/pil_carriage
 	@$(call need,gnuplot)
 	@rm -rf $(FIGURES)/data
@@ -18,7 +17,6 @@ figures-docs: figures ##- the same, copied into docs/
 	@cp $(FIGURES)/figures.md docs/figures.md
 	@echo "Copied to docs/figures.md and docs/figures/"
 
-.PHONY: conclusions-now conclusions-renew
 conclusions-now: build/whirl build/firmware
 	@sh mk/conclusions/table.sh print
 conclusions-renew: build/whirl build/firmware ##- the same, written into docs/conclusions.md
@@ -27,7 +25,6 @@ conclusions-renew: build/whirl build/firmware ##- the same, written into docs/co
 # What docs/hard_cases.md and docs/stability.md show of runs. What a run says of the step, the range or the angle is what the page
 # is about.
 HARD_FIGS := $(sort $(wildcard mk/stability/*.fig))
-.PHONY: stability-now
 stability-now: build/whirl
 	@$(call need,gnuplot)
 	@rm -rf $(FIGURES)/hard && mkdir -p $(FIGURES)/hard docs/figures/hard

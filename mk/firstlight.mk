@@ -27,7 +27,6 @@ LIGHT_CHECK = build/whirl firstlight $(LIGHT_RECORD) --board $(BOARD)
 LIGHT_FLASH = $(if $(BOARD_FLASHED_BY),by $(BOARD_FLASHED_BY) (docs/boards.md): $(LIGHT),make flash BOARD=$(BOARD) PROGRAM=firstlight PROBE=stlink)
 
 ##@ Boards
-.PHONY: firstlight firstlight-now firstlight-record
 firstlight: ## first light of BOARD: the image, its record in the emulator, and the commands for silicon (docs/firstlight.md)
 	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
 	@$(MAKE) $(PARALLEL) firstlight-now

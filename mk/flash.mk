@@ -21,7 +21,6 @@ DEBUG_COMMAND = gdb-multiarch $(FLASH_IMAGE) -ex 'target extended-remote | $(OPE
 flash_asks = $(if $(BOARD_FLASHED),$(if $(BOARD_FLASHED_BY),$(error $(BOARD) is flashed by $(BOARD_FLASHED_BY): docs/boards.md says how)),$(error $(BOARD) cannot be flashed. Boards that can: $(boards_flashed) (make flash BOARD=$(lastword $(boards_flashed))). "A new board" in docs/boards.md adds one))$(if $(filter $(1),$(PROBE)),,$(error PROBE is '$(PROBE)': one of $(1)))$(if $(filter $(PROGRAMS),$(PROGRAM)),,$(error PROGRAM is '$(PROGRAM)': one of $(PROGRAMS)))
 
 ##@ Boards
-.PHONY: flash debug flash-now debug-now
 flash: ## the rig's firmware onto BOARD, by PROBE=stlink, cmsis-dap or dfu (installs what that takes)
 	@:$(call flash_asks,$(PROBES))
 	@CC="$(CC)" mk/setup/deps.sh host firmware flash

@@ -31,7 +31,6 @@ $(HARD_IN)/scenes.c: mk/count/index.sh mk/hard.mk $(hard_names:%=$(HARD_IN)/%.c)
 
 $(eval $(call program,scenes_hard,boards/programs/scenes.c $(HARD_C),whirl))
 
-.PHONY: hard-images print-hard-hashes
 ifeq ($(BOARD_IMAGES),single)
 hard_elf := $(hard_names:%=$(SINGLE)/hard_%.elf)
 $(hard_elf): $(SINGLE)/hard_%.elf: $(B)/$(BOARD)/$(HARD_IN)/%.o $(SCENE_NEEDS)
@@ -50,7 +49,6 @@ endif
 HARD_BUILDS ?= gcc-O0 gcc-O2 clang-O2
 HARD_HOSTS ?=
 HARD_BOARDS ?= $(BOARDS)
-.PHONY: hashes-hard
 ##@ Tests and quality
 hashes-hard: build/whirl $(HARD_C) ##- the same bits on every board of the hard cases of docs/hard_cases.md (a minute; HARD_BOARDS="...")
 	+@$(MAKE) HASHED=scenes_hard $(addprefix hash-,$(HARD_BUILDS)) $(addprefix hash-host-,$(HARD_HOSTS))
@@ -60,6 +58,5 @@ hashes-hard: build/whirl $(HARD_C) ##- the same bits on every board of the hard 
 	    $(foreach h,$(HARD_HOSTS),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes_hard") \
 	    $(foreach b,$(HARD_BOARDS),"$(b)" "$(call on_board,$(b),print-hard-hashes)")
 
-.PHONY: guards
 guards: build/tests/host ##- takes each guard of a hard case away: does a test fail? (minutes; in a copy of the tree)
 	@MAKE="$(MAKE)" sh mk/mutants/guards.sh

@@ -42,7 +42,7 @@ host_make = $(MAKE) B=$(call host_folder,$(1)) CC="$(call host_cc,$(1))" OPT=-O1
     $(if $(hash_folder_$(1)),$(STRICT)) $(if $(findstring static,$(host_is_$(1))),LINK_EXTRA=-static)
 host_needs = $(call need,$(call host_cc,$(1)))$(if $(host_run_$(1)), && { $(call need,$(host_run_$(1))); })
 
-.PHONY: hosts-now gate-hosts $(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI)))
+.PHONY: $(addprefix host-,$(sort $(HOSTS) $(HOSTS_CI)))
 hosts-now:
 	+@$(MAKE) -j $(JOBS) $(addprefix host-,$(HOSTS))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS),$(h) "$(host_is_$(h))")
@@ -54,7 +54,7 @@ gate-hosts:
 
 # The portable suites on the foreign processors, in float and in double (many minutes: every scene is compiled).
 HOSTS_SUITES ?= m32 aarch64 armhf
-.PHONY: hosts-suites $(addprefix suites-,$(HOSTS))
+.PHONY: $(addprefix suites-,$(HOSTS))
 ##@ Tests and quality
 hosts-suites: $(addprefix suites-,$(HOSTS_SUITES)) ##- the portable suites built for other processors, emulated (many minutes)
 $(addprefix suites-,$(HOSTS)): suites-%: $(GEN)/.stamp $(UNITY_DIR)/unity.c

@@ -43,7 +43,6 @@ $(foreach s,$(PEER_SYSTEMS), \
     $(eval $(call peer_program,whirl,$(s),$(CC) -std=c11,-DWH_DOUBLE=1 \
         -DNAIVE_STEPPER='"mk/peers/whirl.h"')))
 
-.PHONY: bench-peers-now
 bench-peers-now: build/whirl $(GEN)/.stamp
 	@$(MAKE) $(PEER_PROGRAMS)
 	@PEERS="$(PEERS)" SYSTEMS="$(PEER_SYSTEMS)" SCENES="$(foreach s,$(PEER_SYSTEMS),$(PEER_SCENE_$(s)))" \

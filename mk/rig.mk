@@ -16,7 +16,6 @@ $(B)/$(FLASHED)/boards/programs/rig_steps.o: FILE_FLAGS += -fno-lto
 $(ELF)/rig_steps.elf: BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
 endif
 
-.PHONY: rig-now rig-steps-now rig-truth-now faults-now
 rig-now:
 	$(staged)
 ifeq ($(ASKED_BOARD),)
@@ -49,24 +48,20 @@ faults-now: $(GEN)/.stamp
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
 # The same firmware against a bench that is written from docs/dev/pil.md alone.
-.PHONY: rig-bench
 rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ##- the rig's firmware against a bench written from docs/dev/pil.md alone: SEED (ten minutes)
 	@code=0; for campaign in bench healthy stuck runouts; do build/tools/rig_bench $$campaign --seed $(SEED) || code=1; done; exit $$code
 
 # Telemetry over a line of 115,200, 57,600 and 9,600 baud, in simulated time: every sample is there, or is counted as lost.
 TEL_SECONDS ?= 3600
-.PHONY: tel-hour
 tel-hour: $(B)/whirl $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check ##- an hour of telemetry at three speeds of the line, simulated (minutes; TEL_SECONDS=n)
 	@WHIRL=$(B)/whirl TEL_SECONDS=$(TEL_SECONDS) sh tests/cli/monitor.sh
 
 # Its longest control steps once more, counted from outside.
 ##@ Tests and quality
-.PHONY: rig-worst
 rig-worst: $(PLUGIN) ##- the longest control steps of the last make faults BOARD=..., counted by the emulator (a minute)
 	@NM=$(BOARD_NM) PLUGIN=$(PLUGIN) mk/count/rig_worst.sh build/whirl $(ELF)/pil_dialled.elf build/faults_$(BOARD).md
 
 # What the last campaign on this machine found, between the marks of docs/dev/rig.md.
-.PHONY: faults-page
 faults-page: ##- docs/dev/rig.md shows what the last make faults found
 	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
 	@awk '/<!-- faults: end -->/ { held = 0 } !held { print } \
@@ -88,14 +83,12 @@ $(B)/tests/rig_double: $(call rig_tests,double)
 
 # Thirty bugs as somebody would write them, and who notices: the rig's suites, else a small campaign of faults.
 RIG_CAMPAIGN = build/tools/faults --firmware $(1) --runs 60 --seed 1
-.PHONY: rig-bugs
 rig-bugs: build/tests/rig_float build/tools/faults $(B)/pil_rig ##- bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
 	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/rig_float SUITES="$(RIG_SUITES)" \
 	    MORE="build/tools/faults build/pil_rig" LAST="$(call RIG_CAMPAIGN,build/pil_rig)" HELD=95 \
 	    sh mk/mutants/guards.sh
 
 # The same of changes drawn at random, as `make mutants` draws and tells them.
-.PHONY: rig-mutants
 rig-mutants: ##- small changes of the rig's controller: do its suites, else a small campaign, notice? MUTANTS (100), SEED (half an hour)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity

@@ -29,7 +29,6 @@ FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
 FLAGS_float := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
 FLAGS_double := $(FLAGS_float) -DWH_DOUBLE=1
 
-.PHONY: FORCE
 FORCE:
 
 # need COMMAND: stop with advice, not with a shell error, when a tool is missing.

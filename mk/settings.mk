@@ -17,7 +17,6 @@ SETTINGS_KINDS ?= float double fixed
 SETTINGS_IN := build/settings/$(SETTINGS)
 
 # What was compiled from as it was is left alone.
-.PHONY: settings-written
 settings-written: new = $(SETTINGS_IN).new
 settings-written: hashed = $$(sed 's/^scene //; s/ .*//' $(1).hashes)
 settings-written: build/whirl
@@ -66,7 +65,6 @@ ifneq ($(filter settings-% print-settings,$(MAKECMDGOALS)),)
 -include $(wildcard $(B)/$(BOARD_IN_DOUBLE)/core/*.d $(B)/$(BOARD_IN_DOUBLE)/boards/programs/*.d)
 endif
 
-.PHONY: settings-programs settings-images print-settings
 settings-programs: $(SETTINGS_KINDS:%=$(B)/bits/$(SETTINGS)_%)
 
 ifeq ($(BOARD_IMAGES),single)
@@ -101,7 +99,6 @@ compare_settings = "In $(1):" "interpreter $(1)" "cat $(SETTINGS_IN)/$(1).hashes
     $(foreach h,$(SETTINGS_HOSTS),"$(h) $(1)" "$(host_run_$(h)) build/hosts/$(h)/bits/$(SETTINGS)_$(1)") \
     $(foreach b,$(settings_boards_$(1)),"$(b) $(1)" "$(call settings_on_board,$(b),$(1))")
 
-.PHONY: hashes-settings
 ##@ Tests and quality
 hashes-settings: settings-written ##- the same bits on every board with every setting of six scenes (half an hour; SETTINGS=some SETTINGS_BOARDS="...")
 	+@$(MAKE) HASHED=settings-programs $(addprefix hash-,$(SETTINGS_BUILDS)) $(addprefix hash-host-,$(SETTINGS_HOSTS))

@@ -54,7 +54,6 @@ LARGE_SUITES = $(patsubst suite_%,%,$(shell sed -n 's/^suite /suite_/p' $(TOO_LA
 SINGLE_SCENES = $(patsubst %,$(SINGLE)/scene_%.elf,$(filter-out $(LARGE_SCENES),$(SCENE_NAMES)))
 SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),$(SUITE_NAMES)))
 
-.PHONY: board-images board-tests run-suites print-hashes print-matrix-hashes bench-matrix too-large-now
 IMAGES = $(SINGLE_SCENES)
 board-images: $(SINGLE_SCENES) $(BOARD_RUN_BY)
 board-tests: $(SINGLE_SUITES) $(BOARD_RUN_BY)

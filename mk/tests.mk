@@ -111,7 +111,6 @@ $(foreach b,$(CHIP_BOARDS),$(eval $(call chip_board,$(b))))
 TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/tests/core_float $(B)/tests/host $(B)/tools/mechanisms $(B)/tools/linkages $(B)/tools/price_table \
     $(B)/pil_rig $(B)/pil_swing $(B)/pil_dialled $(B)/pil_carriage $(B)/pil_cart $(B)/pil_line $(B)/tools/faults $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check
 
-.PHONY: test-programs
 test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 
 # --- running ------------------------------------------------------------------------------------
@@ -143,7 +142,6 @@ run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"
 RUN_BOARD = $(foreach b,$(BOARDS_TEST),$(call run_board,$(b)))
 build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 
-.PHONY: test-now test-core test-host test-cli test-board
 test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
@@ -151,22 +149,13 @@ test-now: $(GEN)/.stamp
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality
-# Parts of it, for while one works on something.
-test-core: $(GEN)/.stamp ##- the portable suites alone, in float and double on this machine
-	@$(MAKE) build/tests/core_double build/tests/core_float
-	@sh tests/run.sh build/tests/log $(RUN_CORE)
-
 # Until when runs can be trusted, as `whirl trust` has it, against references in long double (docs/stability.md).
 TRUST_SEED ?= 14
-.PHONY: trust-check
 trust-check: build/tests/host ##- whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
 	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_scenes
 	@WHIRL_CASES=30 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust_drawn
 
-test-host: $(GEN)/.stamp ##- the suites of the program alone
-	@$(MAKE) build/tests/host build/tests/quick_suites.list
-	@sh tests/run.sh build/tests/log $(RUN_HOST)
-
+# Parts of it, for while one works on something.
 test-cli: $(GEN)/.stamp ##- the scripts of tests/cli alone
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
@@ -177,7 +166,6 @@ test-board: $(GEN)/.stamp ##- the portable suites alone, on the emulated boards 
 
 # Every board, and what its images hold.
 BOARDS_SUITES := $(filter-out $(boards_without_suites),$(BOARDS_ALL))
-.PHONY: test-boards-now
 test-boards-now: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_SUITES))
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
@@ -187,7 +175,6 @@ test-boards-now: $(GEN)/.stamp
 # What the suites print of their figures stays in build/tests/log_properties, and is shown at the end.
 PROPERTIES ?= 10000
 PROPERTY_SUITES := hybrids hard_scales linkages
-.PHONY: properties-now
 properties-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
 	@export WHIRL_CASES=$(PROPERTIES) WHIRL_SEED=$(if $(filter file,$(origin SEED)),$$(date +%s),$(SEED)); \
@@ -197,7 +184,6 @@ properties-now: $(GEN)/.stamp
 	grep -h '^  ' build/tests/log_properties/*.log; exit $$status
 
 # The flag matrix: other people's flags give the interpreter's bits or are refused.
-.PHONY: flags-now
 flags-now: build/whirl
 	@WHIRL=build/whirl sh tests/flags.sh
 
@@ -245,7 +231,6 @@ $(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(FUZZED)
 	@mkdir -p $(@D)
 	$(link)
 
-.PHONY: fuzz-now fuzz-programs kept-now
 kept-now: $(KEPT_INPUTS)
 	@sh tests/fuzz/kept.sh $^
 FUZZ_BUILD = $(MAKE) B=build/fuzz CC=clang OPT=-O1 EXTRA="-fsanitize=fuzzer-no-link,$(SANITIZE) -fno-sanitize-recover=all"

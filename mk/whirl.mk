@@ -91,7 +91,6 @@ endef
 # --- make run -----------------------------------------------------------------------------------
 # The third is for the commands of README.md.
 RUN_IMAGES = $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
-.PHONY: run-now
 run-now:
 	$(staged)
 	@$(MAKE) $(RUN_IMAGES)

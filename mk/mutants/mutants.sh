@@ -74,7 +74,7 @@ if [ -n "$REACH" ] && ! is "$top/reach/sum" "$sum"; then
         mv "$top/reaching.new" "$top/reaching"
     fi
     sh "$here/tree.sh" "$top/reaching"
-    made "$top/reaching" $MAKE reachers \
+    made "$top/reaching" $MAKE reachers-now \
         REACHED="-Og -Wno-maybe-uninitialized -Wno-format-truncation -fsanitize-coverage=trace-pc"
     find core host -name '*.[ch]' >"$top/reach/files"
     for program in whirl tests/host; do
