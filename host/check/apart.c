@@ -212,7 +212,7 @@ static double lost_J(const apart *a) {
 }
 
 static void say_values(FILE *out, const apart *a, const double *was_place, const double *was_rate) {
-    const char *before = "hint: these fit: start ";
+    const char *before = "hint: write: start ";
     for (int i = 0; i < 2 * a->n; i++) {
         const image_unknown *u = &a->im->unknown[image_component(a->im, i % a->n).unknown];
         const int primes = i / a->n;
@@ -220,7 +220,8 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
         const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
         const char *si = u->unit[primes].si;
         const bool has_unit = strcmp(si, "1") != 0;
-        if (value != was) {
+        /* Pasted in place of the scene's own start: those that do not change are in it, too. */
+        if (value != was || (u->start_at[primes].source != NULL && !u->driven)) {
             fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
                     has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");
             before = ", ";
@@ -246,20 +247,21 @@ static void say(FILE *out, const char *who, apart *a) {
         statement_text(a->im->contact[a->hold[h]].at, statement, sizeof statement);
         if (value != 0.0) {
             off = true;
-            fprintf(out,
-                    "%s: warning: what a hold holds starts %.6g (SI) off zero, and stays so: %s "
-                    "[apart]\n",
-                    who, value, statement);
+            fprintf(
+                out,
+                "%s: warning: a hold starts with an error of %.6g (SI), and keeps it: %s [apart]\n",
+                who, value, statement);
         }
         if (speed != 0.0) {
             moves = true;
-            fprintf(out,
-                    "%s: warning: what a hold holds starts at a rate of %.6g (SI): %s [apart]\n",
-                    who, speed, statement);
+            fprintf(
+                out,
+                "%s: warning: a hold starts with a rate of %.6g (SI), which should be zero: %s [apart]\n",
+                who, speed, statement);
         }
     }
     if (moves && isfinite(lost_J(a))) {
-        fprintf(out, "%s: warning: an impulse at t = 0 stops that, and takes %.6g J\n", who,
+        fprintf(out, "%s: warning: an impulse at t = 0 stops it and takes %.6g J\n", who,
                 lost_J(a));
     }
     double was_place[N];
@@ -269,7 +271,7 @@ static void say(FILE *out, const char *who, apart *a) {
     if ((!off || fit(a, 0, fit_places)) && fit(a, 1, fit_rates)) {
         say_values(out, a, was_place, was_rate);
     } else {
-        fputs("hint: no values near these fit: start the linkage elsewhere\n", out);
+        fputs("hint: start the linkage elsewhere: no values near these satisfy the holds\n", out);
     }
 }
 

@@ -20,7 +20,7 @@ static void account_print_entry(FILE *out, const char *text, double given, const
 /* The last two lines: the change and the residual. */
 static void account_print_end(FILE *out, double change, double left) {
     account_print_entry(out, "change", change, "");
-    fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "left over", left);
+    fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "residual", left);
 }
 
 /* The two energies, and the balanced energy if it differs from their sum. */
@@ -51,7 +51,7 @@ static void print_momenta(FILE *out, const books *b) {
     if (!any) {
         fprintf(
             out,
-            "no coordinate's own momentum is conserved; whirl examine tells of sums and rotations\n");
+            "no single coordinate's momentum is conserved; whirl examine finds those of sums and rotations\n");
     }
 }
 
@@ -71,8 +71,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
     } else { /* the ledger is not available, and the balance does not see internal forces */
         account_print_entry(out, "work of inputs", b->input_J, "");
         account_print_entry(out, "losses", -b->loss_J, "");
-        account_print_entry(out, contacts, a.left,
-                            ", numerical errors with it: how much they are is not known here");
+        account_print_entry(out, contacts, a.left, ", with numerical errors of unknown size");
     }
     print_momenta(out, b);
 }

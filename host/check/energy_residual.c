@@ -94,10 +94,10 @@ bool energy_residual_lost(const energy_residual *b, double limit) {
 
 void energy_residual_print(FILE *out, const energy_residual *b) {
     if (b->known) {
-        fprintf(out, "energy left over   %.2e of %s, %.3g J\n", b->ratio,
+        fprintf(out, "energy residual    %.2e of %s, %.3g J\n", b->ratio,
                 b->rounded && b->exact
-                    ? "the least entry that rounding and the books' own integrals let one tell"
-                : b->rounded ? "the least entry that rounding lets one tell"
+                    ? "the smallest entry above round-off and the error of the books' integrals"
+                : b->rounded ? "the smallest entry above round-off"
                              : "the largest entry of the books",
                 b->largest_J);
     }

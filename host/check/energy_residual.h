@@ -32,7 +32,7 @@
 /* Beyond this ratio a run is not believed. */
 #define ENERGY_RESIDUAL_LIMIT 1e-3
 
-#define ENERGY_RESIDUAL_COLUMN "energy_left_over"
+#define ENERGY_RESIDUAL_COLUMN "energy_residual"
 
 typedef struct energy_residual {
     bool known;          /* false: no energies, no finite ones, or no ledger of contacts */

@@ -11,33 +11,33 @@ const finding_row finding_rows[FINDINGS] = {
                       "have a mass matrix that is nearly singular"},
     [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
                            "rounded otherwise, one of the file's numbers is beyond all bounds",
-                           "have numbers in which a small one is lost beside a large one"},
-    [FINDING_ENERGY] = {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
-                        "half of it is the error of an amplitude, which no plot shows",
-                        "cannot be believed: too much of the largest entry of their energy books "
-                        "is left over (" ENERGY_RESIDUAL_COLUMN "), or was missing on the way"},
+                           "have constants in which a small number is lost beside a large one"},
+    [FINDING_ENERGY] =
+        {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
+         "half of it is the error of an amplitude, which no plot shows",
+         "fail the energy balance: the residual is too large a part of the largest entry of their books (" ENERGY_RESIDUAL_COLUMN
+         "), at the end or on the way"},
     [FINDING_ACCURACY] =
         {"accuracy", FINDING_WARNING, 0.5, "of the run",
          "an error that grows evenly and is 2 % at the end passes 1 % there",
-         "are right to 0.01 of a range for less than half of the run, or lose it at once"},
+         "are accurate to 0.01 of a range for less than half of the run, or lose it at once"},
     [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion gets through a pole",
-                      "jumped over a place where an expression grows without bound"},
+                      "jumped over a pole of an expression"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
                         "a contact or a force that no step met has not acted",
-                        "passed through a contact, or over a force, or may have"},
+                        "passed, or may have passed, through a contact or over a force"},
     [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
                          "as far as a run is trusted; aliasing.h adds what steps alone are off",
-                         "have something faster than the step, of which its stages see too "
-                         "little"},
+                         "alias a force or motion that is faster than the step"},
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
                         "what is left of such a step counts as rest or sticking",
                         "had steps with more events than a step takes"},
     [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of what is held",
                        "a start in decimal digits fits to less",
-                       "have holds that do not fit where they start"},
+                       "have holds that the start violates"},
     [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE, "of the span asked for",
                         "what rounding took from the steps, summed",
-                        "have a component that moves too slowly for the units of its steps"},
+                        "have a component whose steps are below its resolution"},
 };
 
 void finding_say_names(FILE *out, unsigned ids) {

@@ -29,36 +29,36 @@ static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT])
 }
 
 static void say_mass(FILE *out, const run_checks *v) {
-    fprintf(out,
-            "%s of '%s' is singular but for a last digit or two: rounding, in double, too, may put "
-            "what it gives %.2g %% off",
-            v->image->has_energies ? "the mass matrix" : "what stands with the highest derivatives",
-            v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
+    fprintf(
+        out,
+        "%s of '%s' is nearly singular: round-off, in double too, may cause an error of %.2g %% in its solution",
+        v->image->has_energies ? "the mass matrix" : "the matrix of the highest derivatives",
+        v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
 }
 
 static void say_constants(FILE *out, const run_checks *v) {
-    fprintf(out,
-            "numbers of '%s' are computed of sums in which a small one is lost beside a large one: "
-            "rounding them, in double, too, may put one beyond all bounds",
-            v->image->mechanism);
+    fprintf(
+        out,
+        "constants of '%s' are sums in which a small number is lost beside a large one: their round-off, in double too, may be of any size",
+        v->image->mechanism);
 }
 
 static void say_energy(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const double part = v->found[FINDING_ENERGY].value;
     if (part > 2.0 * b->ratio) {
-        fprintf(out,
-                "this run cannot be believed: up to %.3g J of its energy was missing on the way, "
-                "%.2e of the largest entry of its books",
-                part * b->largest_J, part);
+        fprintf(
+            out,
+            "the energy balance fails: its residual reached %.3g J, %.2e of the largest entry of the books",
+            part * b->largest_J, part);
     } else {
-        fprintf(out,
-                "this run cannot be believed: %.3g J of its energy is left over, %.2e of the "
-                "largest entry of its books",
-                b->left_J, b->ratio);
+        fprintf(
+            out,
+            "the energy balance fails: its residual is %.3g J, %.2e of the largest entry of the books",
+            b->left_J, b->ratio);
     }
     if (b->jump_s >= 0.0) {
-        fprintf(out, ", most of it lost about t = %.6g s", b->jump_s);
+        fprintf(out, ", most of it lost at about t = %.6g s", b->jump_s);
     }
 }
 
@@ -68,19 +68,19 @@ static void say_accuracy(FILE *out, const run_checks *v) {
     const horizon_column *c = &h.column[f->component];
     const char *unit = v->twins->shape->column[f->component].unit->shown;
     char name[NAME_TEXT];
-    fprintf(out, "%s is right to %g of its range only until t = %.6g s of %.6g s",
+    fprintf(out, "%s is accurate to %g of its range only until t = %.6g s of %.6g s",
             column_name(v, f->component, name),
             c->until_s > f->at_s ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE, f->at_s,
             v->twins->end_s);
     if (isfinite(c->off)) {
-        fprintf(out, ": a finer run, in double, ends up to %.2g %s away", c->off, unit);
+        fprintf(out, ": a finer run, in double, differs by up to %.2g %s", c->off, unit);
         if (c->range > 0.0) {
             fprintf(out, ", %.2g of the range", c->off / c->range);
         } else {
-            fputs("; here it stands still", out);
+            fputs("; in this run it does not move", out);
         }
     } else {
-        fputs(": a finer run, in double, leaves all bounds", out);
+        fputs(": a finer run, in double, diverges", out);
     }
     horizon_free((horizon *)&h);
 }
@@ -90,10 +90,10 @@ static void say_pole(FILE *out, const run_checks *v) {
     char statement[STATEMENT_SIZE];
     const diagnostics_question *q = pole_crossing_over(v->jumped, &begin_s);
     statement_text(q->where, statement, sizeof statement);
-    fprintf(out,
-            "the step after t = %.6g s jumped over a place where %s grows without bound: %s; no "
-            "motion gets through there",
-            begin_s, q->what, statement);
+    fprintf(
+        out,
+        "the step after t = %.6g s jumped over a pole, where %s grows without bound: %s; no motion passes it",
+        begin_s, q->what, statement);
 }
 
 /* Did a resting contact slide over an edge of its stop? */
@@ -108,10 +108,10 @@ static void say_missed(FILE *out, const run_checks *v) {
     char statement[STATEMENT_SIZE];
     if (slid_off(v)) {
         statement_text(im->contact[f->component].at, statement, sizeof statement);
-        fprintf(out,
-                "in the step after t = %.6g s what rests on a stop slides over an edge, and Whirl "
-                "keeps it there: %s",
-                f->at_s, statement);
+        fprintf(
+            out,
+            "in the step after t = %.6g s a body that rests on a stop slides over an edge of it, but Whirl keeps it on the stop: %s",
+            f->at_s, statement);
         return;
     }
     fprintf(out, "the step after t = %.6g s %s ", f->at_s,
@@ -124,7 +124,7 @@ static void say_missed(FILE *out, const run_checks *v) {
                 statement);
     } else {
         const component c = image_component(im, f->component - im->contacts);
-        fprintf(out, "over a force on %s, far larger than at both its ends",
+        fprintf(out, "over a force on %s that is far larger inside the step than at its ends",
                 im->unknown[c.unknown].name);
     }
 }
@@ -134,11 +134,11 @@ static void say_aliased(FILE *out, const run_checks *v) {
     const char *unit = v->twins->shape->column[a->column].unit->shown;
     const bool plain = strcmp(unit, "1") == 0;
     char name[NAME_TEXT];
-    fprintf(out,
-            "more goes on between the stages of a step than they see: with steps of %.4g s, which "
-            "share no period with these, %s is %.6g%s%s at t = %.6g s, not %.6g",
-            a->step_s, column_name(v, a->column, name), a->other, plain ? "" : " ",
-            plain ? "" : unit, a->at_s, a->value);
+    fprintf(
+        out,
+        "the step aliases a fast force or motion: with steps of %.4g s, which share no period with it, %s is %.6g%s%s at t = %.6g s, not %.6g",
+        a->step_s, column_name(v, a->column, name), a->other, plain ? "" : " ", plain ? "" : unit,
+        a->at_s, a->value);
 }
 
 /* The contact with the most events in such steps, except for `besides`; -1: no events. */
@@ -166,7 +166,7 @@ static void say_events(FILE *out, const run_checks *v) {
         statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
         fprintf(out, "%s'%s'", i == 0 ? ", most of " : " and ", statement);
     }
-    fprintf(out, ": what was left of %s counts as rest or sticking",
+    fprintf(out, ": the remainder of %s was computed as rest or sticking",
             v->overruns == 1 ? "it" : "them");
 }
 
@@ -194,29 +194,26 @@ static bool say_cause(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const char *hint = NULL;
     if (slid_off(v)) {
-        hint = "round the edge, with e the way of some steps: sqrt(x^2 + e^2) for abs(x), "
-               "(a + b + sqrt((a - b)^2 + e^2))/2 for max(a, b)";
+        hint =
+            "round the edge over the distance e of a few steps: sqrt(x^2 + e^2) for abs(x), (a + b + sqrt((a - b)^2 + e^2))/2 for max(a, b)";
     } else if (is_told(v, FINDING_MASS)) {
-        hint = v->image->has_energies
-                   ? "a coordinate that is counted from a light body to a heavy one does that: "
-                     "count it from the heavy one"
-                   : "two equations say nearly the same: their difference tells more";
+        hint =
+            v->image->has_energies
+                ? "measure the coordinate from the heavy body to the light one, not the other way"
+                : "two equations are nearly the same: replace one by their difference";
     } else if (is_told(v, FINDING_CONSTANTS)) {
-        hint = "give the small one by itself";
+        hint = "declare the small number as a parameter of its own";
     } else if (is_told(v, FINDING_ENERGY) && b->stabilized &&
                number_most(fabs(b->left_J), v->books->most_J) > 1.5 * b->lost_J) {
-        hint = "--stabilized gave back what nothing had lost: its energies have too few digits; "
-               "leave it out";
+        hint = "leave out --stabilized: it corrected an energy error that is only round-off";
     } else if (is_told(v, FINDING_ENERGY) && b->exact) {
-        hint = "the steps of --matrix exact are exact whatever their size: --number double tells "
-               "what rounding does";
+        hint = "run with --number double: steps of --matrix exact have no error but round-off";
     } else if (is_told(v, FINDING_ENERGY) && b->saturated) {
-        hint = "values were held at an end of their range, which keeps no energy: widen it: "
-               "range NAME = A .. B";
+        hint = "widen the range: range NAME = A .. B; values saturated, which changes the energy";
     } else if (v->against == FINDING_BIT(FINDING_EVENTS) &&
                is_without_restitution(v->image, busiest(v, -1))) {
-        hint = "rounding parts bodies that nothing presses together, and they meet again: "
-               "restitution 0.01, or a force that presses them, ends such events";
+        hint =
+            "use restitution 0.01, or a force that presses the bodies together: without load, round-off separates bodies in contact again and again";
     }
     if (hint != NULL) {
         fprintf(out, "hint: %s\n", hint);
@@ -239,44 +236,42 @@ static void say_remedy(FILE *out, const run_checks *v) {
         if (im->settings.cells > 0 && 2 * im->settings.cells <= IMAGE_CELLS_MOST) {
             snprintf(cells, sizeof cells, "--cells %d, or ", 2 * im->settings.cells);
         }
-        fprintf(out, "hint: the tables may be too coarse (not tried): %sno --tables would tell\n",
-                cells);
+        fprintf(out, "hint: try %sno --tables: the tables may be too coarse\n", cells);
     }
     switch (remedy_find(v, first_parts(v), options)) {
     case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;
     case REMEDY_DEAR:
-        fputs("hint: a smaller --step (not tried to its end: that takes more than a second)\n",
+        fputs("hint: try a smaller --step (not tried to the end, which takes more than a second)\n",
               out);
         break;
     case REMEDY_NONE:
-        fputs("hint: no step, no other number and no method that was tried would do\n", out);
+        fputs("hint: no step, number or method that was tried removes the warning\n", out);
         break;
     }
     if (v->books != NULL && v->books->negative) {
         fprintf(
             out,
-            "hint: the kinetic energy is negative from t = %.6g s on: no masses move like that; "
-            "end the run before, or correct T\n",
+            "hint: correct T, or end the run earlier: the kinetic energy is negative from t = %.6g s on\n",
             v->books->negative_s);
     } else if (is_told(v, FINDING_MISSED)) {
         const double began_s = v->found[FINDING_MISSED].at_s;
         const double passed_s = v->twins != NULL ? v->twins->jumped_s : -1.0;
         const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
         if (v->found[FINDING_MISSED].value < 1.0) {
-            fputs("hint: write it without a pole or a jump on the way, such as 1/x or sign(x): "
-                  "Whirl finds no bounds there\n",
-                  out);
+            fputs(
+                "hint: write the expression without a pole or a jump, such as 1/x or sign(x): Whirl finds no bounds for it\n",
+                out);
         }
         if (until_s > 0.0) {
             fprintf(out, "hint: --until %.12gs ends the run before that\n", until_s);
         }
     } else if (is_told(v, FINDING_EVENTS)) {
-        fputs("hint: restitution 0, or a condition that takes longer to come true again, ends such "
-              "events\n",
-              out);
+        fputs(
+            "hint: use restitution 0, or add hysteresis to the condition: that ends such events\n",
+            out);
     } else if ((v->against & ~FINDING_OF_SCENE) == FINDING_BIT(FINDING_ACCURACY) &&
                v->found[FINDING_ACCURACY].at_s > 0.0) {
-        fputs("hint: where the motion is chaotic every error grows: --until ends the run before\n",
+        fputs("hint: end the run earlier with --until: in a chaotic motion every error grows\n",
               out);
     }
 }
@@ -403,8 +398,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     if (kind->steps(run) == 0 && starts_beyond(im)) {
         fprintf(
             out,
-            "hint: it starts beyond them: numbers of a run stay below %g in SI's units; take an "
-            "origin, or units, nearer to it\n",
+            "hint: choose an origin or units nearer to the motion: it starts beyond the limit of %g in SI units\n",
             (double)WH_ABSURD);
         return;
     }
@@ -414,12 +408,11 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
         statement_text(im->contact[k].at, statement, sizeof statement);
         fprintf(
             out,
-            "hint: '%s' pushes all that it names: a clock there needs far more inertia than what "
-            "it meets, or is an input with a rate\n",
+            "hint: '%s' acts on every coordinate in it: give a clock in it far more inertia, or make it an input with a rate\n",
             statement);
     }
-    fputs("hint: a smaller --step may carry it further; if it fails at the same time, look for a "
-          "singular position there\n",
-          out);
+    fputs(
+        "hint: try a smaller --step; if the run fails at the same time, look for a singular position there\n",
+        out);
     findings_say_failed(out, v);
 }

@@ -162,7 +162,7 @@ static void print_column(FILE *out, const horizon *h, int k) {
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
     switch (c->verdict) {
     case HORIZON_TO_THE_END:
-        fprintf(out, "to the end      off by %.2e of its range, %.4g %s\n", c->off / c->range,
+        fprintf(out, "to the end      error %.2e of its range, %.4g %s\n", c->off / c->range,
                 c->range, unit);
         break;
     case HORIZON_UNTIL:
@@ -172,20 +172,21 @@ static void print_column(FILE *out, const horizon *h, int k) {
     case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
     case HORIZON_NOT_TOLD:
         if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
-            fprintf(out, "not to be told  behind %.9g s: double knows no sine of such angles\n",
+            fprintf(out, "unknown         after %.9g s: double has no sine of such angles\n",
                     c->until_s);
         } else if (c->range > 0.0) {
             fprintf(
                 out,
-                "not to be told  rounding may move it by %.2e of its range, %.4g %s, in double, "
-                "too\n",
+                "unknown         round-off may move it by %.2e of its range, %.4g %s, in double too\n",
                 c->rounding / c->range, c->range, unit);
         } else {
-            fprintf(out, "not to be told  rounding may be why it stands still, in double, too\n");
+            fprintf(
+                out,
+                "unknown         round-off may be the reason that it does not move, in double too\n");
         }
         break;
     case HORIZON_ROUNDING:
-        fprintf(out, "to the end      rounding alone moves it, by %.2e %s\n",
+        fprintf(out, "to the end      only round-off moves it, by %.2e %s\n",
                 c->off > c->range ? c->off : c->range, unit);
         break;
     }
@@ -207,23 +208,22 @@ static void print_momenta(FILE *out, const horizon *h) {
 /* Quantities of the balance that stay correct after the run has left the motion. */
 static void print_invariants(FILE *out, const horizon *h) {
     books *b = h->of->books;
-    fputs("behind its end no single value of a coordinate is to be relied on", out);
+    fputs("after that no single coordinate is accurate", out);
     if (b == NULL) {
-        fputs("; a system of equations has no books that tell what still holds\n", out);
+        fputs("; a system of equations has no energy balance\n", out);
         return;
     }
     const energy_residual balance = energy_residual_of(b, h->of->shape->kind, h->of->run);
-    fputs(", but what the books keep, to t = ", out);
+    fputs(", only the balances are, to t = ", out);
     fprintf(out, "%.9g s:\n", h->of->end_s);
     if (!balance.known) {
         fputs("  energy: its balance is not known\n", out);
     } else if (energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT)) {
         fprintf(out,
-                "  energy: not kept either, %.2e of the largest entry of its books is left over\n",
+                "  energy: not conserved either, residual %.2e of the largest entry of its books\n",
                 balance.ratio);
     } else {
-        fprintf(out, "  energy: %.2e of the largest entry of its books is left over\n",
-                balance.ratio);
+        fprintf(out, "  energy: residual %.2e of the largest entry of its books\n", balance.ratio);
     }
     print_momenta(out, h);
 }
@@ -239,41 +239,39 @@ static void print_verdict(FILE *out, const horizon *h) {
         return;
     }
     if (t->unwrapped && h->until_s >= t->cut_s) {
-        fprintf(out, "not to be told behind t = %.9g s: double knows no sine beyond %g rad\n",
-                t->cut_s, ANGLE_SINE_MOST_RAD);
+        fprintf(out, "unknown after t = %.9g s: double has no sine beyond %g rad\n", t->cut_s,
+                ANGLE_SINE_MOST_RAD);
     } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
-        fprintf(out, "not to be told: double has too few digits for %s, where it is\n",
+        fprintf(out, "unknown: double has too few digits for %s at its position\n",
                 name_of(h, h->first, name));
     } else {
-        fprintf(out, "trusted until t = %.9g s of %.9g s: %s is off first\n", h->until_s, t->end_s,
+        fprintf(out, "trusted until t = %.9g s of %.9g s: %s fails first\n", h->until_s, t->end_s,
                 name_of(h, h->first, name));
     }
     if (t->finer_failed_s >= 0.0 && !t->unwrapped) {
-        fprintf(out, "with half the step it leaves all bounds behind t = %.9g s\n",
-                t->finer_failed_s);
+        fprintf(out, "with half the step the run diverges after t = %.9g s\n", t->finer_failed_s);
     }
     if (t->overrun_s >= 0.0) {
-        fprintf(out,
-                "behind t = %.9g s a step had more events than it takes: whether it is right there "
-                "only a smaller --step tells\n",
-                t->overrun_s);
+        fprintf(
+            out,
+            "after t = %.9g s a step had more events than its limit: check with a smaller --step\n",
+            t->overrun_s);
     }
     if (t->jumped_s >= 0.0) {
         fprintf(
             out,
             t->missed
-                ? "behind t = %.9g s a step passed through a contact or over an edge or a force: "
-                  "whirl run says which\n"
-                : "behind t = %.9g s a step jumped over a place where an expression grows "
-                  "without bound: no motion gets through there\n",
+                ? "behind t = %.9g s a step passed through a contact or over an edge or a force: whirl run names it\n"
+                : "behind t = %.9g s a step jumped over a pole of an expression: no motion passes it\n",
             t->jumped_s);
     }
     if (t->unaliased) {
         fputs("not looked at: [aliased], that takes more than the two runs did\n", out);
     }
     if (t->aliased.column > 0) {
-        fprintf(out, "more goes on between the stages of its steps than they see, so that half the "
-                     "step says nothing\n");
+        fprintf(
+            out,
+            "its steps alias a fast force or motion, so that the run with half the step has the same error\n");
     }
     print_invariants(out, h);
 }
@@ -281,11 +279,9 @@ static void print_verdict(FILE *out, const horizon *h) {
 void horizon_print(FILE *out, const horizon *h) {
     print_head(out, h);
     if (image_of(h)->contacts > 0) {
-        fputs(
-            "  about an event, rates may differ for the steps that it lies in: that does not count\n",
-            out);
+        fputs("  differences of rates in the steps around an event do not count\n", out);
     }
-    fprintf(out, "\nright to %.3g of its range until [s]\n", h->tolerance);
+    fprintf(out, "\naccurate to %.3g of its range until [s]\n", h->tolerance);
     for (int k = 1; k < h->of->columns; k++) {
         print_column(out, h, k);
     }
@@ -298,15 +294,15 @@ static void print_reason(FILE *out, const horizon *h) {
     char name[NAME_SIZE];
     if (cut && t->overrun_s >= 0.0 && !(t->jumped_s >= 0.0 && t->jumped_s < t->overrun_s) &&
         !(t->finer_failed_s >= 0.0 && t->finer_failed_s < t->overrun_s)) {
-        fputs("behind that a step had more events than it takes, of its own or of half its length",
+        fputs("after that a step, of this run or of the finer one, had more events than its limit",
               out);
     } else if (cut && t->missed && t->jumped_s >= 0.0) {
         fputs(
-            "behind that a step passed through a contact or over an edge or a force, of its own or of half its length",
+            "after that a step, of this run or of the finer one, passed through a contact or over an edge or a force",
             out);
     } else {
-        fprintf(out, "behind that %s is off by %.3g of its range", name_of(h, h->first, name),
-                h->tolerance);
+        fprintf(out, "after that the error of %s exceeds %.3g of its range",
+                name_of(h, h->first, name), h->tolerance);
     }
 }
 
@@ -314,35 +310,32 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     char name[NAME_SIZE];
     if (h->to_the_end && doubted) {
         fputs(
-            "trusted            not to be told: the runs beside it agree to the end, and may share what was warned of\n",
+            "trusted            unknown: the finer run agrees to the end, but may share the error that is warned of\n",
             out);
     } else if (h->to_the_end) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
     } else if (h->of->unwrapped && h->until_s >= h->of->cut_s) {
         fprintf(out,
-                "trusted            not to be told behind t = %.6g s: double knows no sine beyond "
-                "%g rad\n",
+                "trusted            unknown after t = %.6g s: double has no sine beyond %g rad\n",
                 h->of->cut_s, ANGLE_SINE_MOST_RAD);
     } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
         const horizon_column *c = &h->column[h->first];
         fprintf(out,
-                "trusted            not to be told: double has too few digits for %s where it is; ",
+                "trusted            unknown: double has too few digits for %s at its position; ",
                 name_of(h, h->first, name));
         if (c->range > 0.0) {
-            fprintf(out, "rounding may move it by %.2g of its range\n", c->rounding / c->range);
+            fprintf(out, "round-off may move it by %.2g of its range\n", c->rounding / c->range);
         } else {
-            fprintf(out, "rounding may be why it stands still\n");
+            fprintf(out, "round-off may be the reason that it does not move\n");
         }
     } else if (h->of->aliased.column > 0) {
-        fputs(
-            "trusted            not to be told: more goes on between the stages of its steps than "
-            "they see\n",
-            out);
+        fputs("trusted            unknown: its steps alias a fast force or motion\n", out);
     } else {
         fprintf(out, "trusted            until t = %.6g s: ", h->until_s);
         print_reason(out, h);
-        fputs(image_of(h)->has_energies ? "; the books below tell what still holds\n" : "\n", out);
+        fputs(image_of(h)->has_energies ? "; only the balances below are meaningful then\n" : "\n",
+              out);
     }
 }
 

@@ -97,8 +97,7 @@ bool *blamed_parts(const image *im, int node) {
 /* === which expression it is =================================================================== */
 
 static const char hint_domain[] =
-    "a root or logarithm of what is below zero, a division by zero, or a number beyond all: keep the motion, or the "
-    "expression, away from it";
+    "keep the motion or the expression away from it: a root or logarithm of a negative number, a division by zero, or an overflow";
 
 /* --- values ------------------------------------------------------------------------------------*/
 
@@ -218,8 +217,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
     snprintf(
         hint, sizeof hint,
-        "it is %s() of %.6g rad, and sine and cosine are known up to %g rad only: keep what it is taken of "
-        "smaller",
+        "keep the argument smaller: it is %s() of %.6g rad, and sine and cosine are computed up to %g rad only",
         function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at));
     return sine ? hint : hint_domain;
 }
@@ -312,7 +310,7 @@ bool nonfinite_angle(const nonfinite_at *at, diags *errors) {
                at->turns ? "start it within a turn: whole turns change nothing in a sine"
                          : "start it within a turn: whole turns change nothing in a sine; or "
                            "--number float, whose angles count turns as integers",
-               "%s the angle '%s' is at %.9g rad: sine and cosine are known up to %g rad only",
+               "%s the angle '%s' is at %.9g rad: sine and cosine are computed up to %g rad only",
                at->when, worst->name, most, limit);
     return true;
 }
@@ -338,8 +336,7 @@ static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     diag_error(
         errors, where,
         "give the linkage lengths with which it cannot lie flat, or hold one coordinate more there",
-        "%s the holds leave more than one way to go on, this one says no more than the others: "
-        "%s",
+        "%s the holds allow more than one motion from here, since this one repeats the others: %s",
         at->when, text);
 }
 

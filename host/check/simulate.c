@@ -67,10 +67,9 @@ static bool open_files(simulation *sim) {
     }
     int power;
     if (s->vcd != NULL && !traces_power(sim->image, s->every, &power)) {
-        fputs("whirl run: error: --vcd counts times in femtoseconds at the finest, up to 2^52 of a "
-              "unit: these records lie closer\n"
-              "hint: a larger --every; --csv has no such limit\n",
-              stderr);
+        fputs(
+            "whirl run: error: these records lie too close for --vcd, whose finest unit is a femtosecond, with 2^52 units at most\nhint: use a larger --every, or --csv, which has no such limit\n",
+            stderr);
         return false;
     }
     if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns) ||
@@ -130,7 +129,7 @@ static void tell_outputs(simulation *sim) {
         snprintf(rows, sizeof rows, " (and in %llu more records)",
                  (unsigned long long)sim->output_rows - 1);
     }
-    diag_error(sim->undefined, s->at, "give it a value wherever the run goes",
+    diag_error(sim->undefined, s->at, "define the output at every position of the run",
                "at t = %.9g s%s the output '%s' is not a finite number: %s", sim->output_s, rows,
                s->name, text);
 }
@@ -231,8 +230,8 @@ static void say_saturated(const simulation *sim) {
     const uint64_t held = kind->saturated != NULL ? kind->saturated(sim->run) : 0;
     if (held > 0) {
         fprintf(stderr,
-                "whirl run: warning: %" PRIu64 " value%s saturated: held at an end of the range\n"
-                "hint: widen it: range NAME = A .. B\n",
+                "whirl run: warning: %" PRIu64
+                " value%s saturated at an end of the range\nhint: widen it: range NAME = A .. B\n",
                 held, held == 1 ? "" : "s");
     }
 }
@@ -348,7 +347,7 @@ static bool close_records(simulation *sim, bool keep) {
                 !atomic_file_is_regular(sim->csv) || write_about(sim);
     keep = keep && good;
     good = atomic_file_close(sim->csv, s->csv, keep) && good;
-    good = atomic_file_close(sim->columns, s->columns, keep) && good;
+    good = plot_run_csv_end(sim->columns, s->columns, keep, "run", sim->image->name) && good;
     return atomic_file_close(sim->vcd, s->vcd, keep) && good;
 }
 
@@ -401,12 +400,12 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (result == SIMULATION_DONE && h != NULL) {
         horizon_print_line(out, h, (sim->verdict->against & ~FINDING_OF_SCENE) != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
-        fputs("trusted            whirl trust tells until when: it takes more than a second\n",
+        fputs("trusted            not computed, which takes more than a second: run whirl trust\n",
               out);
     }
     const unsigned unlooked = run_checks_unlooked(sim->verdict);
     if (result == SIMULATION_DONE && unlooked != 0) {
-        fputs("not looked at      ", out);
+        fputs("not checked        ", out);
         finding_say_names(out, unlooked);
         const uint64_t unseen = pole_crossing_unseen(sim->verdict->jumped);
         if (unseen > 0) {

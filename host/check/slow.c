@@ -48,10 +48,10 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
     if (kind->unit == NULL) {
         fputs("turns so slowly that rounding its steps to 1.5e-9 rad, as float does,", out);
     } else {
-        fprintf(out, "moves so slowly that rounding, to %.2g%s%s and of what is added to it,",
+        fprintf(out, "moves so slowly that rounding, to %.2g%s%s and of each increment,",
                 kind->unit(run, i), space, unit);
     }
-    fprintf(out, " put it off by up to %.2g%s%s", off, space, unit);
+    fprintf(out, " causes an error of up to %.2g%s%s", off, space, unit);
     if (span > 0.0) {
         fprintf(out, ", %.2g %% of the %.2g%s%s that it should cover", 100.0 * off / span, span,
                 space, unit);
@@ -68,9 +68,8 @@ void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *r
     if (slow_count(kind, im, run) > 0) {
         fputs(
             kind->unit != NULL
-                ? "hint: a larger --step rounds less, and so do narrower ranges (turn angles have "
-                  "none); --number float --compensated carries what is rounded\n"
-                : "hint: --compensated carries what is rounded; a larger --step rounds less\n",
+                ? "hint: use a larger --step or narrower ranges (turn angles have none), which round less, or --number float --compensated\n"
+                : "hint: use --compensated, or a larger --step, which rounds less\n",
             out);
     }
 }

@@ -287,10 +287,11 @@ static void print_events(FILE *out, const image *im, const engine_kind *kind, co
         print_idle(out, im, kind, run);
     }
     if (overruns > 0) {
-        fprintf(out,
-                "  %" PRIu64 " steps had more than %d moments with events: what was left of them "
-                "counts as rest or sticking; a smaller --step tells more\n",
-                overruns, WH_EVENTS_MAX);
+        fprintf(
+            out,
+            "  %" PRIu64
+            " steps had more than %d moments with events: the remainder of them was computed as rest or sticking; check with a smaller --step\n",
+            overruns, WH_EVENTS_MAX);
     }
 }
 

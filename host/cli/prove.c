@@ -162,10 +162,10 @@ static void say_end(const containment_found *h, double end_s) {
 
 static int status_of(const containment_found *h, const image *im) {
     if (h->status != WH_OK) {
-        fprintf(stderr,
-                "whirl prove: error: the run diverged in the step after t = %.15g s\n"
-                "hint: a smaller --step may carry it further\n",
-                ratio_times(h->run_steps, im->step));
+        fprintf(
+            stderr,
+            "whirl prove: error: the run diverged in the step after t = %.15g s\nhint: try a smaller --step\n",
+            ratio_times(h->run_steps, im->step));
     }
     return h->end == CONTAINMENT_STOPPED ? EXIT_INTERRUPTED
            : h->status == WH_OK          ? EXIT_DONE

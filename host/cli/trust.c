@@ -121,8 +121,7 @@ static void say_failure(const image *im, const engine_kind *kind, const step_dou
         const component c = image_component(im, fault < 0 ? 0 : fault);
         fprintf(
             stderr,
-            "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all "
-            "bounds\nhint: a smaller --step may carry it further\n",
+            "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all bounds\nhint: try a smaller --step\n",
             t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
     }
 }

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/contact.h"
-#include "core/version.h"
 #include "host/base/alloc.h"
 #include "host/base/diag.h"
 #include "host/io/vcd.h"
@@ -116,7 +115,6 @@ void records_header(records *r) {
     }
     if (r->plain != NULL) {
         write_header(r, r->plain, &plain);
-        fprintf(r->plain, "%% whirl " WH_VERSION ", %s\n", r->image->name);
     }
 }
 

@@ -255,7 +255,7 @@ static void write_row(FILE *out, const stability_map *m, uint64_t point) {
 
 void map_csv(FILE *out, const stability_map *m) {
     const grid *g = m->grid;
-    fprintf(out, "%s,%s,verdict,until,end,energy_left_over\r\n", g->axes[0].column,
+    fprintf(out, "%s,%s,verdict,until,end,energy_residual\r\n", g->axes[0].column,
             g->axes[1].column);
     for (uint64_t i = 0; i < g->points; i++) {
         if (m->cell[i].verdict != MAP_UNTRIED) {
@@ -277,7 +277,7 @@ static void put_pair(json *j, const stability_map *m, uint64_t point) {
     json_text(j, "verdict", map_verdicts[c->verdict].word);
     json_time(j, "until_s", known ? c->until_s : -1.0);
     json_time(j, "end_s", known ? c->end_s : -1.0);
-    json_number(j, "energy_left_over", c->left_over);
+    json_number(j, "energy_residual", c->left_over);
     json_close(j, '}');
 }
 

@@ -80,7 +80,7 @@ done <"$scratch/forms"
 [ $? -eq 2 ] && grep -q 'lorenz is given by equations' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "a system has no steps" "$scratch/err"
 
-# --- the version, in every export: CSV in FILE.toml (a sweep's in FILE.sweep), --columns in its second line
+# --- the version, in every export: CSV and columns in FILE.toml, a sweep in FILE.sweep
 version=$(sed -n 's/^#define WH_VERSION "\(.*\)"$/\1/p' core/version.h)
 number=$(sed -n 's/^#define WH_VERSION_NUMBER \([0-9]*\) .*/\1/p' core/version.h)
 parts=$(echo "$version" | awk -F. '{ printf "%d %d %d %d", 10000 * $1 + 100 * $2 + $3, $1, $2, $3 }')
@@ -124,5 +124,5 @@ for command in $("$whirl" help | sed -n 's/^  whirl \([a-z]*\) .*/\1/p'); do
 done
 "$whirl" run "$it" --quiet --vcd "$scratch/x.vcd" --columns "$scratch/x.txt"
 carries --vcd "$scratch/x.vcd" "\$version whirl $version \$end"
-carries --columns "$scratch/x.txt" "% whirl $version, it_bounces"
+carries --columns "$scratch/x.txt.toml" "$version"
 exit $failed

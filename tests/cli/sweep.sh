@@ -33,7 +33,7 @@ derived --jobs 1 --csv "$scratch/derived1.csv"
 derived --jobs 3 --csv "$scratch/derived3.csv"
 check "the same from 1 job and 3, each point derived" \
     cmp "$scratch/derived1.csv" "$scratch/derived3.csv"
-printf 'ratio,r_disc [in],amplitude(X),"max(ratio, 0.5)",energy_left_over\r\n' >"$scratch/header"
+printf 'ratio,r_disc [in],amplitude(X),"max(ratio, 0.5)",energy_residual\r\n' >"$scratch/header"
 head -n 1 "$scratch/derived1.csv" >"$scratch/first"
 check "the header, quoted where it must be" cmp "$scratch/header" "$scratch/first"
 check "values in the header's units" test "$(sed -n '2,6p' "$scratch/derived1.csv" | cut -d, -f2 | tr '\n' ' ')" = "4 5 6 7 8 "
@@ -191,13 +191,13 @@ check "a condition that is no number fails" status 1 ends --with latch
 check "a condition that is no number: which, and when" grep -q 'point 1 (c=0.5): in the step after t = 0.499 s the condition of this hold is not a finite number: hold y while sqrt' "$scratch/said"
 check "a condition that is no number: the others are there" test "$(tr -d '\r' <"$scratch/rows" | grep -cE '^[.0-9]+,0,0.000e\+00$')" -eq 2
 check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet |
-    tr -d '\r' | awk -F, 'NR == 1 { bad = \$3 != \"energy_left_over\" } NR == 2 { bad = bad || !(\$3 < 1e-9) }
+    tr -d '\r' | awk -F, 'NR == 1 { bad = \$3 != \"energy_residual\" } NR == 2 { bad = bad || !(\$3 < 1e-9) }
     NR == 3 { bad = bad || !(\$3 > 1e-3) } END { exit bad }'"
-check "points that cannot be believed: exit status 1" status 1 \
+check "points that fail the balance: exit status 1" status 1 \
     "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
-check "points that cannot be believed: how many, and the first" \
-    grep -qF 'warning: 1 of 2 points cannot be believed: too much of the largest entry of their energy books is left over (energy_left_over), or was missing on the way [energy]; first: point 2 (step=0.2)' "$scratch/said"
-check "no balance without energies" sh -c "! '$whirl' sweep carriage_ratio --until 0.1s --over ratio=0.1..0.2:2 --quiet | grep -q energy_left_over"
+check "points that fail the balance: how many, and the first" \
+    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual is too large a part of the largest entry of their books (energy_residual), at the end or on the way [energy]; first: point 2 (step=0.2)' "$scratch/said"
+check "no balance without energies" sh -c "! '$whirl' sweep carriage_ratio --until 0.1s --over ratio=0.1..0.2:2 --quiet | grep -q energy_residual"
 check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
 check "no period: nan" test "$(grep -c ',nan' "$scratch/rows")" -eq 2

@@ -40,7 +40,7 @@ bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
     return true;
 }
 
-bool jumps_told(void) { return strstr(jumps_said.err, "jumped over a place where") != NULL; }
+bool jumps_told(void) { return strstr(jumps_said.err, "jumped over a pole") != NULL; }
 
 bool jumps_some(motion *m) {
     pole_crossing *j = pole_crossing_open(m->image);

@@ -141,7 +141,7 @@ static void test_what_is_wrong_is_told(void) {
                 command_say(command_trust, words, &trust);
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\ntrusted until t = 0 s of "),
                                              about);
-                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\nmore goes on between the stages"),
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\nits steps alias a fast force"),
                                              trust.out);
             }
             if (named_cures(what.err, list) > 0 && list[0].tried) {
@@ -182,8 +182,7 @@ static void test_sweeps_count_it(void) {
         snprintf(over, sizeof over, "R=%.17g..%.17g:2", m.rate, 1.001 * m.rate);
         const char *words[] = {model_keep(m.text), "--over", over, NULL};
         command_say(command_sweep, words, &what);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "2 of 2 points have something faster"),
-                                     what.err);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "2 of 2 points alias a force"), what.err);
         counted++;
     }
     model_drop();
@@ -319,7 +318,7 @@ static verdict_of ask(const char *text, const char *name, const char *method, co
     const char *at = strstr(what.out, name);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what.out);
     verdict_of v = {.warned = strstr(what.err, "warning") != NULL,
-                    .too_fast = strstr(what.err, "more goes on between") != NULL,
+                    .too_fast = strstr(what.err, "aliases a fast force") != NULL,
                     .trusted = strstr(what.out, "to the end: every") != NULL};
     TEST_ASSERT_NOT_NULL(said_number(at + strlen(name), &v.value));
     return v;

@@ -45,7 +45,7 @@ static void test_what_contacts_took_is_told_apart(void) {
         const double took = -told(what.out, "impacts, friction, holds and settings");
         const double lost = 2.0 * 9.81 * height * (1.0 - e * e);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-8 * lost, lost, took, text);
-        TEST_ASSERT_TRUE_MESSAGE(fabs(told(what.out, "\n  left over")) < 1e-9 * lost, what.out);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(told(what.out, "\n  residual")) < 1e-9 * lost, what.out);
         const char *hash = strstr(what.out, "state hash");
         TEST_ASSERT_NOT_NULL(hash);
         char kept[40];

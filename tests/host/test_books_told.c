@@ -154,7 +154,7 @@ static void test_conserved_momenta(void) {
             free_ones == 0,
             strstr(
                 what.out,
-                "\nno coordinate's own momentum is conserved; whirl examine tells of sums and rotations\n") !=
+                "\nno single coordinate's momentum is conserved; whirl examine finds those of sums and rotations\n") !=
                 NULL,
             what.out);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy book [J]\n"), what.out);
@@ -259,14 +259,14 @@ static void test_every_line(void) {
                     " (--with ledger says which)");
             }
             ADD("  %-44s %+.9g%s\n", "change", change_J, "");
-            ADD("  %-44s %+.2e (numerical)\n", "left over", balance.left_J);
+            ADD("  %-44s %+.2e (numerical)\n", "residual", balance.left_J);
         } else if (isnan(change_J)) {
             ADD("  no balance: the energies are not finite numbers\n");
         } else {
             ADD("  %-44s %+.9g\n", "work of inputs", b->input_J);
             ADD("  %-44s %+.9g\n", "losses", -b->loss_J);
             ADD("  %-44s %+.9g%s\n", contacts, change_J - b->input_J + b->loss_J,
-                ", numerical errors with it: how much they are is not known here");
+                ", with numerical errors of unknown size");
         }
         if (im->unknown[0].conserved || im->unknown[1].conserved) {
             ADD("conserved momentum [SI]\n");
@@ -277,7 +277,7 @@ static void test_every_line(void) {
                 }
             }
         } else {
-            ADD("no coordinate's own momentum is conserved; whirl examine tells of sums and rotations\n");
+            ADD("no single coordinate's momentum is conserved; whirl examine finds those of sums and rotations\n");
         }
 #undef ADD
         FILE *out = open_memstream(&is, &size);

@@ -651,7 +651,7 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     expect_between("x'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "x'"));
     expect_between("z'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "z'"));
     m.kind->ledger(m.run, total, left);
-    expect_between("energy left over", -1e-14, 1e-14, left[0]);
+    expect_between("energy residual", -1e-14, 1e-14, left[0]);
     bool booked = false; /* the capture took half of the assignment's energy */
     for (int i = 0; i < 64; i++) {
         booked = booked || fabs(total[i] + 1.0) < 1e-14;

@@ -437,9 +437,9 @@ static void test_slow_angles(void) {
                       "rad, as float does, put it off by up to ");
             at = said_exactly(said_number(at, &figure[0]), " rad, ");
             at = said_exactly(said_number(at, &figure[1]), " % of the ");
-            at = said_exactly(said_number(at, &figure[2]),
-                              " rad that it should cover\nhint: --compensated carries what is "
-                              "rounded; a larger --step rounds less\n");
+            at = said_exactly(
+                said_number(at, &figure[2]),
+                " rad that it should cover\nhint: use --compensated, or a larger --step, which rounds less\n");
             TEST_ASSERT_TRUE_MESSAGE(
                 *at == '\0' || strncmp(at, "whirl run: exit status 1 ", 25) == 0, at);
             expect_figure(off_rad, figure[0], what.err);
@@ -594,7 +594,7 @@ static void test_failures(void) {
         TEST_ASSERT_EQUAL_UINT(failed > 0 ? 1 : 0, times_in(s.err, wanted));
         TEST_ASSERT_EQUAL_INT(failed > 0 ? EXIT_RUN_FAILED : EXIT_DONE, s.code);
         expect_end(s.err, rows, 0, (uint64_t)most < rows ? most : (int)rows);
-        TEST_ASSERT_EQUAL_STRING_LEN("start(y),start(x),x,energy_left_over\r\n", s.rows, 38);
+        TEST_ASSERT_EQUAL_STRING_LEN("start(y),start(x),x,energy_residual\r\n", s.rows, 38);
 
         const uint64_t kept = c % 2U == 0 ? rows : dice_one_of(&die, (unsigned)rows + 1U);
         sessions_cut(kept < rows ? row_at(s.rows, kept) : strlen(s.rows));
@@ -685,8 +685,8 @@ static void test_notes(void) {
                     "had steps with more events than a step takes [events]; ", first_overrun,
                     first_at[0]);
         expect_note(s.err, "whirl sweep: note: ", slow, points,
-                    "have a component that moves too slowly for the units of its steps [digits]; ",
-                    first_slow, first_at[1]);
+                    "have a component whose steps are below its resolution [digits]; ", first_slow,
+                    first_at[1]);
         made_sweep_close(&m);
     }
     sessions_close();
@@ -718,10 +718,10 @@ static void test_not_believed(void) {
         grid_values(&m.grid, fine_first ? 1 : 0, value);
         snprintf(at, sizeof at, "step=%s", number_shortest(value[0], number));
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(s.err), s.code, s.err);
-        expect_note(s.err, "whirl sweep: warning: ", 1, 2,
-                    "cannot be believed: too much of the largest entry of their energy books is "
-                    "left over (energy_left_over), or was missing on the way [energy]; ",
-                    fine_first ? 1 : 0, at);
+        expect_note(
+            s.err, "whirl sweep: warning: ", 1, 2,
+            "fail the energy balance: the residual is too large a part of the largest entry of their books (energy_residual), at the end or on the way [energy]; ",
+            fine_first ? 1 : 0, at);
         TEST_ASSERT_TRUE(times_in(s.err, "hint: `whirl run` of the point tells what would do\n") >=
                          1);
         made_sweep_close(&m);

@@ -225,7 +225,7 @@ static seen see(const held *h) {
     s.told = strstr(what.err, "[accuracy]") != NULL || strstr(what.err, "[constants]") != NULL;
     s.warned = strstr(what.err, "warning") != NULL;
     s.trusted = strstr(what.out, "to the end: every") != NULL;
-    s.untold = strstr(what.out, "not to be told: double has") != NULL;
+    s.untold = strstr(what.out, "unknown: double has") != NULL;
     TEST_ASSERT_TRUE_MESSAGE(!s.trusted || !s.warned, what.err);
     motion m;
     motion_open_text(&m, text, IN_DOUBLE);

@@ -30,16 +30,16 @@ typedef struct told_scene {
     { "coordinate a [m]\n", "coordinate b [m]\n", "coordinate c [m]\n" }
 
 static const told_scene scenes[] = {
-    {.told = "this run cannot be believed",
+    {.told = "the energy balance fails",
      .coordinates = THREE,
      .law = SPRUNG,
      .scene = SPRUNG_START "step 0.09 [s]; until 9 [s]"},
-    {.told = "this run cannot be believed",
+    {.told = "the energy balance fails",
      .coordinates = THREE,
      .law = SPRUNG,
      .scene = SPRUNG_START "step 0.04 [s]; until 4 [s]",
      .words = {"--method", "heun", "--number", "float"}},
-    {.told = "this run cannot be believed",
+    {.told = "the energy balance fails",
      .coordinates = THREE,
      .law = SPRUNG,
      .scene = SPRUNG_START "step 0.1 [s]; until 9 [s]",
@@ -55,7 +55,7 @@ static const told_scene scenes[] = {
             "equation r' = -@0.5 [1/s]*r + @9 [1/s]*q\n"
             "equation s' = @0.1 [1/s]*r\n",
      .scene = "start p = @3, r = @1, s = @7; step 0.08 [s]; until 8 [s]"},
-    {.told = "largest, nearest at r = 0.9",
+    {.told = "[accuracy]",
      .coordinates = {"coordinate r [m]\n", "coordinate b [m]\n", "coordinate phi [rad]\n",
                      "coordinate psi [rad]\n"},
      .law = "T = 1 [kg]*(r'^2 + (1 [m] - r)^2*phi'^2)/2 + 2 [kg]*b'^2/2 + @5 [kg*m^2]*psi'^2/2\n"

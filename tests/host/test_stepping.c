@@ -483,7 +483,7 @@ static void test_headers(void) {
             at += quoted ? 1 : 0;
             const char *name = i < swept           ? m.grid.axes[i].column
                                : i < swept + count ? names[i - swept]
-                                                   : "energy_left_over";
+                                                   : "energy_residual";
             TEST_ASSERT_EQUAL_STRING(name + (i < swept ? 0 : strspn(name, " ")), field);
             TEST_ASSERT_EQUAL(strchr(field, ',') != NULL, quoted);
             at = said_exactly(at, i < swept + count ? "," : swept == 3 ? ",end_s\r\n" : "\r\n");

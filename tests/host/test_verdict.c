@@ -217,8 +217,8 @@ static void expect_rows(int (*command)(int, char **), const char *const *words, 
 static void test_json_of_trust_and_map(void) {
     static const char *const columns[] = {"name",  "unit", "verdict", "until_s",
                                           "range", "off",  NULL};
-    static const char *const pairs[] = {"values/0", "values/1",         "verdict", "until_s",
-                                        "end_s",    "energy_left_over", NULL};
+    static const char *const pairs[] = {"values/0", "values/1",        "verdict", "until_s",
+                                        "end_s",    "energy_residual", NULL};
     dice d = dice_of("json", 15006);
     unsigned told[2] = {0};
     for (unsigned i = 0; i < 4 * SHAPES; i++) {
@@ -387,11 +387,11 @@ static void test_a_limit_is_one_of_the_energy(void) {
         draw(&d, 0, text);
         const char *const plain[] = {model_keep(text), NULL};
         command_say(command_run, plain, &what);
-        const char *at = strstr(what.out, "energy left over ");
+        const char *at = strstr(what.out, "energy residual ");
         if (at == NULL) {
             continue;
         }
-        const double ratio = strtod(at + strlen("energy left over "), NULL);
+        const double ratio = strtod(at + strlen("energy residual "), NULL);
         const double share = i % 2 == 0 ? 0.9 : 1.1;
         if (!(ratio > 1e-12 && share * ratio < 1.0)) {
             continue;
@@ -637,7 +637,7 @@ static void test_what_was_not_looked_at(void) {
         char line[100];
         const char *run[] = {file, "--until", cases[i].until, NULL, NULL};
         const char *sweep[] = {file, "--until", cases[i].until, "--over=p=1..1:1", "--json", NULL};
-        snprintf(line, sizeof line, "not looked at      %s: ", cases[i].names);
+        snprintf(line, sizeof line, "not checked        %s: ", cases[i].names);
         command_say(command_run, run, &what);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, line), what.out);
         run[3] = "--json";
