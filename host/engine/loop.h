@@ -42,7 +42,7 @@ typedef enum loop_end {
     LOOP_SPENT /* the budget is empty */
 } loop_end;
 
-/* From the present step to the last, or to an interrupt (host/base/interrupts.h). */
+/* From the present step to the last, or to an interrupt (host/os/system.h). */
 loop_end loop_run(const loop *l, wh_status *status);
 
 /* This many steps, without callbacks, up to the first failure. */
