@@ -220,18 +220,6 @@ typedef struct describe_options {
     bool as_json;
 } describe_options;
 
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    (void)count;
-    (void)bad;
-    describe_options *o = options;
-    const bool is_json = strcmp(words[*at], "--json") == 0;
-    if (is_json) {
-        o->as_json = true;
-        ++*at;
-    }
-    return is_json;
-}
-
 static int describe_loaded(source_model *from, const describe_options *o) {
     loaded made;
     const int code =
@@ -247,13 +235,16 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 }
 
 int command_describe(int count, char **words) {
-    static const char *const own[] = {"--json", NULL};
     describe_options o = {.common = options_defaults()};
+    const own_option own[] = {{.word = "--json", .flag = &o.as_json}, {.word = NULL}};
+    const target_reader reader = {
+        .command = "describe", .groups = usage.groups, .table = own, .derives = true};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     int code = EXIT_BAD_INPUT;
-    if (target_ask("describe", own, take_one, &usage, count, words, &o.common, &o, &o.target)) {
+    if (target_read(&reader, count, words, &o.common, &o, &o.target) &&
+        target_is_there(o.target, &usage)) {
         source_model from;
         code = source_open(&from, o.target);
         if (code == EXIT_DONE) {

@@ -333,11 +333,17 @@ static int examine_loaded(source_model *from, const examine_options *o) {
 int command_examine(int count, char **words) {
     static const char *const own[] = {"--as", NULL};
     examine_options o = {.common = options_defaults()};
+    const target_reader reader = {.command = "examine",
+                                  .groups = usage.groups,
+                                  .own = own,
+                                  .take = take_one,
+                                  .derives = true};
     if (options_help(count, words, &usage)) {
         return EXIT_DONE;
     }
     int code = EXIT_BAD_INPUT;
-    if (target_ask("examine", own, take_one, &usage, count, words, &o.common, &o, &o.target)) {
+    if (target_read(&reader, count, words, &o.common, &o, &o.target) &&
+        target_is_there(o.target, &usage)) {
         source_model from;
         code = source_open(&from, o.target);
         if (code == EXIT_DONE) {

@@ -98,15 +98,6 @@ bool target_is_there(const char *target, const command_usage *usage) {
     return target != NULL;
 }
 
-bool target_ask(const char *command, const char *const *own, target_take *take,
-                const command_usage *usage, int count, char **words, common_options *common,
-                void *options, const char **target) {
-    const target_reader reader = {
-        .command = command, .groups = usage->groups, .own = own, .take = take, .derives = true};
-    return target_read(&reader, count, words, common, options, target) &&
-           target_is_there(*target, usage);
-}
-
 int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish) {
     const mechanism *of;
     const scene *in;

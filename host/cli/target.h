@@ -50,12 +50,6 @@ typedef struct target_reader {
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  void *options, const char **target);
 
-/* target_read() for a command that works on scenes and mechanisms, with the groups of its usage; and requires a target.
- */
-bool target_ask(const char *command, const char *const *own, target_take *take,
-                const command_usage *usage, int count, char **words, common_options *common,
-                void *options, const char **target);
-
 /* load() of the named scene, or of the file's only scene, with the common options. */
 int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish);
 
