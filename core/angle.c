@@ -1,7 +1,7 @@
 /* angle.c: angles between radians and their stored form, and the sine table. */
 #include "angle.h"
 
-#include "number/small_turn.h"
+#include "number/sincos_small.h"
 
 /* sin(2 pi i/128) to 17 digits; the nearest number of either build (tests/core/test_angle.c). */
 const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {
@@ -115,4 +115,4 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
 
 #endif
 
-WH_COLD wh_wave wh_far_turn_called(wh_real d) { return wh_far_turn(d, false); }
+WH_COLD wh_wave wh_sincos_far_called(wh_real d) { return wh_sincos_far(d, false); }

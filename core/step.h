@@ -146,7 +146,7 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel,
 /* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and
  * the rest of the state unchanged. */
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
-                                   bool compensated, unsigned angles, unsigned n, wh_span h,
+                                   bool compensated, unsigned angles, unsigned n, wh_two_part h,
                                    wh_state *state) {
     if (method == WH_RK4_PLAIN && !compensated) {
         const wh_rk4_system plain = {.model = model,
@@ -154,10 +154,10 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
                                      .coordinates = n,
                                      .angles = angles,
                                      .reals = 2 * n - angles};
-        return wh_rk4_step(&plain, h.s, state);
+        return wh_rk4_step(&plain, h.high, state);
     }
     const wh_tableau *by = wh_tableau_of(method);
-    const wh_stepping to = {by, state, h.s, angles, n, compensated};
+    const wh_stepping to = {by, state, h.high, angles, n, compensated};
     wh_stepped_second k = {
         .linear = state->real, .rate = state->real + (n - angles), .input = state->input};
     wh_stepped_list list;
@@ -215,7 +215,7 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
  * with the state unchanged for a method that does not take such a system. Semi-implicit Euler does not: it moves rates
  * before positions, and a first-order system does not distinguish them. Otherwise returns as wh_step_second(). */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
-                                  bool compensated, unsigned angles, unsigned reals, wh_span h,
+                                  bool compensated, unsigned angles, unsigned reals, wh_two_part h,
                                   wh_state *state) {
     if (method == WH_RK4_PLAIN && !compensated) {
         const wh_rk4_system plain = {.model = model,
@@ -223,10 +223,10 @@ WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_meth
                                      .angles = angles,
                                      .reals = reals,
                                      .coordinates = angles};
-        return wh_rk4_step(&plain, h.s, state);
+        return wh_rk4_step(&plain, h.high, state);
     }
     const wh_tableau *by = wh_tableau_of(method);
-    const wh_stepping to = {by, state, h.s, angles, angles + reals, compensated};
+    const wh_stepping to = {by, state, h.high, angles, angles + reals, compensated};
     wh_stepped_first k;
     wh_stepped_list list;
 

@@ -73,7 +73,7 @@ $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
 # What runs once in a while is made small, so that what runs each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
-    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/life.c core/text.c core/frame.c core/cobs.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
+    $(VIRTUAL_C) core/rig/swing_guess.c core/rig/state_machine.c core/text.c core/frame.c core/cobs.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
     FILE_FLAGS = -Os
 
 ifneq ($(BOARD_FLASHED),)

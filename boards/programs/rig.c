@@ -133,8 +133,8 @@ static bool take_dials(wh_rig_config *config) {
     target_radps = hal_frames_dial(HAL_DIAL_TARGET);
     const float fed = hal_frames_dial(HAL_DIAL_FEED);
     if (fed < 0.0f || fed > 0.0f) {
-        config->feeds = WH_FEED_ALWAYS;
-        config->feed.weight_Nm *= fed;
+        config->feeds = WH_COMPENSATION_ALWAYS;
+        config->compensation.weight_Nm *= fed;
     }
     config->stop_brakes = hal_frames_dial(HAL_DIAL_BRAKES) > 0.5f;
     return true;
@@ -185,7 +185,7 @@ static void look_at_stop(operator_step *at, bool rests) {
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);
-    if (rig.state == WH_LIFE_TRIPPED) {
+    if (rig.state == WH_RIG_TRIPPED) {
         return rig.rested;
     }
     switch (*at) {
@@ -198,13 +198,13 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     case HAS_ARMED:
         *at = HAS_STARTED;
         (void)wh_rig_post(&rig, WH_EVENT_START, target_radps);
-        return rig.state != WH_LIFE_ARMED; /* refused */
+        return rig.state != WH_RIG_ARMED; /* refused */
     case HAS_STARTED: break;
     case WAS_RESET:
     case WAS_STOPPED:
-    case STOP_SILENT: return rig.state == WH_LIFE_IDLE && rests;
+    case STOP_SILENT: return rig.state == WH_RIG_IDLE && rests;
     }
-    return (rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
+    return (rig.state == WH_RIG_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
 
 /* The control loop, until the run is over. Returns the operator's last step. */
@@ -270,7 +270,7 @@ static void put_end(operator_step ended) {
         put(": nothing moves by itself\n");
     }
     const char *end = NULL;
-    if (rig.state == WH_LIFE_TRIPPED) {
+    if (rig.state == WH_RIG_TRIPPED) {
         put("TRIPPED: ");
         end = wh_trip_text(rig.guard.trip);
     } else if (ended == WAS_STOPPED) {
@@ -285,7 +285,7 @@ static void put_end(operator_step ended) {
     }
     if (end != NULL) {
         put(end);
-        if (rig.state == WH_LIFE_TRIPPED && rig.guard.trip == WH_TRIP_SUPPLY) {
+        if (rig.state == WH_RIG_TRIPPED && rig.guard.trip == WH_TRIP_SUPPLY) {
             put_supply(rig.record.supply_V);
         } else if (rig.answer == WH_REFUSED_SUPPLY) {
             put_supply(seen.inputs.supply_V);
@@ -333,7 +333,7 @@ int main(void) {
 #if HAL_VIRTUAL
     put_plant_hash();
 #endif
-    const bool good = rig.state != WH_LIFE_TRIPPED && ended == HAS_STARTED && rig.has_result &&
+    const bool good = rig.state != WH_RIG_TRIPPED && ended == HAS_STARTED && rig.has_result &&
                       rig.result.force.quality != WH_REFUSED;
     board_exit(good ? 0 : 1);
 }

@@ -8,7 +8,7 @@
 #include "core/number/arithmetic.h"
 #include "core/rig/rig.h"
 #include "core/scene.h"
-#include "core/station/seen.h"
+#include "core/station/step_inputs.h"
 #include "core/text.h"
 #include "hal/clock.h"
 #include "hal/loadcell.h"
@@ -51,13 +51,13 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 #define RIG_SAMPLES_WITH_PULSE 1U
 #endif
 
-_Static_assert(RIG_SAMPLES_MOST <= WH_SEEN_SAMPLES, "all are seen");
+_Static_assert(RIG_SAMPLES_MOST <= WH_STEP_SAMPLES, "all are seen");
 
 /* Static, not on the stack: it contains the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
-static wh_seen seen; /* of this control step, or the last */
-static bool drives;  /* obey.h */
+static wh_step_inputs seen; /* of this control step, or the last */
+static bool drives;         /* obey.h */
 
 /* Reads new edges and samples into `seen`, as many as a step takes. */
 static void look(void) {
@@ -83,7 +83,7 @@ static void look(void) {
     while (seen.samples < (seen.pulsed ? RIG_SAMPLES_WITH_PULSE : RIG_SAMPLES_MOST) &&
            hal_loadcell_take(&sample)) {
         seen.sample[seen.samples] =
-            (wh_seen_sample){sample.ticks, sample.raw, (wh_load_status)sample.status};
+            (wh_step_sample){sample.ticks, sample.raw, (wh_load_status)sample.status};
         seen.samples += sample.status != HAL_LOAD_REPEATED ? 1U : 0U;
     }
     seen.inputs.now_ticks = hal_clock_ticks();
@@ -104,7 +104,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
         wh_rig_pulse(config, &rig, seen.sensor, seen.pulse_ticks);
     }
     for (unsigned i = 0; i < seen.samples; i++) {
-        const wh_seen_sample *sample = &seen.sample[i];
+        const wh_step_sample *sample = &seen.sample[i];
         wh_rig_load(config, &rig, sample->ticks, sample->raw, sample->status);
     }
     const wh_rig_command command = wh_rig_step(config, &rig, &seen.inputs);

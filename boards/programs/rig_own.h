@@ -30,7 +30,7 @@ static void own_configuration(wh_rig_config *config) {
 #if WH_RIG_FEEDS
     config->observer.scene = &rig_observed;
 #else
-    config->feeds = WH_FEED_NEVER;
+    config->feeds = WH_COMPENSATION_NEVER;
 #endif
 }
 

@@ -87,7 +87,7 @@ static inline void put_turns(const wh_run *run) {
 /* A run's measurement, with the formula's value at a nominal speed. */
 static inline void put_result(const wh_rig_config *config, const wh_rig_result *result,
                               float nominal_radps) {
-    const float formula_N = config->measure.rotor.mass_moment_kgm * nominal_radps * nominal_radps;
+    const float formula_N = config->measure.rotor.unbalance_kgm * nominal_radps * nominal_radps;
     const wh_measured *force = &result->force;
     put("Measured, over the whole turns of a record at 500 samples/s\n");
     put_value("turns", (float)force->turns, 0, "");
@@ -143,7 +143,7 @@ static inline void put_swung(const wh_swung *swung) {
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;
-    const float lever_m = config->measure.rotor.mass_moment_kgm / WH_RIG_ECCENTRIC_KG;
+    const float lever_m = config->measure.rotor.unbalance_kgm / WH_RIG_ECCENTRIC_KG;
     put("On a carriage: force as a part of that on a fixed mount, 1/(1 + ratio)\n");
     put_value("eccentric / carriage weight", carriage->ratio, 4, "");
     put_value("radius of the discs", 1e3f * carriage->disc_m, 1, "mm");

@@ -93,7 +93,7 @@ static bool run(const trial *tried) {
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
-    config.feeds = tried->fed ? WH_FEED_ALWAYS : wh_rig_standard.feeds;
+    config.feeds = tried->fed ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
     config.stop_brakes = true; /* the others end soon */
     if (hal_clock_start() != HAL_STARTED) {
@@ -118,7 +118,7 @@ static bool run(const trial *tried) {
             faults->lose_pulses[1] = tried->lose_pulses[1];
             faults->lose_samples = tried->lose_samples;
         }
-        over = rig.has_result && rig.state == WH_LIFE_IDLE && !wh_swing_works(&rig.swing);
+        over = rig.has_result && rig.state == WH_RIG_IDLE && !wh_swing_works(&rig.swing);
     }
     line_begin("run", tried->name);
     line_number(first);

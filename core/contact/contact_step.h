@@ -77,7 +77,7 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
     const wh_contact_model model = {of, w};
     wh_state view = {0, s->angle, s->real, s->carry, input, NULL, NULL, NULL, -1};
     wh_books_begin(of, w, s->angle, h);
-    const wh_span span = {h, WH_R(0.0)};
+    const wh_two_part span = {h, WH_R(0.0)};
     const wh_status status = wh_step_second(&model, wh_contact_accel, of->method, of->compensated,
                                             of->angles, of->coordinates, span, &view);
     wh_books_end(of, w);

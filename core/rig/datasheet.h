@@ -36,10 +36,10 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 
 /* Sum of mass times radius over both sets. */
-#define WH_RIG_MASS_MOMENT_AT_KGM(disc_m) \
+#define WH_RIG_UNBALANCE_AT_KGM(disc_m) \
     (WH_R(2.0) * (WH_R(0.152) * (WH_R(3.625) * WH_R(0.0254)) + WH_R(0.15) * (disc_m)) * \
      WH_R(0.45359237))
-#define WH_RIG_MASS_MOMENT_KGM WH_RIG_MASS_MOMENT_AT_KGM(WH_RIG_DISC_RADIUS_M)
+#define WH_RIG_UNBALANCE_KGM WH_RIG_UNBALANCE_AT_KGM(WH_RIG_DISC_RADIUS_M)
 
 /* Of all rotating parts: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and shafts,
  * which is assumed. */

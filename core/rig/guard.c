@@ -13,8 +13,8 @@ WH_CALLED bool wh_guard_allows(const wh_guard_config *config, wh_real target_rad
            target_radps <= config->target_max_radps;
 }
 
-wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, wh_real falls) {
-    const wh_real led = base_radps * (WH_R(1.0) + config->over);
+wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls) {
+    const wh_real led = limit_radps * (WH_R(1.0) + config->over);
     const wh_real fall = falls * config->fall_radps;
     const wh_real bound = WH_SQRT(led * led + fall * fall);
     const wh_real most = config->limit_radps * (WH_R(1.0) + config->ripple);

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Reasons to stop: X(name, number, words). Numbers are for consoles and records, and never change; 1 was a refused
- * set-point, now a refusal (life.h). The words fit a line of the report: 95 characters. */
+ * set-point, now a refusal (state_machine.h). The words fit a line of the report: 95 characters. */
 #define WH_TRIP_ROWS(X) \
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
@@ -129,11 +129,11 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 /* True for set-points that loop and shaft can bear, with gravity `fed` forward or not; false for NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that is led to at most base_radps. It is faster by `over`, and by
+/* The fastest interval between two pulses of a rotor that is led to at most limit_radps. It is faster by `over`, and by
  * `falls` times the gain of a fall from the top. From rest at the bottom gravity adds nothing. */
 #define WH_GUARD_LIGHTER \
     WH_R(1.5) /* a rotor of half the configured inertia falls so, with some margin */
-wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real base_radps, wh_real falls);
+wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Limit on the rise of a turn's speed, given how far the speed is below the one it is led to. Above it, the rotor slows. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,

@@ -2,8 +2,8 @@
 #ifndef WH_RIG_INPUTS_H
 #define WH_RIG_INPUTS_H
 
-#include "life.h"
 #include "phases.h"
+#include "state_machine.h"
 
 #ifdef __cplusplus
 extern "C" {

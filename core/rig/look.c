@@ -14,7 +14,7 @@ WH_CALLED unsigned wh_rig_shown_stage(const wh_rig *rig) {
 
 WH_CALLED const char *wh_rig_stage_text(unsigned stage) {
     return stage < WH_RIG_STAGE_OF_PHASE
-               ? wh_life_text((wh_life)stage)
+               ? wh_rig_state_text((wh_rig_state)stage)
                : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
 }
 

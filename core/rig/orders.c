@@ -1,4 +1,4 @@
-/* orders.c: conditions of an order beyond life.c's states: a supply, a rig at rest, a removed cause. */
+/* orders.c: conditions of an order beyond state_machine.c's states: a supply, a rig at rest, a removed cause. */
 #include "rig.h"
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
@@ -30,8 +30,8 @@ static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
 static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
     /* slower set-points are possible if gravity's torque can be fed forward */
-    const bool can_feed = config->feeds != WH_FEED_NEVER && rig->observer.status == WH_OK;
-    const bool feeds = can_feed && (config->feeds == WH_FEED_ALWAYS ||
+    const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
+    const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
                                     target_radps < config->guard.target_min_radps);
     if (!wh_guard_allows(&config->guard, target_radps, feeds)) {
         return WH_REFUSED_TARGET;

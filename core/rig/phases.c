@@ -31,9 +31,9 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
 
 #define JUMP_S WH_R(0.5) /* in steps, because its first turn's speed is old, for this time */
 
-wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
+wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
-        return (wh_led){.lead_radps = run->off_radps, .base_radps = run->off_radps};
+        return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
     /* without load the motor's speed follows the voltage; once the loop is closed the set-point leads */
     const wh_real led = run->volts / config->rated_V * config->no_load_radps;
@@ -42,9 +42,9 @@ wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks
     const wh_real closed_s = wh_rig_since_s(run->closed_ticks, ticks);
     const bool starts = opens || (led > setpoint && closed_s < WH_RUN_START_S);
     const wh_real lead = starts ? led : setpoint;
-    return (wh_led){.lead_radps = lead,
-                    .base_radps = lead > run->left_radps ? lead : run->left_radps,
-                    .jumps = opens || closed_s < JUMP_S};
+    return (wh_setpoint){.setpoint_radps = lead,
+                         .limit_radps = lead > run->left_radps ? lead : run->left_radps,
+                         .jumps = opens || closed_s < JUMP_S};
 }
 
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {

@@ -90,7 +90,7 @@ typedef struct wh_run_scene {
 #define wh_run_set WH_NAME(wh_run_set)
 #define wh_run_off WH_NAME(wh_run_off)
 #define wh_run_step WH_NAME(wh_run_step)
-#define wh_run_led WH_NAME(wh_run_led)
+#define wh_run_setpoint WH_NAME(wh_run_setpoint)
 #define wh_run_needs_V WH_NAME(wh_run_needs_V)
 #define wh_phase_text WH_NAME(wh_phase_text)
 
@@ -118,14 +118,14 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
 /* After the take-over the rotor accelerates for this time. */
 #define WH_RUN_START_S WH_R(1.5)
 
-/* The speed that the rotor is led to at a pulse's time, for the guard. */
-typedef struct wh_led {
-    wh_real lead_radps; /* to here, */
+/* The set-point at a pulse's time, for the guard. */
+typedef struct wh_setpoint {
+    wh_real setpoint_radps;
     wh_real
-        base_radps; /* upper bound on the actual speed: the rotor may not have slowed as far yet */
-    bool jumps;     /* the speeds of its first turns differ widely */
-} wh_led;
-wh_led wh_run_led(const wh_run_config *config, const wh_run *run, uint32_t ticks);
+        limit_radps; /* upper bound on the actual speed: the rotor may not have slowed as far yet */
+    bool jumps;      /* the speeds of its first turns differ widely */
+} wh_setpoint;
+wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
 /* The voltage for a steady speed. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);

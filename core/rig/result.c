@@ -118,7 +118,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing. A wave of twice
      * the angle makes the speed vary by twice its amplitude */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
-    const wh_real expected = config->mount_factor * rotor->mass_moment_kgm *
+    const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
                              (WH_R(1.0) + WH_R(1.5) * (swing2 + twice2));
     go_on(&merge->mean_N, turn->mean_N, part);

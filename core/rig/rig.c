@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "datasheet.h"
-#include "expect.h"
+#include "pulse_window.h"
 
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.mark_rad[0] = -lead_rad;
@@ -14,7 +14,7 @@ void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
 }
 
-static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
+static void enter(wh_rig *rig, wh_rig_state state, uint32_t now_ticks) {
     rig->state = state;
     rig->since_ticks = now_ticks;
     rig->rested = false;
@@ -23,19 +23,19 @@ static void enter(wh_rig *rig, wh_life state, uint32_t now_ticks) {
 
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
                   const wh_trip_record *before) {
-    *rig = (wh_rig){.state = WH_LIFE_IDLE};
+    *rig = (wh_rig){.state = WH_RIG_IDLE};
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
     (void)wh_observer_start(&config->observer, &rig->observer,
                             now_ticks); /* it is then never valid */
-    enter(rig, WH_LIFE_IDLE, now_ticks);
+    enter(rig, WH_RIG_IDLE, now_ticks);
     /* the rotor's earlier speed is unknown */
     rig->run.off_radps = config->guard.limit_radps;
     rig->run.since_ticks = now_ticks;
     if (before != NULL && before->trip != WH_TRIP_NONE) {
         rig->record = *before;
         rig->guard.trip = before->trip;
-        enter(rig, WH_LIFE_TRIPPED, now_ticks);
+        enter(rig, WH_RIG_TRIPPED, now_ticks);
     }
 }
 
@@ -61,9 +61,9 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
     const bool open = !wh_run_drives(&rig->run) && !brakes(rig);
     if (!wh_run_drives(&rig->run)) {
         wh_guard_off_pulse(&config->guard, &rig->guard, !open, sensor, ticks);
-        wh_expect_slower(&rig->run, &rig->pulses, !open, sensor, ticks);
+        wh_pulse_window_off(&rig->run, &rig->pulses, !open, sensor, ticks);
     }
-    wh_expect_pulses(&config->guard, &config->run, &rig->run, &rig->pulses, open, ticks);
+    wh_pulse_window_set(&config->guard, &config->run, &rig->run, &rig->pulses, open, ticks);
     if (sensor < WH_SPEED_SENSORS) {
         rig->heard_ticks[sensor][1] = rig->heard_ticks[sensor][0];
         rig->heard_ticks[sensor][0] = ticks;
@@ -81,7 +81,7 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
                  wh_load_status status) {
     const wh_load load = wh_cell_load(&config->measure.cell, ticks, raw, status);
     rig->loads++;
-    const bool needed = rig->state == WH_LIFE_ARMED || rig->run.phase != WH_PHASE_NONE;
+    const bool needed = rig->state == WH_RIG_ARMED || rig->run.phase != WH_PHASE_NONE;
     wh_guard_load(&config->guard, &rig->guard, &rig->pulses.speed, &load,
                   wh_run_is_closed(&rig->run), needed);
     const bool at_rest = rig->run.phase == WH_PHASE_TARE;
@@ -103,8 +103,9 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
 
 /* Decide whether a run at this speed gets gravity fed forward. */
 static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
-    rig->fed = config->feeds == WH_FEED_ALWAYS ||
-               (config->feeds == WH_FEED_SLOW && target_radps < config->guard.target_min_radps);
+    rig->fed =
+        config->feeds == WH_COMPENSATION_ALWAYS ||
+        (config->feeds == WH_COMPENSATION_SLOW && target_radps < config->guard.target_min_radps);
     if (!rig->fed) {
         wh_lockin_feed(&rig->measure.lockin, false, WH_R(0.0));
     }
@@ -129,10 +130,10 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
 /* Upper bound on the present speed: the last turn of an accelerating rotor is old. */
 static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_real turn_radps = rig->pulses.speed.turn_radps;
-    const wh_real led_radps = wh_run_drives(&rig->run)
-                                  ? wh_run_led(&config->run, &rig->run, now_ticks).base_radps
-                                  : WH_R(0.0);
-    return led_radps > turn_radps ? led_radps : turn_radps;
+    const wh_real limit_radps =
+        wh_run_drives(&rig->run) ? wh_run_setpoint(&config->run, &rig->run, now_ticks).limit_radps
+                                 : WH_R(0.0);
+    return limit_radps > turn_radps ? limit_radps : turn_radps;
 }
 
 static wh_rig_end stopped_by(const wh_rig_inputs *inputs, wh_rig_event event) {
@@ -152,9 +153,9 @@ static wh_rig_end stopped_by(const wh_rig_inputs *inputs, wh_rig_event event) {
 
 /* Go to state `next`, or restart the present one. */
 static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
-                   const wh_rig_order *order, wh_life next) {
+                   const wh_rig_order *order, wh_rig_state next) {
     const uint32_t now = inputs->now_ticks;
-    const bool moves = rig->state == WH_LIFE_RUNNING || rig->state == WH_LIFE_STOPPING;
+    const bool moves = rig->state == WH_RIG_RUNNING || rig->state == WH_RIG_STOPPING;
     switch (order->event) {
     case WH_EVENT_START: begin_run(config, rig, order->value, now); break;
     case WH_EVENT_SET:
@@ -197,7 +198,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
 /* Returns the reason for refusal. */
 static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                           const wh_rig_order *order) {
-    const wh_life_rule rule = wh_life_rule_of(rig->state, order->event);
+    const wh_rig_transition rule = wh_rig_transition_of(rig->state, order->event);
     if (rule.refusal != WH_ALLOWED) {
         return rule.refusal;
     }
@@ -277,7 +278,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
                         inputs->now_ticks);
     }
-    const bool needed = rig->state == WH_LIFE_ARMED || rig->state == WH_LIFE_RUNNING || drives;
+    const bool needed = rig->state == WH_RIG_ARMED || rig->state == WH_RIG_RUNNING || drives;
     if (needed && !wh_guard_supply(&config->guard, inputs->supply_V)) {
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
@@ -317,23 +318,24 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
 /* Gravity's part of the voltage, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (!rig->fed || !wh_run_is_closed(&rig->run)) {
-        rig->feed.part = WH_R(0.0);
+        rig->compensation.part = WH_R(0.0);
         return WH_R(0.0);
     }
-    if (rig->measure.lockin.angle.fed != (rig->feed.part >= WH_R(1.0))) {
-        wh_lockin_feed(&rig->measure.lockin, rig->feed.part >= WH_R(1.0),
-                       config->feed.stall_Nm / config->run.rated_V);
+    if (rig->measure.lockin.angle.fed != (rig->compensation.part >= WH_R(1.0))) {
+        wh_lockin_feed(&rig->measure.lockin, rig->compensation.part >= WH_R(1.0),
+                       config->compensation.stall_Nm / config->run.rated_V);
     }
     rig->measure.lockin.angle.held_V = rig->run.volts;
-    return config->run.rated_V *
-           wh_feed_step(&config->feed, &rig->feed, &rig->observer, now_ticks, config->run.step_s);
+    return config->run.rated_V * wh_compensation_step(&config->compensation, &rig->compensation,
+                                                      &rig->observer, now_ticks,
+                                                      config->run.step_s);
 }
 
 /* --- states -------------------------------------------------------------------------------------- */
 
 /* Motor off: the rotor rests if no pulses come. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    const bool tripped = rig->state == WH_LIFE_TRIPPED;
+    const bool tripped = rig->state == WH_RIG_TRIPPED;
     const wh_real passed_s =
         wh_rig_since_s(tripped ? rig->since_ticks : rig->run.since_ticks, inputs->now_ticks);
     const bool late = passed_s > (tripped ? config->tripped_max_s : config->rest_max_s);
@@ -358,12 +360,12 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 #define ARMED_PULSES_MOST 2U
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    const bool armed = rig->state == WH_LIFE_ARMED;
+    const bool armed = rig->state == WH_RIG_ARMED;
     if (armed && (wh_rig_is_over(rig->since_ticks, inputs->now_ticks, config->armed_max_s) ||
                   rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
         finds(config, rig, inputs, WH_EVENT_EXPIRED);
     }
-    if (rig->run.phase == WH_PHASE_OFF || rig->state == WH_LIFE_TRIPPED) {
+    if (rig->run.phase == WH_PHASE_OFF || rig->state == WH_RIG_TRIPPED) {
         wait_for_rest(config, rig, inputs);
     }
     const wh_run_scene scene = {.config = &config->run,
@@ -373,7 +375,7 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
                                 .pulses = &rig->pulses,
                                 .measure = &rig->measure,
                                 .supply_V = inputs->supply_V,
-                                .fed = rig->feed.part >= WH_R(1.0),
+                                .fed = rig->compensation.part >= WH_R(1.0),
                                 .busy = rig->busy,
                                 .now_ticks = inputs->now_ticks};
     if (wh_run_step(&rig->run, &scene)) {
@@ -428,7 +430,7 @@ static void age(wh_rig *rig, uint32_t now_ticks) {
 static void swing(const wh_rig_config *config, wh_rig *rig) {
     const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
     wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
-                  rig->state == WH_LIFE_IDLE);
+                  rig->state == WH_RIG_IDLE);
     wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
 }
 
@@ -444,7 +446,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
 
 /* A tripped rig skips the rest of the step. */
 static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_LIFE_TRIPPED) {
+    if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_RIG_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
     }
 }

@@ -12,8 +12,8 @@
 #ifndef WH_RIG_RIG_H
 #define WH_RIG_RIG_H
 
-#include "feed.h"
 #include "free_swing.h"
+#include "gravity_compensation.h"
 #include "inputs.h"
 #include "phases.h"
 #include "record.h"
@@ -26,11 +26,11 @@ extern "C" {
 
 /* When gravity's torque is fed forward to the motor. This removes the ripple of the speed, and with it gravity's part
  * of the load's peaks. */
-typedef enum wh_feed_when {
-    WH_FEED_NEVER,
-    WH_FEED_SLOW, /* for set-points that are too slow without it */
-    WH_FEED_ALWAYS
-} wh_feed_when;
+typedef enum wh_compensation_when {
+    WH_COMPENSATION_NEVER,
+    WH_COMPENSATION_SLOW, /* for set-points that are too slow without it */
+    WH_COMPENSATION_ALWAYS
+} wh_compensation_when;
 
 /* 0, possible in a small chip's build: observer.scene is NULL, and gravity is never fed forward. */
 #ifndef WH_RIG_FEEDS
@@ -42,9 +42,9 @@ typedef struct wh_rig_config {
     wh_guard_config guard;
     wh_measure_config measure;
     wh_observer_config observer;
-    wh_feed_config feed;
+    wh_compensation_config compensation;
     wh_swing_config swing;
-    wh_feed_when feeds;
+    wh_compensation_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for rest after a trip */
@@ -67,7 +67,7 @@ typedef struct wh_rig_command {
 
 /* Small members come first: a processor's short instructions reach no further. */
 typedef struct wh_rig {
-    wh_life state;
+    wh_rig_state state;
     bool brakes; /* the motor, when switched off */
     /* for this run: the observer follows the rotor, and once it is valid gravity is fed forward */
     bool fed;
@@ -95,7 +95,7 @@ typedef struct wh_rig {
     uint32_t result_ticks;  /* this time */
     /* of each sensor the last pulse and the one before, accepted or not */
     uint32_t heard_ticks[WH_SPEED_SENSORS][2];
-    wh_feed feed;
+    wh_compensation compensation;
     wh_rig_command command; /* since the last step */
     wh_pulses pulses;
     wh_trip_record record; /* of the latched trip */

@@ -46,7 +46,7 @@ const wh_rig_config wh_rig_standard = {
               .slow_silence_max_s = WH_R(2.0),
               .load_silence_max_s = WH_R(0.02), /* ten samples' periods */
               /* a tenth of the change that the masses' force causes */
-              .load_still_kgm = WH_R(0.1) * WH_RIG_MASS_MOMENT_KGM,
+              .load_still_kgm = WH_R(0.1) * WH_RIG_UNBALANCE_KGM,
               .stuck_pulses = 3, /* a whole turn from the first to the last */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
@@ -55,7 +55,7 @@ const wh_rig_config wh_rig_standard = {
               .braked_radps =
                   WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
               .hand_radps = RPM(60.0)},
-    .measure = {.rotor = {.mass_moment_kgm = WH_RIG_MASS_MOMENT_KGM,
+    .measure = {.rotor = {.unbalance_kgm = WH_RIG_UNBALANCE_KGM,
                           .gravity_mps2 = WH_RIG_GRAVITY_MPS2,
                           .damping_Nms = WH_RIG_DAMPING_NMS,
                           .damping_tolerance = WH_R(0.03),
@@ -75,8 +75,8 @@ const wh_rig_config wh_rig_standard = {
                 .record_s = WH_R(2.0),
                 .record_turns = WH_R(7.5)},
     .observer = WH_OBSERVER_STANDARD,
-    .feed = WH_FEED_STANDARD,
-    .feeds = WH_FEED_SLOW,
+    .compensation = WH_COMPENSATION_STANDARD,
+    .feeds = WH_COMPENSATION_SLOW,
     .swing = {.most_rad = WH_R(8.0) / WH_RIG_DEG_PER_RAD,
               .jitter_s = WH_R(1e-4),
               .rough_rad = WH_R(8e-4),
@@ -101,7 +101,7 @@ static wh_real torque_at(const wh_rig_motor *motor, wh_real volts, wh_real speed
 }
 
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor) {
-    *motor = (wh_rig_motor){.stall_Nm = config->feed.stall_Nm,
+    *motor = (wh_rig_motor){.stall_Nm = config->compensation.stall_Nm,
                             .no_load_radps = config->run.no_load_radps,
                             .rated_V = config->run.rated_V};
 }
@@ -142,13 +142,13 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
         WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
     observer->no_load_radps = motor->no_load_radps;
     /* the stage gives no negative voltage: it cuts off the feed at speeds where the motor's own voltage is lower */
-    config->feed.most *= before.stall_Nm / motor->stall_Nm;
+    config->compensation.most *= before.stall_Nm / motor->stall_Nm;
     const wh_real slowest = config->guard.target_min_fed_radps * before.stall_Nm / motor->stall_Nm *
                             motor->no_load_radps / before.no_load_radps;
     if (slowest > config->guard.target_min_fed_radps) {
         config->guard.target_min_fed_radps = slowest;
     }
-    config->feed.stall_Nm = motor->stall_Nm;
+    config->compensation.stall_Nm = motor->stall_Nm;
     run->no_load_radps = motor->no_load_radps;
     run->rated_V = motor->rated_V;
     wh_rig_bound_pulses(config);

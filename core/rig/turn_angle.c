@@ -67,7 +67,7 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
 /* A motor that cannot brake as much as commanded leaves a pulse of gravity's torque: S g (-sin(theta - gamma) - k) if
  * that is positive, which contains twice the angle. k is the torque at standstill of the drive's own voltage, over S g. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
-    const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
+    const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->held_V * angle->stall_Nm_per_V;
     if (!angle->fed || !(held_Nm < weight_Nm)) {
         angle->cut = WH_R(0.0);
@@ -88,7 +88,7 @@ static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real
 
 WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
                            wh_real speed_radps) {
-    const wh_real weight_Nm = config->mass_moment_kgm * config->gravity_mps2;
+    const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     angle->whole_rad = weight_Nm / (speed_radps * sum);

@@ -13,7 +13,7 @@
  * 170 rpm. I is estimated, not configured: sensor 2's mark splits a turn, which gives E, thus I. c is assumed, because
  * the split does not show it.
  *
- * If gravity is fed forward (feed.h), a part of it remains, of either sign: E is that part of the above. The split then
+ * If gravity is fed forward (gravity_compensation.h), a part of it remains, of either sign: E is that part of the above. The split then
  * gives the part, and I stays at its last estimate. The motor's voltage cannot go below 0, so a motor cannot remove
  * more torque than the drive's own voltage gives. If that is less than S g, the feed is cut off, and the remaining
  * torque is no sine.
@@ -43,7 +43,7 @@ extern "C" {
 #endif
 
 typedef struct wh_rotor_config {
-    wh_real mass_moment_kgm;   /* S */
+    wh_real unbalance_kgm;     /* S */
     wh_real gravity_mps2;      /* within the arms' plane; 0: it lies level */
     wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
     wh_real damping_Nms;       /* c */

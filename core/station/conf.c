@@ -92,7 +92,7 @@ static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
     case WH_CONF_SWITCH: return (wh_real) * (const uint8_t *)member;
-    case WH_CONF_FEEDS: return (wh_real) * (const wh_feed_when *)member;
+    case WH_CONF_FEEDS: return (wh_real) * (const wh_compensation_when *)member;
     case WH_CONF_REAL:
     case WH_CONF_KINDS: break;
     }
@@ -105,7 +105,9 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     switch ((wh_conf_kind)row->kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
     case WH_CONF_SWITCH: *(uint8_t *)member = (uint8_t)(uint32_t)value; break;
-    case WH_CONF_FEEDS: *(wh_feed_when *)member = (wh_feed_when)(uint32_t)value; break;
+    case WH_CONF_FEEDS:
+        *(wh_compensation_when *)member = (wh_compensation_when)(uint32_t)value;
+        break;
     case WH_CONF_REAL: *(wh_real *)member = value / units(row); break;
     case WH_CONF_KINDS: break;
     }
@@ -141,8 +143,8 @@ static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];
     const wh_real weights = moments * (conf->value[WH_CONF_gravity] / WH_RIG_GRAVITY_MPS2);
     const wh_real inertias = conf->value[WH_CONF_inertia] / conf->standard[WH_CONF_inertia];
-    c->feed.weight_Nm = moment * conf->value[WH_CONF_gravity];
-    c->feed.gravity_rad = c->measure.rotor.gravity_rad;
+    c->compensation.weight_Nm = moment * conf->value[WH_CONF_gravity];
+    c->compensation.gravity_rad = c->measure.rotor.gravity_rad;
     c->guard.load_still_kgm *=
         moments * conf->value[WH_CONF_mount_factor] / conf->standard[WH_CONF_mount_factor];
     c->guard.fall_radps *= WH_SQRT(weights / inertias);
@@ -207,13 +209,13 @@ static void begin_with_motor(wh_conf *conf) {
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
-    const wh_real line_Nms = c->feed.stall_Nm / c->run.no_load_radps;
+    const wh_real line_Nms = c->compensation.stall_Nm / c->run.no_load_radps;
     for (unsigned i = 0; i < sizeof of_motor; i++) {
         if (fits((wh_conf_id)of_motor[i], value[of_motor[i]]) != WH_STATION_FINE) {
             return false;
         }
     }
-    return c->feed.stall_Nm > value[WH_CONF_mass_moment] * value[WH_CONF_gravity] &&
+    return c->compensation.stall_Nm > value[WH_CONF_mass_moment] * value[WH_CONF_gravity] &&
            wh_run_needs_V(&c->run, value[WH_CONF_speed_most] / per_unit[WH_CONF_RPM]) <=
                c->run.rated_V &&
            value[WH_CONF_spin_up] <= c->run.rated_V &&

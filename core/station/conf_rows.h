@@ -41,7 +41,7 @@
     X(MPS2, "mps2", 1.0)
 
 #define WH_CONF_ROWS(X) \
-    X(mass_moment, 1, WH_CONF_REAL, KGM, 1e-4, 10.0, ROTOR, measure.rotor.mass_moment_kgm, \
+    X(mass_moment, 1, WH_CONF_REAL, KGM, 1e-4, 10.0, ROTOR, measure.rotor.unbalance_kgm, \
       "sum of mass times radius") \
     X(inertia, 2, WH_CONF_REAL, KGM2, 1e-5, 10.0, ROTOR, measure.rotor.inertia_kgm2, \
       "of all that turns") \
@@ -115,7 +115,7 @@
     X(no_load_speed, 45, WH_CONF_REAL, RPM, 200.0, 2000.0, ALONE, run.no_load_radps, \
       "the motor's, without load at the rated voltage") \
     X(rated_voltage, 46, WH_CONF_REAL, VOLT, 3.0, 60.0, ALONE, run.rated_V, "the motor's") \
-    X(stall_torque, 47, WH_CONF_REAL, NM, 0.05, 50.0, ALONE, feed.stall_Nm, \
+    X(stall_torque, 47, WH_CONF_REAL, NM, 0.05, 50.0, ALONE, compensation.stall_Nm, \
       "the motor's, at standstill and the rated voltage") \
     X(host, 48, WH_CONF_WHOLE, SECOND, 0.0, 3600.0, ALONE, host_max_s, \
       "it is lost when nothing is heard for so long; 0: never")

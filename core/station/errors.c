@@ -2,7 +2,7 @@
 #include "errors.h"
 
 #include "answer.h"
-#include "core/rig/life.h"
+#include "core/rig/state_machine.h"
 
 /* Indices of the rows. */
 #define WH_STATION_ROW(name, number, words) ROW_##name,

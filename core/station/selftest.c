@@ -10,7 +10,8 @@
 #define LOAD_PART WH_R(0.5)
 #define PARTS 8U
 
-static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen) {
+static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
+                         const wh_step_inputs *seen) {
     if (!rig->guard.load_good ||
         !wh_guard_load_comes(&config->guard, &rig->guard, seen->inputs.now_ticks)) {
         return false;
@@ -19,7 +20,7 @@ static bool cell_is_good(const wh_rig_config *config, const wh_rig *rig, const w
     return seen->samples == 0 || WH_ABS((wh_real)seen->sample[seen->samples - 1U].raw) <= most;
 }
 
-void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
+void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_step_inputs *seen,
                         wh_text *answer) {
     const wh_scene *scene = config->observer.scene;
     const wh_swung *swung = &rig->swing.result;

@@ -3,7 +3,7 @@
 #define WH_STATION_SELFTEST_H
 
 #include "core/text.h"
-#include "seen.h"
+#include "step_inputs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,7 +22,7 @@ extern "C" {
  *   rotor       rests
  *   swing       the last free swing found sensor 1 where the settings have it; or `none`, which counts as good
  */
-void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
+void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_step_inputs *seen,
                         wh_text *answer);
 
 #ifdef __cplusplus

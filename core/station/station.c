@@ -192,7 +192,7 @@ static unsigned do_fault(request *r) {
 static unsigned do_conf(request *r) {
     wh_station *station = r->station;
     return station->conf != NULL
-               ? wh_conf_answer(station->conf, &r->words, r->rig->state == WH_LIFE_IDLE, &r->answer)
+               ? wh_conf_answer(station->conf, &r->words, r->rig->state == WH_RIG_IDLE, &r->answer)
                : WH_STATION_NOT_HERE;
 }
 
@@ -207,7 +207,7 @@ static unsigned do_selftest(request *r) {
     if (r->station->config == NULL) {
         return WH_STATION_NOT_HERE;
     }
-    if (r->rig->state != WH_LIFE_IDLE) {
+    if (r->rig->state != WH_RIG_IDLE) {
         return WH_STATION_BUSY;
     }
     wh_selftest_answer(r->station->config, r->rig, r->station->seen, &r->answer);
@@ -341,7 +341,7 @@ void wh_station_start(wh_station *station, const char *program, const char *boar
 }
 
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
-                    const wh_seen *seen) {
+                    const wh_step_inputs *seen) {
     station->seen = seen;
     station->config = config;
     if (WH_STATION_TELEMETRY && station->tel != NULL) {

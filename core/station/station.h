@@ -22,7 +22,7 @@
 #include "errors.h"
 #include "line.h"
 #include "ring.h"
-#include "seen.h"
+#include "step_inputs.h"
 #include "telemetry.h"
 
 #ifdef __cplusplus
@@ -77,7 +77,7 @@ typedef struct wh_station {
     wh_conf *conf;               /* NULL: no settings */
     wh_tel *tel;                 /* NULL: no telemetry */
     const wh_rig_config *config; /* in the last step, */
-    const wh_seen *seen;         /* and its observations */
+    const wh_step_inputs *seen;  /* and its observations */
     uint32_t steps_per_s;        /* of wh_station_step(): the caller's, too */
     unsigned stage;              /* as last reported */
     uint32_t lost_bytes;         /* received without room for them, */
@@ -108,7 +108,7 @@ void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
 /* The last control step's observations, unchanged until the next. Telemetry takes none of the console's room. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
-                    const wh_seen *seen);
+                    const wh_step_inputs *seen);
 
 /* Execute the oldest line, if the one before is answered. If the giver of orders has been silent for the time of
  * `host`, the rig gets WH_EVENT_HOST_LOST, once; its configuration says what ends then. */

@@ -72,7 +72,7 @@ static void schema_ring(const wh_cell_config *cell, wh_text *answer) {
 
 static void schema_states(wh_text *answer) {
     for (unsigned stage = 0; stage < WH_RIG_STAGES; stage++) {
-        if (stage < WH_LIVES || stage > WH_RIG_STAGE_OF_PHASE) {
+        if (stage < WH_RIG_STATES || stage > WH_RIG_STAGE_OF_PHASE) {
             const wh_value value[] = {{.count = stage}, {.word = wh_rig_stage_text(stage)}};
             wh_answer(answer, " @c=@w", value);
         }

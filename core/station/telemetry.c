@@ -19,7 +19,7 @@ typedef struct sight {
     wh_tel *tel;
     const wh_rig_config *config;
     const wh_rig *rig;
-    const wh_seen *seen;
+    const wh_step_inputs *seen;
     wh_ring *out;
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
@@ -176,7 +176,7 @@ static void send_text(sight *s, wh_real force_N) {
 
 /* --- a control step ------------------------------------------------------------------------------------- */
 
-static void take_sample(sight *s, const wh_seen_sample *sample) {
+static void take_sample(sight *s, const wh_step_sample *sample) {
     wh_tel *tel = s->tel;
     const wh_cell_config *cell = &s->config->measure.cell;
     if (sample->status == WH_LOAD_REPEATED || ++tel->passed < tel->every) {
@@ -207,7 +207,7 @@ static void take_sample(sight *s, const wh_seen_sample *sample) {
 
 static void take_events(sight *s) {
     wh_tel *tel = s->tel;
-    const wh_seen *seen = s->seen;
+    const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
     if (seen->ended) { /* the first to be dropped if many pulses fill the line */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
@@ -228,10 +228,10 @@ static void take_events(sight *s) {
 }
 
 static void capture_step(sight *s) {
-    const wh_seen *seen = s->seen;
+    const wh_step_inputs *seen = s->seen;
     int16_t load = WH_TEL_NO_LOAD;
     if (seen->samples > 0) {
-        const wh_seen_sample *last = &seen->sample[seen->samples - 1U];
+        const wh_step_sample *last = &seen->sample[seen->samples - 1U];
         const wh_cell_config *cell = &s->config->measure.cell;
         load = load_of(cell, last->raw,
                        wh_cell_load(cell, last->ticks, last->raw, last->status).status);
@@ -264,8 +264,8 @@ bool wh_tel_read(wh_tel *tel) {
     return true;
 }
 
-void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
-                 wh_ring *out) {
+void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
+                 const wh_step_inputs *seen, wh_ring *out) {
     sight s = {.tel = tel,
                .config = config,
                .rig = rig,

@@ -22,7 +22,7 @@
 
 #include "capture.h"
 #include "ring.h"
-#include "seen.h"
+#include "step_inputs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -99,8 +99,8 @@ bool wh_tel_read(wh_tel *tel);
 
 /* After each control step: at most the work of its pulse and two samples, or of one frame of the ring. Bytes to send go
  * into `out`, half of which belongs to others. */
-void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig, const wh_seen *seen,
-                 wh_ring *out);
+void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
+                 const wh_step_inputs *seen, wh_ring *out);
 
 #ifdef __cplusplus
 }

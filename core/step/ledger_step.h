@@ -149,11 +149,11 @@ WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_r
 /* wh_step_second() with books. */
 WH_INLINE wh_status wh_step_ledger(const wh_ledger_form *form, const void *model,
                                    wh_accel_fn *accel, wh_method method, bool compensated,
-                                   wh_span h, wh_state *state) {
+                                   wh_two_part h, wh_state *state) {
     wh_ledger_work work;
     const wh_ledger_model with = {form, model, accel, method, &work};
     wh_ledger_open(form, state, &work);
-    wh_ledger_begin(form, state->angle, &work, h.s);
+    wh_ledger_begin(form, state->angle, &work, h.high);
     const wh_status status = wh_step_second(&with, wh_ledger_accel, method, compensated,
                                             form->angles, form->coordinates, h, state);
     if (status == WH_OK) {

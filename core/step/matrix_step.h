@@ -73,8 +73,8 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
  * state unchanged. */
 WH_INLINE wh_status wh_step_matrix(const void *model, wh_accel_fn *matrix, bool compensated,
-                                   unsigned angles, unsigned reals, unsigned rates_at, wh_span h,
-                                   wh_state *state) {
+                                   unsigned angles, unsigned reals, unsigned rates_at,
+                                   wh_two_part h, wh_state *state) {
     wh_real given[4 * WH_COORDS];
     matrix(model, NULL, state->real, state->real + rates_at, state->input, given);
     if (angles == 0 && !compensated) {
@@ -82,7 +82,7 @@ WH_INLINE wh_status wh_step_matrix(const void *model, wh_accel_fn *matrix, bool 
     }
     wh_trial trial = {0};
     wh_carry_begin(state, compensated, angles, &trial);
-    WH_REFUSE_FAR(wh_angles_move(given, h, h.s, compensated, angles, state, &trial));
+    WH_REFUSE_FAR(wh_angles_move(given, h, h.high, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
         if (compensated) {

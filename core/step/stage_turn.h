@@ -18,7 +18,7 @@
  * The whole step moves the angle itself as usual (step.h), and the next step looks it up again: nothing drifts.
  *
  * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check decides.
- * Beyond it, d is halved until it is small and the rotation doubled as often (small_turn.h). The stages are then nearly as
+ * Beyond it, d is halved until it is small and the rotation doubled as often (sincos_small.h). The stages are then nearly as
  * accurate, and the step takes more instructions. Turning refuses no step that looking up at each stage (step.h) would
  * accept. */
 #ifndef WH_STAGE_TURN_H
@@ -29,7 +29,7 @@
     "core/step/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "../number/small_turn.h"
+#include "../number/sincos_small.h"
 #include "../step.h"
 
 /* gcc would compute the operands of some branches before the branch: 1 % more instructions on a Cortex-M4F, and up to 3
@@ -110,11 +110,11 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
 
 /* turn[n] by d[n], which are not small together. Several rotations need a stack frame anyway, and at the begin a call
  * spills few registers. */
-WH_INLINE void wh_far_turns(const wh_real *d, unsigned n, wh_wave *turn) {
+WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
-        turn[i] =
-            WH_REALS_IN_REGISTERS && n > 1 ? wh_far_turn_called(d[i]) : wh_far_turn(d[i], n == 1);
+        turn[i] = WH_REALS_IN_REGISTERS && n > 1 ? wh_sincos_far_called(d[i])
+                                                 : wh_sincos_far(d[i], n == 1);
     }
 }
 
@@ -133,12 +133,12 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     for (unsigned w = 0; w < waves->count; w++) {
         all = w == 0 ? WH_ABS(d[w]) : all + WH_ABS(d[w]);
     }
-    if (WH_SELDOM(!(all <= WH_TURN_SMALL))) {
-        wh_far_turns(d, waves->count, turn);
+    if (WH_SELDOM(!(all <= WH_SINCOS_SMALL))) {
+        wh_sincos_far_all(d, waves->count, turn);
     } else {
         WH_UNROLL
         for (unsigned w = 0; w < waves->count; w++) {
-            turn[w] = wh_small_turn(d[w]);
+            turn[w] = wh_sincos_small(d[w]);
         }
     }
 }
@@ -233,7 +233,7 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
 /* The pair rotated by any lean. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_wave turn =
-        WH_ABS(lean) <= WH_TURN_SMALL ? wh_small_turn(lean) : wh_far_turn(lean, true);
+        WH_ABS(lean) <= WH_SINCOS_SMALL ? wh_sincos_small(lean) : wh_sincos_far(lean, true);
     const wh_real sine = at.sine * turn.cosine + at.cosine * turn.sine;
     const wh_real cosine = at.cosine * turn.cosine - at.sine * turn.sine;
     wh_wave leant;
@@ -371,9 +371,9 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* A step of to->h = h.s. `told` [to->angles] gets the angles' phases before each call of accel(), or is NULL. */
+/* A step of to->h = h.high. `told` [to->angles] gets the angles' phases before each call of accel(), or is NULL. */
 WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *accel,
-                                        const wh_waves *waves, const wh_stepping *to, wh_span h,
+                                        const wh_waves *waves, const wh_stepping *to, wh_two_part h,
                                         wh_phase *told, wh_state *state) {
     const wh_tableau *by = to->by;
     const bool compensated = to->compensated;
@@ -387,14 +387,14 @@ WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *a
     wh_wave turn[WH_WAVES];
 
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, k.rate, h.s, turn);
+        wh_turning_by(by, waves, k.rate, h.high, turn);
     }
     wh_turning_look_up(waves, state->angle, angles, told, &k.t);
     wh_turned_take(waves, &k.t, &list);
     accel(model, list.pair, k.linear, k.rate, k.input, list.given);
     wh_copy(list.given, n, k.a1);
     if (!WH_TURN_ASKS_FIRST && by->stages > 1) {
-        wh_turning_by(by, waves, k.rate, h.s, turn);
+        wh_turning_by(by, waves, k.rate, h.high, turn);
     }
     wh_turning_begin(waves, turn, compensated, &k.t);
 #define WH_STAGE(stage) wh_turn_second_stage(model, accel, waves, to, told, stage, &list, &k)
@@ -406,8 +406,8 @@ WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *a
 /* As wh_step_second(), turning. The method must turn. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_method method, bool compensated,
-                                   unsigned angles, unsigned n, wh_span h, wh_state *state) {
-    const wh_stepping to = {wh_tableau_of(method), state, h.s, angles, n, compensated};
+                                   unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
+    const wh_stepping to = {wh_tableau_of(method), state, h.high, angles, n, compensated};
     return wh_turn_second_told(model, accel, waves, &to, h, NULL, state);
 }
 
@@ -449,9 +449,9 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
 /* As wh_step_first(), turning. The method must turn. Returns as wh_turn_second(). */
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
-                                  unsigned angles, unsigned reals, wh_span h, wh_state *state) {
+                                  unsigned angles, unsigned reals, wh_two_part h, wh_state *state) {
     const wh_tableau *by = wh_tableau_of(method);
-    const wh_stepping to = {by, state, h.s, angles, angles + reals, compensated};
+    const wh_stepping to = {by, state, h.high, angles, angles + reals, compensated};
     wh_turned_first k;
     wh_turned_list list;
     wh_wave turn[WH_WAVES];
@@ -464,7 +464,7 @@ WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
     slope(model, list.pair, state->real, state->input, list.given);
     wh_copy(list.given, angles + reals, k.k1);
     if (by->stages > 1) {
-        wh_turning_by(by, waves, k.k1, h.s, turn);
+        wh_turning_by(by, waves, k.k1, h.high, turn);
         wh_turning_begin(waves, turn, compensated, &k.t);
     }
 #define WH_STAGE(stage) wh_turn_first_stage(model, slope, waves, &to, stage, &list, &k)

@@ -30,13 +30,14 @@ WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const w
 /* wh_turn_second() with a ledger, and with the same bits. */
 WH_INLINE wh_status wh_turn_ledger(const wh_ledger_form *form, const void *model,
                                    wh_turned_accel_fn *accel, const wh_waves *waves,
-                                   wh_method method, bool compensated, wh_span h, wh_state *state) {
+                                   wh_method method, bool compensated, wh_two_part h,
+                                   wh_state *state) {
     wh_ledger_work work;
     wh_phase phase[WH_COORDS] = {0};
     const wh_turn_ledger_model with = {form, model, accel, method, &work, phase};
     wh_ledger_open(form, state, &work);
-    wh_ledger_begin(form, state->angle, &work, h.s);
-    const wh_stepping to = {wh_tableau_of(method), state,      h.s, form->angles,
+    wh_ledger_begin(form, state->angle, &work, h.high);
+    const wh_stepping to = {wh_tableau_of(method), state,      h.high, form->angles,
                             form->coordinates,     compensated};
     const wh_status status =
         wh_turn_second_told(&with, wh_turn_ledger_accel, waves, &to, h, phase, state);

@@ -7,8 +7,8 @@
     "core/step/step_end.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-#include "../number/span.h"
 #include "../number/sum.h"
+#include "../number/two_part.h"
 #include "../scene.h"
 #include "refuse.h"
 #include "stage_sums.h"
@@ -140,19 +140,19 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
 /* trial->angle[] of this step, h long: the state's angles, each moved by move[] times rad_a_move. Compensated:
  * trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a turn or more, or
  * by NaN; or `angles`. That is rare, so one check of the sum of sizes comes first. */
-WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_real h,
+WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
-    const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
-    const wh_span phases = wh_span_times(rad_a_move, per_rad);
+    const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
+    const wh_two_part phases = wh_two_part_times(rad_a_move, per_rad);
     wh_real steps[WH_COORDS];
     wh_real all = WH_R(0.0);
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         trial->angle[i] = state->angle[i];
-        steps[i] = move[i] * phases.s;
+        steps[i] = move[i] * phases.high;
         if (compensated && !WH_DOUBLE) {
-            trial->carry[i] += move[i] * phases.rest_s;
+            trial->carry[i] += move[i] * phases.low;
         }
         all = i == 0 ? WH_ABS(steps[i]) : all + WH_ABS(steps[i]);
     }
@@ -173,17 +173,17 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_span rad_a_move, wh_re
     return angles;
 }
 
-/* value + by factor, as wh_sum(); product is by.s factor, `h` the step. The part by.rest_s adds less than half a unit
+/* value + by factor, as wh_sum(); product is by.high factor, `h` the step. The part by.low adds less than half a unit
  * in the product's last place: a sum with the product would lose it in every step. So the round-off follows from the
- * product alone, and the carry, which is small, takes the part of rest_s. Not if the step has no rest_s, as the steps
+ * product alone, and the carry, which is small, takes the part of low. Not if the step has no low, as the steps
  * of contacts: their carry must stay zero if nothing moves. */
-WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_real product,
-                                 wh_span h, bool compensated, wh_real *carry) {
+WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
+                                 wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
         return wh_sum(value, product, compensated, carry);
     }
-    const wh_real kept = *carry + by.rest_s * factor;
-    if (h.rest_s == WH_R(0.0)) {
+    const wh_real kept = *carry + by.low * factor;
+    if (h.low == WH_R(0.0)) {
         *carry = kept;
         return wh_sum(value, product, true, carry);
     }
@@ -193,42 +193,43 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_span by, wh_real factor, wh_r
 }
 
 /* The error of h^2 over the row's parts, in s^2, from two roundings and the stages. A sum of accelerations that moves
- * positions is multiplied by it once more. Stages use h.s, because rounding would lose its rest_s there. So they fall
+ * positions is multiplied by it once more. Stages use h.high, because rounding would lose its low there. So they fall
  * short by a part e of their distance. This changes the rates as if h/2 e times the forces' change were missing. The
  * energy changes by as much in every step, always with the same sign: 5e-13 of a pendulum's in a millisecond. If the
  * positions also lack the part e of h^2/2 times the accelerations, both errors are the derivative of a small quantity.
  * The energy then stays constant if the mass matrix is constant, and most of the error vanishes if it is not
  * (docs/dev/numerics.md). A row with one stage, at the step's begin, has no such stages. */
-WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_span h, wh_span part) {
-    const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.rest_s / by->parts;
-    return h.s * (part.rest_s + stages);
+WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
+    const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
+    return h.high * (part.low + stages);
 }
 
-/* The same for angles, in phase units times s^2. Stages that turn sines (stage_turn.h) use h.s alone. Others use its
+/* The same for angles, in phase units times s^2. Stages that turn sines (stage_turn.h) use h.high alone. Others use its
  * product with WH_PHASE_PER_RAD, rounded, or multiply by one after the other. */
-WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_span h, wh_span part, bool turned) {
-    const wh_span per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
-    const wh_span phases = wh_span_times(h, per_rad);
+WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
+                                bool turned) {
+    const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
+    const wh_two_part phases = wh_two_part_times(h, per_rad);
     if (turned || wh_all_begin(by)) {
         return WH_PHASE_PER_RAD * wh_square_short(by, h, part);
     }
     if (wh_stage_reaches(by)) {
         return WH_PHASE_PER_RAD * wh_square_short(by, h, part) +
-               h.s * part.s * WH_PHASE_PER_RAD_REST;
+               h.high * part.high * WH_PHASE_PER_RAD_REST;
     }
-    return phases.s * part.rest_s + part.s * phases.rest_s; /* wh_stage_angle() */
+    return phases.high * part.low + part.high * phases.low; /* wh_stage_angle() */
 }
 
 /* Add the positions' error of this step to their carries; pulled[] are the sums of accelerations that move them. Not if
- * the step has no rest_s, as in wh_sum_product(); but a turn has one. */
-WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_span part,
-                                  wh_span h, bool turned, unsigned angles, unsigned linears,
+ * the step has no low, as in wh_sum_product(); but a turn has one. */
+WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
+                                  wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {
     WH_UNROLL
     for (unsigned i = 0; i < angles + linears; i++) {
         if (!WH_DOUBLE && i < angles) {
             trial->carry[i] += pulled[i] * wh_turn_short(by, h, part, turned);
-        } else if (!WH_DOUBLE && h.rest_s != WH_R(0.0)) {
+        } else if (!WH_DOUBLE && h.low != WH_R(0.0)) {
             trial->carry[i] += pulled[i] * wh_square_short(by, h, part);
         }
     }
@@ -238,8 +239,8 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
  * `turned`: they turned sines. Returns as wh_step_second(). */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
-                                  unsigned angles, unsigned n, wh_span h, wh_state *state) {
-    const wh_span part = wh_span_over(h, by->parts);
+                                  unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
+    const wh_two_part part = wh_two_part_over(h, by->parts);
     const unsigned linears = n - angles;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
@@ -263,9 +264,9 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                 wh_total_add(&rest, &any_rest, by->rates[s] - by->positions[s], more);
             }
         }
-        move[i] = any_moved ? rate[i] + part.s * moved : rate[i];
+        move[i] = any_moved ? rate[i] + part.high * moved : rate[i];
         gain[i] = any_moved && any_rest ? moved + rest : any_moved ? moved : rest;
-        kick[i] = part.s * gain[i];
+        kick[i] = part.high * gain[i];
         pulled[i] = moved;
     }
 
@@ -273,11 +274,11 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     if (compensated) {
         wh_carry_positions(by, pulled, part, h, turned, angles, linears, &trial);
     }
-    WH_REFUSE_FAR(wh_angles_move(move, h, h.s, compensated, angles, state, &trial));
+    WH_REFUSE_FAR(wh_angles_move(move, h, h.high, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < linears; i++) {
         wh_real *carry = &trial.carry[angles + i];
-        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.s * move[angles + i], h,
+        trial.real[i] = wh_sum_product(linear[i], h, move[angles + i], h.high * move[angles + i], h,
                                        compensated, carry);
     }
     WH_UNROLL
@@ -293,8 +294,8 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
 /* The same for a step of x' = f. */
 WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
-                                 unsigned reals, wh_span h, wh_state *state) {
-    const wh_span part = wh_span_over(h, by->parts);
+                                 unsigned reals, wh_two_part h, wh_state *state) {
+    const wh_two_part part = wh_two_part_over(h, by->parts);
     const unsigned n = angles + reals;
     wh_real total[WH_COORDS];
     wh_trial trial;
@@ -312,13 +313,13 @@ WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
     }
 
     wh_carry_begin(state, compensated, angles, &trial);
-    WH_REFUSE_FAR(wh_angles_move(total, part, h.s, compensated, angles, state, &trial));
+    WH_REFUSE_FAR(wh_angles_move(total, part, h.high, compensated, angles, state, &trial));
     WH_UNROLL
     for (unsigned i = 0; i < reals; i++) {
         wh_real *carry = &trial.carry[angles + i];
         *carry = compensated ? state->carry[angles + i] : WH_R(0.0);
         trial.real[i] = wh_sum_product(state->real[i], part, total[angles + i],
-                                       part.s * total[angles + i], h, compensated, carry);
+                                       part.high * total[angles + i], h, compensated, carry);
     }
     return wh_accept(&trial, angles, reals, compensated, state);
 }

@@ -566,17 +566,17 @@ static void write_one_step(FILE *out, const image *im) {
     if (im->list[IMAGE_MATRIX] != NULL) {
         fprintf(out,
                 "    return wh_step_matrix(NULL, step_matrix, %s, %dU, %dU, %dU,\n"
-                "                          WH_SPAN(%s, %s), state);\n}\n\n",
+                "                          WH_TWO_PART(%s, %s), state);\n}\n\n",
                 compensated, im->angles, im->reals, core_rates_at(im), hex, rest);
     } else if (im->ledger.kept) {
         fprintf(out,
                 "    return wh_%s_ledger(&ledger, NULL, accelerations,%s %s, %s,\n"
-                "                          WH_SPAN(%s, %s), state);\n}\n\n",
+                "                          WH_TWO_PART(%s, %s), state);\n}\n\n",
                 turns ? "turn" : "step", turns ? " &waves," : "", method, compensated, hex, rest);
     } else {
         fprintf(out,
                 "    return wh_%s_%s(NULL, %s,%s %s, %s, %dU, %dU,\n"
-                "                          WH_SPAN(%s, %s), state);\n}\n\n",
+                "                          WH_TWO_PART(%s, %s), state);\n}\n\n",
                 turns ? "turn" : "step", second ? "second" : "first",
                 second ? "accelerations" : "slopes", turns ? " &waves," : "", method, compensated,
                 im->angles, second ? im->coordinates : im->reals, hex, rest);

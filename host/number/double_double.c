@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/number/span.h"
+#include "core/number/two_part.h"
 
 static twofold two_product(double a, double b) { return (twofold){a * b, wh_product_rest(a, b)}; }
 

@@ -9,7 +9,7 @@ gen="$(dirname "$whirl")/gen"
 [ -d "$gen" ] || gen=build/gen
 warnings="-Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wundef -pedantic -Werror -ffp-contract=off"
 
-only_c=$(ls core/rk4.h core/step.h core/contact.h core/contact/*.h core/step/*.h core/number/arithmetic.h core/number/small_turn.h core/function_*.h)
+only_c=$(ls core/rk4.h core/step.h core/contact.h core/contact/*.h core/step/*.h core/number/arithmetic.h core/number/sincos_small.h core/function_*.h)
 public=$( (ls core/*.h core/number/*.h core/rig/*.h hal/*.h hal/virtual/*.h boards/board.h; echo "$only_c" "$only_c") |
     tr ' ' '\n' | sort | uniq -u)
 scenes=$(cd "$gen" && ls ./*.h | sed 's|^\./||')

@@ -186,8 +186,8 @@ void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure)
 }
 
 bool even_is_over(const even_rig *even) {
-    return even->rig.state == WH_LIFE_IDLE ||
-           (even->rig.state == WH_LIFE_TRIPPED && even->rig.rested);
+    return even->rig.state == WH_RIG_IDLE ||
+           (even->rig.state == WH_RIG_TRIPPED && even->rig.rested);
 }
 
 void even_go_on_until(even_rig *even, wh_rig_phase phase) {
@@ -214,6 +214,6 @@ void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure) {
 }
 
 bool even_is_done(const even_rig *even) {
-    return even->rig.state == WH_LIFE_IDLE && even->rig.has_result &&
+    return even->rig.state == WH_RIG_IDLE && even->rig.has_result &&
            even->rig.guard.trip == WH_TRIP_NONE;
 }

@@ -12,7 +12,7 @@
 void fed_rotor_standard(fed_rotor *fed, uint64_t seed) {
     *fed = (fed_rotor){.kind = rotor_nominal(),
                        .observing = wh_observer_standard,
-                       .feeding = wh_feed_standard,
+                       .feeding = wh_compensation_standard,
                        .driving = wh_rig_standard.run.drive};
     fed->observing.scene = &rig_fixed;
     for (unsigned i = 0; i < 2; i++) {
@@ -88,11 +88,12 @@ static void control(fed_rotor *fed) {
     const wh_real speed = fed->speed.known ? fed->speed.turn_radps : fed->drive.setpoint_radps;
     wh_real voltage = wh_drive_step(&fed->driving, &fed->drive, speed, WH_RIG_RATED_V, FED_STEP_S) /
                       WH_RIG_RATED_V;
-    const wh_real fed_in = wh_feed_step(&fed->feeding, &fed->feed, &fed->observer, now, FED_STEP_S);
+    const wh_real fed_in =
+        wh_compensation_step(&fed->feeding, &fed->compensation, &fed->observer, now, FED_STEP_S);
     if (fed->by == FED_BY_OBSERVER) {
         voltage += fed_in;
     } else if (fed->by == FED_BY_TRUTH) {
-        const wh_feed_config *feeding = &fed->feeding;
+        const wh_compensation_config *feeding = &fed->feeding;
         const wh_real at = fed->rotor.angle_rad + WH_R(1.5) * FED_STEP_S * fed->rotor.speed_radps;
         voltage += feeding->weight_Nm / feeding->stall_Nm * sine_of(at);
     }

@@ -1,10 +1,10 @@
-/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward (core/rig/observer.c, feed.c) and their
+/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward (core/rig/observer.c, gravity_compensation.c) and their
  * errors. */
 #ifndef TESTS_CORE_FED_ROTOR_H
 #define TESTS_CORE_FED_ROTOR_H
 
 #include "core/rig/drive.h"
-#include "core/rig/feed.h"
+#include "core/rig/gravity_compensation.h"
 #include "core/rig/speed.h"
 #include "rotor.h"
 
@@ -19,8 +19,8 @@ typedef struct fed_rotor {
     rotor_state rotor;
     wh_observer_config observing;
     wh_observer observer;
-    wh_feed_config feeding;
-    wh_feed feed;
+    wh_compensation_config feeding;
+    wh_compensation compensation;
     wh_drive_config driving;
     wh_drive drive;
     wh_speed speed;

@@ -60,7 +60,7 @@ static void begin_control(on_plant *on) {
 
 void plant_reset(on_plant *on, hal_reset cause) {
     hal_virtual_rig_reset(hal_virtual_rig_instance(), cause);
-    on->rig = (wh_rig){.state = WH_LIFE_ARMED,
+    on->rig = (wh_rig){.state = WH_RIG_ARMED,
                        .run.phase = WH_PHASE_RECORD}; /* not zeroed, like real memory */
     on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
     begin_control(on);
@@ -94,7 +94,7 @@ void plant_begin(on_plant *on, float target_rpm) {
 }
 
 static bool is_over(const on_plant *on) {
-    return on->rig.state == WH_LIFE_IDLE || (on->rig.state == WH_LIFE_TRIPPED && on->rig.rested);
+    return on->rig.state == WH_RIG_IDLE || (on->rig.state == WH_RIG_TRIPPED && on->rig.rested);
 }
 
 void plant_go_on_until(on_plant *on, wh_rig_phase phase) {
@@ -113,8 +113,7 @@ void plant_check_stopped(const on_plant *on) {
 }
 
 bool plant_is_done(const on_plant *on) {
-    return on->rig.state == WH_LIFE_IDLE && on->rig.has_result &&
-           on->rig.guard.trip == WH_TRIP_NONE;
+    return on->rig.state == WH_RIG_IDLE && on->rig.has_result && on->rig.guard.trip == WH_TRIP_NONE;
 }
 
 #endif

@@ -10,7 +10,7 @@
 #define LEAD_RAD (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
 
 rotor_kind rotor_nominal(void) {
-    return (rotor_kind){.weight_Nm = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2,
+    return (rotor_kind){.weight_Nm = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2,
                         .inertia_kgm2 = WH_RIG_INERTIA_KGM2,
                         .stall_Nm = WH_RIG_STALL_NM,
                         .no_load_radps = WH_RIG_NO_LOAD_RADPS,

@@ -103,7 +103,7 @@ void tel_hear(unsigned bytes) {
 
 static void draw_sample(bool evenly) {
     const wh_cell_config *cell = &bench.even.config.measure.cell;
-    wh_seen_sample *sample = &bench.seen.sample[bench.seen.samples++];
+    wh_step_sample *sample = &bench.seen.sample[bench.seen.samples++];
     const unsigned shift = wh_tel_shift(cell);
     sample->ticks = bench.cell_ticks;
     sample->raw = (int32_t)draw_whole(&bench.seed, (int)-cell->raw_max, (int)cell->raw_max);
@@ -133,7 +133,7 @@ static void put_pulse(uint32_t ticks, int32_t value) {
 }
 
 void tel_draw_seen(bool evenly) {
-    bench.seen = (wh_seen){.inputs = bench.even.inputs};
+    bench.seen = (wh_step_inputs){.inputs = bench.even.inputs};
     bench.cell_ticks += EVEN_STEP_TICKS;
     if (evenly || !draw_one_in(&bench.seed, 40)) {
         draw_sample(evenly);

@@ -37,7 +37,7 @@ typedef struct tel_bench {
     even_rig even;
     wh_station station;
     wh_tel tel;
-    wh_seen seen; /* in the last step */
+    wh_step_inputs seen; /* in the last step */
     wire heard;
     uint64_t seed; /* of the random draws */
     uint32_t cell_ticks;

@@ -37,7 +37,7 @@ static void accel(const void *model, const wh_phase *phase, const wh_real *linea
 
 static wh_status advance(const wh_scene *scene, wh_state *of) {
     return wh_step_counted(wh_step_second(NULL, accel, scene->method, scene->compensated, 1, 2,
-                                          (wh_span){scene->step_s, length[1]}, of),
+                                          (wh_two_part){scene->step_s, length[1]}, of),
                            of);
 }
 
@@ -152,7 +152,8 @@ static double rotation_error(bool compensated) {
     double sine = turn_sine;
     for (unsigned i = 0; i < STEPS; i++) {
         TEST_ASSERT_TRUE(wh_step_matrix(NULL, compensated ? rotate_by_changes : rotate, compensated,
-                                        0, 2, 1, (wh_span){WH_R(1.0), WH_R(0.0)}, &of) == WH_OK);
+                                        0, 2, 1, (wh_two_part){WH_R(1.0), WH_R(0.0)},
+                                        &of) == WH_OK);
     }
     for (unsigned power = 1; power < STEPS; power *= 2) {
         const double doubled = cosine * cosine - sine * sine;
@@ -195,7 +196,8 @@ static void test_a_matrix_moves_angles(void) {
         changes_only = k == 1;
         for (unsigned i = 0; i < 64; i++) { /* one second */
             TEST_ASSERT_TRUE(wh_step_matrix(NULL, speed_up, k == 1, 1, 1, 0,
-                                            (wh_span){WH_R(0.015625), WH_R(0.0)}, &of) == WH_OK);
+                                            (wh_two_part){WH_R(0.015625), WH_R(0.0)},
+                                            &of) == WH_OK);
         }
         TEST_ASSERT_TRUE(real[0] == WH_R(3.0));
         TEST_ASSERT_TRUE(size_of((double)wh_angle_to_rad(angle[0]) - 2.0) <
@@ -229,7 +231,7 @@ static void test_what_a_matrix_spoils_is_refused(void) {
             spoilt[i] = i == component ? bad[k / 9] : WH_R(0.5);
         }
         TEST_ASSERT_TRUE(wh_step_matrix(NULL, spoil, k % 3 == 2, angles, 3 - angles, 0,
-                                        (wh_span){WH_R(1.0), WH_R(0.0)}, &of) == WH_E_DIVERGED);
+                                        (wh_two_part){WH_R(1.0), WH_R(0.0)}, &of) == WH_E_DIVERGED);
         TEST_ASSERT_EQUAL_INT((int)component, of.fault);
         TEST_ASSERT_TRUE(angle[0] == 77 && real[0] == WH_R(1.0) && real[1] == WH_R(2.0));
         TEST_ASSERT_TRUE(real[2] == WH_R(3.0) && carry[0] == WH_R(0.0));
@@ -258,7 +260,7 @@ static void errors_after(wh_method method, wh_real rest, wh_real push, double *l
     wh_state of = {.angle = angle, .real = real, .carry = carry, .input = input};
     for (unsigned i = 0; i < STEPS; i++) {
         TEST_ASSERT_TRUE(wh_step_second(NULL, pull, method, true, 1, 2,
-                                        (wh_span){(wh_real)milli_s, rest}, &of) == WH_OK);
+                                        (wh_two_part){(wh_real)milli_s, rest}, &of) == WH_OK);
     }
     /* Euler's methods use the rate at one end of the step as its mean */
     const double ends = method == WH_EULER ? -1.0 : method == WH_SEMI_IMPLICIT_EULER ? 1.0 : 0.0;

@@ -107,7 +107,7 @@ static const wh_ledger_form spring_books = {.powers = spring_accel,
 
 static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
     return wh_step_counted(wh_step_ledger(&spring_books, NULL, spring_accel, WH_RK4, false,
-                                          (wh_span){scene->step_s, WH_R(0.0)}, state),
+                                          (wh_two_part){scene->step_s, WH_R(0.0)}, state),
                            state);
 }
 
@@ -193,7 +193,7 @@ static const wh_ledger_form shaft_books = {.powers = NULL,
 
 static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
     return wh_step_counted(wh_step_ledger(&shaft_books, NULL, shaft_accel, WH_RK4, false,
-                                          (wh_span){scene->step_s, WH_R(0.0)}, state),
+                                          (wh_two_part){scene->step_s, WH_R(0.0)}, state),
                            state);
 }
 

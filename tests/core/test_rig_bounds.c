@@ -19,7 +19,7 @@ static void arm(bool trusted) {
     observing->scene = &rig_fixed;
     observing->trusted_rad = observing->lost_rad = trusted ? WH_R(3.2) : WH_R(0.0);
     observing->trusted_marks = 1000000U;
-    even.config.feeds = WH_FEED_ALWAYS;
+    even.config.feeds = WH_COMPENSATION_ALWAYS;
     TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
                      WH_OK);
 }
@@ -72,7 +72,7 @@ static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
     for (unsigned fed = 0; fed < 2U; fed++) {
         seed = 1U + fed;
         arm(true);
-        even.config.feeds = fed == 1U ? WH_FEED_ALWAYS : WH_FEED_NEVER;
+        even.config.feeds = fed == 1U ? WH_COMPENSATION_ALWAYS : WH_COMPENSATION_NEVER;
         even.config.measure.record_s = WH_R(8.0);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
         even_go_on_until(&even, WH_PHASE_RECORD);
@@ -176,14 +176,15 @@ static void test_limits_of_the_tare_are_allowed(void) {
 static void test_a_stage_is_a_state_or_a_phase(void) {
     for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
         const bool state = stage < WH_RIG_STAGE_OF_PHASE;
-        const char *words = state ? wh_life_text((wh_life)stage)
+        const char *words = state ? wh_rig_state_text((wh_rig_state)stage)
                                   : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
         TEST_ASSERT_TRUE(wh_rig_stage_text(stage) == words);
     }
-    for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
+    for (wh_rig_state state = WH_RIG_IDLE; state < WH_RIG_STATES; state++) {
         for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
             const wh_rig rig = {.state = state, .run = {.phase = phase}};
-            const char *words = phase == WH_PHASE_NONE ? wh_life_text(state) : wh_phase_text(phase);
+            const char *words =
+                phase == WH_PHASE_NONE ? wh_rig_state_text(state) : wh_phase_text(phase);
             TEST_ASSERT_TRUE(wh_rig_stage_text(wh_rig_stage(&rig)) == words);
         }
     }

@@ -122,7 +122,7 @@ static void test_mount(void) {
     wh_rig_config config = wh_rig_standard;
     wh_carriage_mount(&config, &carriage);
     const wh_rotor_config *turns = &config.measure.rotor;
-    TEST_ASSERT_FLOAT_WITHIN(4e-9f, (float)WH_RIG_MASS_MOMENT_KGM, (float)turns->mass_moment_kgm);
+    TEST_ASSERT_FLOAT_WITHIN(4e-9f, (float)WH_RIG_UNBALANCE_KGM, (float)turns->unbalance_kgm);
     TEST_ASSERT_FLOAT_WITHIN(1e-9f, (float)WH_RIG_INERTIA_KGM2, (float)turns->inertia_kgm2);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.75f, (float)config.measure.result.mount_factor);
     /* S^2/(M + m), M three times m */
@@ -130,14 +130,14 @@ static void test_mount(void) {
                              (float)turns->yields_kgm2);
     TEST_ASSERT_FLOAT_WITHIN(1e-8f, 0.75f * (float)wh_rig_standard.guard.load_still_kgm,
                              (float)config.guard.load_still_kgm);
-    TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_FEED_NEVER &&
+    TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_COMPENSATION_NEVER &&
                      config.observer.scene == NULL);
 
     /* arms without discs turn about themselves only */
     const wh_carriage bare = {.disc_m = WH_R(0.0), .ratio = WH_R(0.0)};
     wh_carriage_mount(&config, &bare);
     TEST_ASSERT_FLOAT_WITHIN(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f,
-                             (float)turns->mass_moment_kgm);
+                             (float)turns->unbalance_kgm);
     TEST_ASSERT_TRUE(turns->yields_kgm2 == WH_R(0.0) &&
                      config.measure.result.mount_factor == WH_R(1.0));
 }
@@ -151,7 +151,7 @@ static void test_swing(void) {
             wh_rig_config config = wh_rig_standard;
             wh_carriage_mount(&config, &carriage);
             const wh_real part = config.measure.result.mount_factor;
-            const wh_real moment = config.measure.rotor.mass_moment_kgm;
+            const wh_real moment = config.measure.rotor.unbalance_kgm;
             /* without the discs, 0.136 kg, the inertia is smaller */
             TEST_ASSERT_FLOAT_WITHIN(
                 1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),

@@ -22,7 +22,7 @@ static void test_speed_limit_follows_from_the_shaft(void) {
     const wh_real others_N =
         WH_R(1.34) + WH_R(2.10); /* one set's weight; its share of the ripple */
     const wh_real limit = wh_rig_standard.guard.limit_radps;
-    const wh_real at_limit_N = WH_RIG_MASS_MOMENT_KGM / WH_R(2.0) * limit * limit + others_N;
+    const wh_real at_limit_N = WH_RIG_UNBALANCE_KGM / WH_R(2.0) * limit * limit + others_N;
     TEST_ASSERT_TRUE(at_limit_N < carried_N);
     TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N); /* and not lower than necessary */
     TEST_ASSERT_TRUE(wh_rig_standard.guard.target_max_radps < limit);
@@ -125,7 +125,7 @@ static void test_what_climbs_and_is_fast_trips(void) {
 static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
-        4.0 * (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;
+        4.0 * (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;
     TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)root(falls2), (float)config->fall_radps);
     for (unsigned rpm_led = 0; rpm_led <= 340U; rpm_led += 20U) {
         const double base = (double)((wh_real)rpm_led * RPM);

@@ -52,7 +52,7 @@ static void test_no_more_volts_than_the_supply_has(void) {
         const wh_rig_inputs inputs = {.now_ticks = 2000U, .supply_V = supply_V};
         wh_rig_start(&wh_rig_standard, &rig, 0, NULL);
         wh_run_start(&rig.run, WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM, 0);
-        rig.state = WH_LIFE_RUNNING;
+        rig.state = WH_RIG_RUNNING;
         rig.run.phase = WH_PHASE_SETTLE;
         wh_drive_start(&rig.run.drive, rig.run.target_radps, held_V);
         rig.run.volts = held_V;

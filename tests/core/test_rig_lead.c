@@ -30,7 +30,7 @@ static void begin(wh_rig_phase phase, wh_real target_radps) {
     config = even_config();
     wh_rig_start(&config, &rig, rotor.ticks, NULL);
     wh_run_start(&rig.run, target_radps, rotor.ticks);
-    rig.state = WH_LIFE_RUNNING;
+    rig.state = WH_RIG_RUNNING;
     rig.run.phase = phase;
     rig.run.closed_ticks = rotor.ticks - 5U * WH_RIG_TICKS_PER_S;
 }
@@ -38,7 +38,7 @@ static void begin(wh_rig_phase phase, wh_real target_radps) {
 /* `drive`: fixed drive, or below zero the ordered one. */
 static void go_on(wh_real drive, unsigned steps) {
     wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
-    for (unsigned step = 0; step < steps && rig.state == WH_LIFE_RUNNING; step++) {
+    for (unsigned step = 0; step < steps && rig.state == WH_RIG_RUNNING; step++) {
         rotor_turn(&kind, &rotor, drive < WH_R(0.0) ? rig.command.volts / WH_RIG_RATED_V : drive,
                    EVEN_STEP_TICKS);
         fastest_radps = rotor.speed_radps > fastest_radps ? rotor.speed_radps : fastest_radps;

@@ -94,7 +94,7 @@ static wh_refusal run(wh_real target_rpm) {
             return rig.answer;
         }
     }
-    for (uint32_t i = 0; i < 40000U && rig.state == WH_LIFE_RUNNING; i++) {
+    for (uint32_t i = 0; i < 40000U && rig.state == WH_RIG_RUNNING; i++) {
         step();
     }
     return WH_ALLOWED;
@@ -258,13 +258,13 @@ static void test_settings_that_cannot_go_together(void) {
         const wh_rig_config *c = &config;
         TEST_ASSERT_TRUE(wh_run_needs_V(&c->run, c->guard.target_max_radps) <=
                          c->run.rated_V * WH_R(1.00001));
-        TEST_ASSERT_TRUE(c->feed.stall_Nm >
-                         c->measure.rotor.mass_moment_kgm * c->measure.rotor.gravity_mps2);
+        TEST_ASSERT_TRUE(c->compensation.stall_Nm >
+                         c->measure.rotor.unbalance_kgm * c->measure.rotor.gravity_mps2);
         TEST_ASSERT_TRUE(c->guard.supply_min_V < c->run.rated_V &&
                          c->run.rated_V < c->guard.supply_max_V &&
                          c->run.spin_up_V <= c->run.rated_V);
         TEST_ASSERT_TRUE(c->measure.rotor.damping_Nms >=
-                         WH_R(0.899) * c->feed.stall_Nm / c->run.no_load_radps);
+                         WH_R(0.899) * c->compensation.stall_Nm / c->run.no_load_radps);
         TEST_ASSERT_TRUE(c->impossible_radps * WH_R(1.00001) >=
                          c->run.no_load_radps * c->guard.supply_max_V / c->run.rated_V);
     }

@@ -21,7 +21,7 @@ static void arm(void) {
     observing->scene = &rig_fixed;
     observing->trusted_rad = observing->lost_rad = WH_R(3.2);
     observing->trusted_marks = 1000000U;
-    even.config.feeds = WH_FEED_ALWAYS;
+    even.config.feeds = WH_COMPENSATION_ALWAYS;
     TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
                      WH_OK);
 }
@@ -110,7 +110,7 @@ static void test_a_step_with_a_pulse_works_on_no_turn(void) {
 /* Without gravity's feed-forward the observer takes no time. */
 static void test_unfed_nothing_is_observed(void) {
     arm();
-    even.config.feeds = WH_FEED_NEVER;
+    even.config.feeds = WH_COMPENSATION_NEVER;
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
     const uint32_t ticks = even.rig.observer.ticks;
     even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
@@ -122,12 +122,12 @@ static void test_unfed_nothing_is_observed(void) {
 /* When a new set-point ends the feed-forward, the measurement's reference changes in the same step, and when it returns. */
 static void test_the_reference_knows_who_is_fed(void) {
     arm();
-    even.config.feeds = WH_FEED_SLOW;
+    even.config.feeds = WH_COMPENSATION_SLOW;
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM) == WH_ALLOWED);
     for (unsigned i = 0; i < 4U; i++) {
         const wh_turn_angle *angle = &even.rig.measure.lockin.angle;
         for (unsigned k = 0; k < 6000U && !angle->fed; k++) {
-            even.rig.feed.part =
+            even.rig.compensation.part =
                 WH_R(1.0); /* faded in, although this is no rotor for the observer */
             even_step(&even);
         }
@@ -137,7 +137,8 @@ static void test_the_reference_knows_who_is_fed(void) {
                          WH_ALLOWED);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.feed.part); /* fades in again */
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f,
+                                 (float)even.rig.compensation.part); /* fades in again */
         even_steps(&even, 300);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==

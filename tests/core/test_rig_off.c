@@ -109,7 +109,7 @@ static void step_on(void) {
     wh_real cosine;
     wh_sincos(wh_phase_from_rad(b.rotor.angle_rad), &sine, &cosine);
     const wh_real load_N =
-        WH_RIG_MASS_MOMENT_KGM * b.rotor.speed_radps * b.rotor.speed_radps * cosine;
+        WH_RIG_UNBALANCE_KGM * b.rotor.speed_radps * b.rotor.speed_radps * cosine;
     wh_rig_load(&b.config, &b.rig, b.rotor.ticks, (int32_t)(load_N * COUNTS_PER_N), WH_LOAD_OK);
     const wh_motor_way before = b.command.way;
     b.command = wh_rig_step(&b.config, &b.rig, &b.inputs);
@@ -208,14 +208,14 @@ static void test_healthy_rotors_run_out(void) {
         TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
         TEST_ASSERT_TRUE(!b.inputs.stop_pressed || b.command.way == WH_MOTOR_COASTS);
         bool back = false;
-        for (unsigned k = 0; k < 130U * STEPS_PER_S && b.rig.state != WH_LIFE_IDLE; k++) {
+        for (unsigned k = 0; k < 130U * STEPS_PER_S && b.rig.state != WH_RIG_IDLE; k++) {
             brakes += b.command.way == WH_MOTOR_BRAKES;
             b.inputs.stop_pressed = b.inputs.stop_pressed && k < 100U;
             step_on();
             back = back || b.rotor.speed_radps < WH_R(-1.0);
             TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
         }
-        TEST_ASSERT_TRUE(b.rig.state == WH_LIFE_IDLE);
+        TEST_ASSERT_TRUE(b.rig.state == WH_RIG_IDLE);
         swings += back;
     }
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
@@ -237,7 +237,7 @@ static void test_one_invented_pulse_is_no_drive(void) {
         wh_rig_pulse(&b.config, &b.rig, draw_one_of(&seed, 2),
                      b.rotor.ticks - draw_one_of(&seed, STEP_TICKS));
         for (unsigned k = 0; k < 130U * STEPS_PER_S && b.rig.guard.trip == WH_TRIP_NONE &&
-                             b.rig.state != WH_LIFE_IDLE;
+                             b.rig.state != WH_RIG_IDLE;
              k++) {
             step_on();
         }

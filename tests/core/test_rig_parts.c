@@ -2,9 +2,9 @@
  * pulses with the motor off, doubts, a record's first turn, a swing's verdict. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
-#include "core/rig/expect.h"
 #include "core/rig/free_swing.h"
 #include "core/rig/polar.h"
+#include "core/rig/pulse_window.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
 #include "draw.h"
@@ -177,7 +177,7 @@ static void test_the_last_interval_bounds_what_coasts(void) {
         wh_run run = {.phase = WH_PHASE_OFF,
                       .off_radps = before_radps,
                       .since_ticks = last + (uint32_t)after};
-        wh_expect_slower(&run, &pulses, false, sensor, next);
+        wh_pulse_window_off(&run, &pulses, false, sensor, next);
         const wh_real wanted = after <= 0 && speed < before_radps ? speed : before_radps;
         TEST_ASSERT_FLOAT_WITHIN(2e-3f * (float)wanted, (float)wanted, (float)run.off_radps);
     }

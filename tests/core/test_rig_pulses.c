@@ -103,7 +103,7 @@ static void stand_in(wh_rig_phase phase) {
     const uint32_t now = train[0].ticks - STEP_TICKS;
     wh_rig_start(&config, &rig, now, NULL);
     wh_run_start(&rig.run, mean_radps, now);
-    rig.state = WH_LIFE_RUNNING;
+    rig.state = WH_RIG_RUNNING;
     rig.run.phase = phase;
     rig.run.volts = wh_run_needs_V(&config.run, mean_radps);
     wh_drive_start(&rig.run.drive, mean_radps, rig.run.volts);

@@ -19,7 +19,7 @@ static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
     config = even_config();
     wh_rig_start(&config, &rig, now_ticks, NULL);
     wh_run_start(&rig.run, nominal_radps, now_ticks);
-    rig.state = WH_LIFE_RUNNING;
+    rig.state = WH_RIG_RUNNING;
     rig.run.phase = phase;
     rig.run.volts = wh_run_needs_V(&config.run, nominal_radps);
     rig.run.closed_ticks = now_ticks - 5U * WH_RIG_TICKS_PER_S;
@@ -31,7 +31,7 @@ static wh_real run_away(rotor_state *rotor) {
     const rotor_kind kind = rotor_nominal();
     const uint32_t begin = rotor->ticks;
     wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
-    for (unsigned step = 0; step < 500U && rig.state != WH_LIFE_TRIPPED; step++) {
+    for (unsigned step = 0; step < 500U && rig.state != WH_RIG_TRIPPED; step++) {
         rotor_turn(&kind, rotor, WH_R(1.0), STEP_TICKS);
         for (unsigned i = 0; i < rotor->marks; i++) {
             wh_rig_pulse(&config, &rig, rotor->mark_sensor[i], rotor->mark_ticks[i]);

@@ -18,7 +18,7 @@ static void go_on_until(wh_rig_phase phase) { even_go_on_until(&even, phase); }
 
 static void check_trip(wh_trip trip) {
     TEST_ASSERT_EQUAL_INT(trip, even.rig.guard.trip);
-    TEST_ASSERT_TRUE(trip == WH_TRIP_NONE || even.rig.state == WH_LIFE_TRIPPED);
+    TEST_ASSERT_TRUE(trip == WH_TRIP_NONE || even.rig.state == WH_RIG_TRIPPED);
 }
 
 /* The made-up load, to the lock-in's accuracy in test_lockin.c. The rotor is even to a tick a turn, 6e-6. */
@@ -194,7 +194,7 @@ static void test_a_load_cell_that_falls_silent_trips(void) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
         go_on_until(in);
         const uint32_t silent = even.inputs.now_ticks;
-        for (unsigned step = 0; step < 100U && even.rig.state != WH_LIFE_TRIPPED; step++) {
+        for (unsigned step = 0; step < 100U && even.rig.state != WH_RIG_TRIPPED; step++) {
             even_step(&even);
         }
         check_trip(WH_TRIP_LOAD_CELL);
@@ -275,7 +275,7 @@ static void test_a_refused_target_never_moves_the_motor(void) {
             TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.command.volts);
         }
         check_trip(WH_TRIP_NONE);
-        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_ARMED); /* a better one may come */
+        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_ARMED); /* a better one may come */
     }
 }
 

@@ -49,7 +49,7 @@ static wh_real across_rad; /* and its cosine part */
 static wh_real truth_N;    /* S <w^2> over the angle: the first order, in line with the masses */
 
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
-    const wh_real weight_Nm = rotor.mass_moment_kgm * rotor.gravity_mps2;
+    const wh_real weight_Nm = rotor.unbalance_kgm * rotor.gravity_mps2;
     return (p->slope_Nms * (p->speed_radps - speed) -
             weight_Nm * wave_of(theta - p->gravity_rad).sine) /
            p->inertia_kgm2;
@@ -69,12 +69,12 @@ static wh_real turn(const plant *p, wh_real speed) {
         const wh_real theta = from + h * (wh_real)i;
         const wh_wave at = wave_of(theta);
         part_at[i] = time;
-        force_N[i] = rotor.mass_moment_kgm *
+        force_N[i] = rotor.unbalance_kgm *
                      (speed * speed * at.cosine + acceleration(p, theta, speed) * at.sine);
         if (i == STEPS) {
             break;
         }
-        truth_N += rotor.mass_moment_kgm * speed * speed / (wh_real)STEPS;
+        truth_N += rotor.unbalance_kgm * speed * speed / (wh_real)STEPS;
         const wh_real half = WH_R(0.5) * h;
         const wh_real k1 = bend(p, theta, speed);
         const wh_real k2 = bend(p, theta + half, speed + half * k1);

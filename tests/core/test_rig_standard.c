@@ -52,7 +52,7 @@ static void test_the_run(void) {
         {"impossible beyond, rpm", RPM(wh_rig_standard.impossible_radps), 930}};
     CHECK(settings);
     TEST_ASSERT_TRUE(!wh_rig_standard.stop_brakes && wh_rig_standard.host_loss_stops);
-    TEST_ASSERT_TRUE(wh_rig_standard.feeds == WH_FEED_SLOW);
+    TEST_ASSERT_TRUE(wh_rig_standard.feeds == WH_COMPENSATION_SLOW);
 }
 
 static void test_the_guard(void) {
@@ -76,7 +76,7 @@ static void test_the_guard(void) {
         {"silence, s", guard->silence_max_s, 0.5},
         {"silence while slow, s", guard->slow_silence_max_s, 2},
         {"silence of the cell, s", guard->load_silence_max_s, 0.02},
-        {"a still cell, of the masses' force", guard->load_still_kgm / WH_RIG_MASS_MOMENT_KGM, 0.1},
+        {"a still cell, of the masses' force", guard->load_still_kgm / WH_RIG_UNBALANCE_KGM, 0.1},
         {"pulses of a stuck cell", COUNT(guard->stuck_pulses), 3},
         {"supply at least, V", guard->supply_min_V, 10.8},
         {"supply at most, V", guard->supply_max_V, 37.2},
@@ -118,7 +118,7 @@ static void test_the_measurement(void) {
 
 static void test_observer_and_feed(void) {
     const wh_observer_config *observer = &wh_rig_standard.observer;
-    const wh_feed_config *feed = &wh_rig_standard.feed;
+    const wh_compensation_config *feed = &wh_rig_standard.compensation;
     const setting settings[] = {
         {"stall torque, N m", observer->stall_Nm, 1.5},
         {"no-load speed, rpm", RPM(observer->no_load_radps), 600},

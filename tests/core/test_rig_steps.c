@@ -19,16 +19,16 @@ static void begin(void) {
     inputs = (wh_rig_inputs){.now_ticks = UINT32_MAX - 3000000U, /* the timer wraps on the way */
                              .supply_V = WH_RIG_RATED_V};
     wh_rig_start(&config, &rig, inputs.now_ticks, NULL);
-    rig.state = WH_LIFE_RUNNING;
+    rig.state = WH_RIG_RUNNING;
     wh_run_start(&rig.run, WH_R(330.0) * RPM, inputs.now_ticks);
 }
 
 /* Puts the rig into this phase now, at the target's speed, with all guards satisfied. */
 static void stand_in(wh_rig_phase phase) {
     begin();
-    rig.state = phase == WH_PHASE_NONE       ? WH_LIFE_IDLE
-                : phase < WH_PHASE_RAMP_DOWN ? WH_LIFE_RUNNING
-                                             : WH_LIFE_STOPPING;
+    rig.state = phase == WH_PHASE_NONE       ? WH_RIG_IDLE
+                : phase < WH_PHASE_RAMP_DOWN ? WH_RIG_RUNNING
+                                             : WH_RIG_STOPPING;
     rig.run.phase = phase;
     rig.pulses.speed.known = true;
     rig.pulses.speed.running = true;
@@ -44,7 +44,7 @@ static void stand_in(wh_rig_phase phase) {
 
 static void stand_tripped(wh_trip trip) {
     stand_in(WH_PHASE_NONE);
-    rig.state = WH_LIFE_TRIPPED;
+    rig.state = WH_RIG_TRIPPED;
     wh_guard_trip(&rig.guard, trip);
 }
 
@@ -86,7 +86,7 @@ static bool same_text(const char *x, const char *y) {
 
 typedef const char *words_of(int number);
 
-static const char *life_text(int number) { return wh_life_text((wh_life)number); }
+static const char *life_text(int number) { return wh_rig_state_text((wh_rig_state)number); }
 static const char *phase_text(int number) { return wh_phase_text((wh_rig_phase)number); }
 static const char *event_text(int number) { return wh_rig_event_text((wh_rig_event)number); }
 static const char *refusal_text(int number) { return wh_refusal_text((wh_refusal)number); }
@@ -106,7 +106,7 @@ static void check_words(words_of *words, int count) {
 }
 
 static void test_every_state_and_reason_has_words_of_its_own(void) {
-    check_words(life_text, (int)WH_LIVES);
+    check_words(life_text, (int)WH_RIG_STATES);
     check_words(phase_text, (int)WH_PHASES);
     check_words(event_text, (int)WH_EVENTS);
     check_words(refusal_text, (int)WH_REFUSALS);
@@ -225,7 +225,7 @@ static void test_rest_is_waited_for(void) {
         } else {
             stand_in(WH_PHASE_OFF);
         }
-        const wh_life state = rig.state;
+        const wh_rig_state state = rig.state;
         uint32_t steps = 0;
         for (; steps < 70000U && rig.state == state && !rig.rested; steps++) {
             if (pulses ? steps % 150U == 0 : steps == 0) { /* 200 rpm */
@@ -240,17 +240,17 @@ static void test_rest_is_waited_for(void) {
             TEST_ASSERT_TRUE(rig.guard.trip == (trips ? WH_TRIP_OVERSPEED : WH_TRIP_RUNS_ON));
         } else {
             TEST_ASSERT_EQUAL_UINT32(3U * STEPS_PER_S / 2U + 1U, steps);
-            TEST_ASSERT_TRUE(trips ? rig.rested : rig.state == WH_LIFE_IDLE);
+            TEST_ASSERT_TRUE(trips ? rig.rested : rig.state == WH_RIG_IDLE);
         }
     }
     stand_in(WH_PHASE_OFF); /* no pulse at all: the phase's own time counts */
     rig.pulses.speed.running = false;
     unsigned steps = 0;
-    for (; steps < 20000U && rig.state == WH_LIFE_STOPPING; steps++) {
+    for (; steps < 20000U && rig.state == WH_RIG_STOPPING; steps++) {
         step();
     }
     TEST_ASSERT_EQUAL_UINT(3U * STEPS_PER_S / 2U, steps);
-    TEST_ASSERT_TRUE(rig.state == WH_LIFE_IDLE && rig.run.phase == WH_PHASE_NONE);
+    TEST_ASSERT_TRUE(rig.state == WH_RIG_IDLE && rig.run.phase == WH_PHASE_NONE);
 }
 
 /* Times since then wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
@@ -285,7 +285,7 @@ static void test_what_trips_in_which_phase(void) {
         rig.rested = true; /* as before the fault */
         inputs.watchdog_has_cut = true;
         step_on();
-        TEST_ASSERT_TRUE(rig.state == WH_LIFE_TRIPPED && rig.guard.trip == WH_TRIP_WATCHDOG);
+        TEST_ASSERT_TRUE(rig.state == WH_RIG_TRIPPED && rig.guard.trip == WH_TRIP_WATCHDOG);
         TEST_ASSERT_FALSE(rig.rested);
         for (unsigned unknown = 0; unknown < 2; unknown++) {
             stand_in(phase);
@@ -294,7 +294,7 @@ static void test_what_trips_in_which_phase(void) {
             rig.pulses.speed.turn_radps = WH_R(401.0) * RPM;
             step_on();
             const bool drives = phase >= WH_PHASE_SPIN_UP && phase <= WH_PHASE_RAMP_DOWN;
-            TEST_ASSERT_TRUE(rig.state == WH_LIFE_TRIPPED);
+            TEST_ASSERT_TRUE(rig.state == WH_RIG_TRIPPED);
             TEST_ASSERT_TRUE(rig.guard.trip ==
                              (drives || unknown == 1 ? WH_TRIP_OVERSPEED : WH_TRIP_RUNS_ON));
         }

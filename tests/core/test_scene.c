@@ -18,7 +18,7 @@ static void oscillator_accel(const void *model, const wh_phase *phase, const wh_
 
 static wh_status oscillator_advance(const wh_scene *scene, wh_state *state) {
     return wh_step_counted(wh_step_second(NULL, oscillator_accel, scene->method, scene->compensated,
-                                          0, 1, (wh_span){scene->step_s, WH_R(0.0)}, state),
+                                          0, 1, (wh_two_part){scene->step_s, WH_R(0.0)}, state),
                            state);
 }
 
@@ -35,7 +35,7 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
 
 static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
     return wh_step_counted(wh_step_second(NULL, shaft_accel, scene->method, scene->compensated, 1,
-                                          2, (wh_span){scene->step_s, WH_R(0.0)}, state),
+                                          2, (wh_two_part){scene->step_s, WH_R(0.0)}, state),
                            state);
 }
 
@@ -149,7 +149,7 @@ static void constant_slope(const void *model, const wh_phase *phase, const wh_re
 
 static wh_status first_order_advance(const wh_scene *scene, wh_state *of) {
     return wh_step_counted(wh_step_first(NULL, constant_slope, scene->method, scene->compensated, 0,
-                                         1, (wh_span){scene->step_s, WH_R(0.0)}, of),
+                                         1, (wh_two_part){scene->step_s, WH_R(0.0)}, of),
                            of);
 }
 

@@ -9,15 +9,15 @@ void suite_selftest(void);
 
 static even_rig even;
 static wh_station station;
-static wh_seen seen;
+static wh_step_inputs seen;
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
 static void begin(void) {
     even_start(&even);
     even_rest(&even);
     wh_station_start(&station, "rig", "here", WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS);
-    seen = (wh_seen){.inputs = even.inputs, .samples = 1};
-    seen.sample[0] = (wh_seen_sample){even.inputs.now_ticks, EVEN_TARE_RAW, WH_LOAD_OK};
+    seen = (wh_step_inputs){.inputs = even.inputs, .samples = 1};
+    seen.sample[0] = (wh_step_sample){even.inputs.now_ticks, EVEN_TARE_RAW, WH_LOAD_OK};
 }
 
 static const char *ask(void) {

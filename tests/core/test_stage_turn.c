@@ -85,18 +85,18 @@ typedef struct manner {
 static wh_status step(manner how, wh_real h, wh_phase *told) {
     if (how.form == WH_FIRST_ORDER) {
         return how.turns ? wh_turn_first(NULL, flow_turned, &waves, how.method, how.compensated,
-                                         ANGLES, LINEARS, (wh_span){h, WH_R(0.0)}, &state)
+                                         ANGLES, LINEARS, (wh_two_part){h, WH_R(0.0)}, &state)
                          : wh_step_first(NULL, flow, how.method, how.compensated, ANGLES, LINEARS,
-                                         (wh_span){h, WH_R(0.0)}, &state);
+                                         (wh_two_part){h, WH_R(0.0)}, &state);
     }
     if (how.turns) {
         const wh_stepping to = {
             wh_tableau_of(how.method), &state, h, ANGLES, COORDINATES, how.compensated};
-        return wh_turn_second_told(NULL, swing_turned, &waves, &to, (wh_span){h, WH_R(0.0)}, told,
-                                   &state);
+        return wh_turn_second_told(NULL, swing_turned, &waves, &to, (wh_two_part){h, WH_R(0.0)},
+                                   told, &state);
     }
     return wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
-                          (wh_span){h, WH_R(0.0)}, &state);
+                          (wh_two_part){h, WH_R(0.0)}, &state);
 }
 
 static void start(void) {
@@ -351,12 +351,12 @@ static void test_small_turns_are_sines(void) {
         const wh_phase phase = wh_phase_from_rad(d);
         wh_real wanted[2];
         wh_sincos(phase, &wanted[0], &wanted[1]);
-        wh_wave turn = wh_small_turn(d);
+        wh_wave turn = wh_sincos_small(d);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
         /* next to zero they are exact, not only near it */
         const wh_real tiny = d * WH_R(1e-9);
-        turn = wh_small_turn(tiny);
+        turn = wh_sincos_small(tiny);
         TEST_ASSERT_TRUE(turn.sine == tiny);
         TEST_ASSERT_TRUE(turn.cosine == -WH_R(0.5) * (tiny * tiny) || sizeof(wh_real) == 8);
     }
@@ -371,20 +371,20 @@ static void test_far_turns_are_sines(void) {
                                (WH_ABS(d) > WH_R(1.0) ? WH_ABS(d) : WH_R(1.0));
         wh_real wanted[2];
         wh_sincos(wh_phase_from_rad(d), &wanted[0], &wanted[1]);
-        const wh_wave turn = wh_far_turn(d, d > WH_TURN_SMALL);
-        const wh_wave called = wh_far_turn_called(d);
+        const wh_wave turn = wh_sincos_far(d, d > WH_SINCOS_SMALL);
+        const wh_wave called = wh_sincos_far_called(d);
         TEST_ASSERT_TRUE(called.sine == turn.sine && called.cosine == turn.cosine);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
-        if (WH_ABS(d) <= WH_TURN_SMALL) {
-            const wh_wave small = wh_small_turn(d);
+        if (WH_ABS(d) <= WH_SINCOS_SMALL) {
+            const wh_wave small = wh_sincos_small(d);
             TEST_ASSERT_TRUE(turn.sine == small.sine && turn.cosine == small.cosine);
         }
     }
     const wh_real none[] = {WH_R(1e9), WH_R(-1e9), WH_R(1e30), (wh_real)__builtin_inf(),
                             (wh_real)__builtin_nan("")};
     for (unsigned i = 0; i < sizeof none / sizeof none[0]; i++) {
-        const wh_wave turn = wh_far_turn(none[i], false);
+        const wh_wave turn = wh_sincos_far(none[i], false);
         TEST_ASSERT_FALSE(WH_ABS(turn.sine) < WH_R(1e15));
         TEST_ASSERT_FALSE(WH_ABS(turn.cosine) < WH_R(1e15));
     }

@@ -75,7 +75,7 @@ static const wh_waves waves = {NULL, sines, rates, 1};
 static bool with_books;
 
 static wh_status advance(const wh_scene *scene, wh_state *state) {
-    const wh_span h = {scene->step_s, WH_R(0.0)};
+    const wh_two_part h = {scene->step_s, WH_R(0.0)};
     return wh_step_counted(with_books ? wh_turn_ledger(&books, NULL, turned_accel, &waves,
                                                        scene->method, scene->compensated, h, state)
                                       : wh_turn_second(NULL, turned_accel, &waves, scene->method,
@@ -193,7 +193,7 @@ static void test_first_order_unrolled_by_hand(void) {
         wh_real real[1] = {WH_R(0.0)};
         wh_real input[1] = {WH_R(0.5)};
         wh_state of = {.angle = angle, .real = real, .input = input, .fault = -1};
-        const wh_span h = {STEP_S, WH_R(0.0)};
+        const wh_two_part h = {STEP_S, WH_R(0.0)};
         const bool turns = m % 2 == 1 && wh_method_turns(method);
         if (!wh_method_takes(method, WH_FIRST_ORDER)) {
             continue;

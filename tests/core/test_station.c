@@ -133,7 +133,7 @@ static void test_refusals_have_their_numbers(void) {
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         check_begins(rows[i].answer, ask(rows[i].line));
     }
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_RUNNING);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_RUNNING);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 300.5f * (float)EVEN_RPM, (float)even.rig.run.target_radps);
 }
 
@@ -194,7 +194,7 @@ static void test_escape_stops_at_once(void) {
         period(); /* an earlier order may still wait for its answer */
         period();
         TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
-        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_STOPPING);
+        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_STOPPING);
         period();
         hear();
         TEST_ASSERT_NOT_NULL(strstr(heard, "OK stop\r\n"));

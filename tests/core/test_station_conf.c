@@ -82,7 +82,7 @@ static wh_real where(const wh_rig_config *c, const char *name) {
     const struct {
         const char *name;
         wh_real value;
-    } places[] = {{"mass_moment", c->measure.rotor.mass_moment_kgm},
+    } places[] = {{"mass_moment", c->measure.rotor.unbalance_kgm},
                   {"inertia", c->measure.rotor.inertia_kgm2},
                   {"damping", c->measure.rotor.damping_Nms},
                   {"damping_tolerance", c->measure.rotor.damping_tolerance},
@@ -120,7 +120,7 @@ static wh_real where(const wh_rig_config *c, const char *name) {
                   {"yields", c->measure.rotor.yields_kgm2},
                   {"no_load_speed", c->run.no_load_radps * RPM},
                   {"rated_voltage", c->run.rated_V},
-                  {"stall_torque", c->feed.stall_Nm},
+                  {"stall_torque", c->compensation.stall_Nm},
                   {"host", (wh_real)c->host_max_s}};
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, sizeof places / sizeof places[0]);
     unsigned i = 0;
@@ -231,12 +231,11 @@ static void test_what_follows(void) {
     wh_rig_config plain;
     own_standard(&plain);
     wh_conf_start(&conf, own_standard, NULL, &even.config);
-    TEST_ASSERT_TRUE(
-        wh_conf_set(&conf, WH_CONF_mass_moment, WH_R(2.0) * plain.measure.rotor.mass_moment_kgm) ==
-        WH_STATION_FINE);
+    TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mass_moment,
+                                 WH_R(2.0) * plain.measure.rotor.unbalance_kgm) == WH_STATION_FINE);
     const float twice = 2.0f;
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, twice,
-                             (float)(even.config.feed.weight_Nm / plain.feed.weight_Nm));
+                             (float)(even.config.compensation.weight_Nm / plain.compensation.weight_Nm));
     TEST_ASSERT_FLOAT_WITHIN(
         1e-5f, twice, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.41421356f,
@@ -246,7 +245,7 @@ static void test_what_follows(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.5f,
                              (float)(even.config.guard.fall_radps / plain.guard.fall_radps));
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_gravity, WH_R(0.0)) == WH_STATION_FINE);
-    TEST_ASSERT_TRUE(even.config.feed.weight_Nm < WH_R(1e-9) &&
+    TEST_ASSERT_TRUE(even.config.compensation.weight_Nm < WH_R(1e-9) &&
                      even.config.guard.fall_radps < WH_R(1e-9));
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mount_factor, WH_R(0.25)) == WH_STATION_FINE);
     TEST_ASSERT_FLOAT_WITHIN(

@@ -13,7 +13,7 @@ void suite_station_host(void);
 
 static even_rig even;
 static wh_station station;
-static wh_seen seen;
+static wh_step_inputs seen;
 static uint64_t seed;
 
 static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
@@ -68,7 +68,7 @@ static void test_a_host_that_is_gone(void) {
         }
         type("\n");
         uint32_t silent = 0;
-        while (even.rig.state == WH_LIFE_RUNNING) {
+        while (even.rig.state == WH_RIG_RUNNING) {
             if (draw_one_in(&seed, 20)) {
                 wh_station_take(&station, "", 1); /* noise: a damaged byte */
             }

@@ -35,12 +35,12 @@ static void test_a_full_queue(void) {
         check_begins(full ? "ERR 16 too many orders at once" : "", hear());
         TEST_ASSERT_EQUAL_INT(!full, bench.station.waits);
         even_step(&bench.even);
-        TEST_ASSERT_EQUAL_INT(full ? WH_LIFE_IDLE : WH_LIFE_ARMED, bench.even.rig.state);
+        TEST_ASSERT_EQUAL_INT(full ? WH_RIG_IDLE : WH_RIG_ARMED, bench.even.rig.state);
         wh_station_step(&bench.station, &bench.even.rig);
         tel_type("arm");
         wh_station_step(&bench.station, &bench.even.rig);
         even_step(&bench.even);
-        TEST_ASSERT_EQUAL_INT(WH_LIFE_ARMED, bench.even.rig.state);
+        TEST_ASSERT_EQUAL_INT(WH_RIG_ARMED, bench.even.rig.state);
     }
 }
 
@@ -83,7 +83,7 @@ static void test_trips_are_told(void) {
         wh_station_step(&bench.station, &bench.even.rig);
         (void)hear();
         bench.even.rig.guard.trip = trip;
-        bench.even.rig.state = WH_LIFE_TRIPPED;
+        bench.even.rig.state = WH_RIG_TRIPPED;
         bench.even.rig.record.trip = WH_TRIP_NONE;
         wh_station_step(&bench.station, &bench.even.rig);
         char wanted[120] = "# tripped: ";
@@ -142,7 +142,7 @@ static void test_arithmetic_is_tested(void) {
         scene.arithmetic = i <= 1U ? NULL : compute_otherwise;
         spoilt = (wh_probed)(i >= 2U ? i - 2U : 0U);
         const bool good = i < 2U || spoilt == WH_PROBED_COUNT;
-        bench.seen = (wh_seen){.inputs = bench.even.inputs}; /* no sample, no statement */
+        bench.seen = (wh_step_inputs){.inputs = bench.even.inputs}; /* no sample, no statement */
         wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
         tel_type("selftest");
         wh_station_step(&bench.station, &bench.even.rig);

@@ -16,7 +16,7 @@ void suite_station_result(void);
 static even_rig even;
 static wh_station station;
 static wh_conf conf;
-static wh_seen seen;
+static wh_step_inputs seen;
 static uint64_t seed;
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
@@ -42,7 +42,7 @@ static void period(void) {
         result_steps = 0;
         ended = "done";
         memcpy(measured_with, conf.value, sizeof measured_with);
-    } else if (was_active && even.rig.state == WH_LIFE_TRIPPED) {
+    } else if (was_active && even.rig.state == WH_RIG_TRIPPED) {
         ended = "trip";
     }
     seen.inputs = even.inputs;
@@ -158,7 +158,7 @@ static void lose_host(void) {
         period();
         if (station.host_losses != losses && active) {
             period();
-            ended = even.rig.state == WH_LIFE_TRIPPED ? ended : "host_lost";
+            ended = even.rig.state == WH_RIG_TRIPPED ? ended : "host_lost";
         }
     }
     TEST_ASSERT_TRUE(is_ok("host 0"));

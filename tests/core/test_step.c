@@ -59,9 +59,9 @@ static void flow(const void *model, const wh_phase *phase, const wh_real *x, con
 
 static wh_status step(wh_form form, wh_method method, bool compensated, wh_real h) {
     return form == WH_SECOND_ORDER ? wh_step_second(NULL, swing, method, compensated, 1, 3,
-                                                    (wh_span){h, WH_R(0.0)}, &state)
+                                                    (wh_two_part){h, WH_R(0.0)}, &state)
                                    : wh_step_first(NULL, flow, method, compensated, 1, 2,
-                                                   (wh_span){h, WH_R(0.0)}, &state);
+                                                   (wh_two_part){h, WH_R(0.0)}, &state);
 }
 
 /* The state after one second: angle in radians, then reals. */
@@ -161,9 +161,9 @@ static void expect(wh_form form, wh_method method, bool compensated, wh_real h, 
     const wh_status status =
         form == WH_SECOND_ORDER
             ? wh_step_second(NULL, pushed, method, compensated, ANGLES, COORDINATES,
-                             (wh_span){h, WH_R(0.0)}, &state)
+                             (wh_two_part){h, WH_R(0.0)}, &state)
             : wh_step_first(NULL, moved, method, compensated, ANGLES, COORDINATES - ANGLES,
-                            (wh_span){h, WH_R(0.0)}, &state);
+                            (wh_two_part){h, WH_R(0.0)}, &state);
     TEST_ASSERT_TRUE_MESSAGE(status == (fault < 0 ? WH_OK : WH_E_DIVERGED),
                              wh_methods[method].word);
     TEST_ASSERT_EQUAL_INT_MESSAGE(fault, state.fault, wh_methods[method].word);

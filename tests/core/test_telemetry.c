@@ -197,7 +197,7 @@ static void test_control_is_undisturbed(void) {
     tel_type("start 330");
     tel_period(true, 0);
     tel_period(true, 0);
-    TEST_ASSERT_TRUE(bench.even.rig.state == WH_LIFE_RUNNING);
+    TEST_ASSERT_TRUE(bench.even.rig.state == WH_RIG_RUNNING);
     twin = bench.even;
     bool reads = true;
     while (!even_is_over(&bench.even)) {
@@ -223,7 +223,7 @@ static void test_states_are_told(void) {
     tel_type("arm");
     tel_period(true, FREE);
     tel_type("start 330");
-    unsigned stage = WH_LIFE_ARMED;
+    unsigned stage = WH_RIG_ARMED;
     unsigned told = 0;
     unsigned fast = 0;
     for (unsigned i = 0; i < 60000U && !(told > 3U && even_is_over(&bench.even)); i++) {

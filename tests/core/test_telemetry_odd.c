@@ -32,8 +32,8 @@ static unsigned counted(wh_real number, float each) {
 
 static void see(int32_t raw, wh_load_status status) {
     bench.cell_ticks += EVEN_STEP_TICKS;
-    bench.seen = (wh_seen){.inputs = bench.even.inputs, .samples = 1};
-    bench.seen.sample[0] = (wh_seen_sample){bench.cell_ticks, raw, status};
+    bench.seen = (wh_step_inputs){.inputs = bench.even.inputs, .samples = 1};
+    bench.seen.sample[0] = (wh_step_sample){bench.cell_ticks, raw, status};
     wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
 }
 

@@ -35,7 +35,7 @@ static void check_read(unsigned end, bool by_pulse) {
     for (unsigned i = 0;
          i < 1000U && (bench.tel.reads || bench.station.out.put != bench.station.out.taken); i++) {
         char bytes[AT_115200];
-        bench.seen = (wh_seen){.inputs = bench.even.inputs};
+        bench.seen = (wh_step_inputs){.inputs = bench.even.inputs};
         wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
         const unsigned count = wh_station_peek(&bench.station, bytes, sizeof bytes);
         wh_station_drop(&bench.station, count);

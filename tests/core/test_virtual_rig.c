@@ -8,13 +8,13 @@
 void suite_virtual_rig(void);
 
 /* I.3.2.1's formula in its own units, weights over g, inches: 9.44 lbf at 330 rpm. */
-static void test_mass_moment_gives_the_dissertations_force(void) {
+static void test_unbalance_gives_the_dissertations_force(void) {
     const wh_real omega = WH_R(5.5) * WH_RIG_TWO_PI;
     const wh_real g_inps2 = WH_R(386.0886);
     const wh_real force_lbf = omega * omega / g_inps2 *
                               (WH_R(0.152) * (WH_R(7.25) / WH_R(2.0)) + WH_R(0.15) * WH_R(6.5)) *
                               WH_R(2.0);
-    const wh_real force_N = WH_RIG_MASS_MOMENT_KGM * omega * omega;
+    const wh_real force_N = WH_RIG_UNBALANCE_KGM * omega * omega;
     TEST_ASSERT_FLOAT_WITHIN(0.005f, 9.44f, (float)force_lbf);
     TEST_ASSERT_FLOAT_WITHIN(0.001f, (float)force_lbf, (float)(force_N * WH_RIG_LBF_PER_N));
     TEST_ASSERT_FLOAT_WITHIN(0.05f, 42.0f, (float)force_N);
@@ -31,8 +31,8 @@ static void check_measurement(float target_rpm) {
     const wh_measured *force = &on.rig.result.force;
     const float omega = target_rpm * RPM;
     const float swing =
-        WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
-    const float wanted_N = WH_RIG_MASS_MOMENT_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
+        WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
+    const float wanted_N = WH_RIG_UNBALANCE_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
     TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
     /* the speed, and the damping's part of the swing */
     TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);
@@ -163,19 +163,19 @@ static void test_data_sheet_agrees_with_the_model(void) {
     TEST_ASSERT_TRUE(wh_scene_start(&rig_fixed, &state, memory, sizeof memory) == WH_OK);
     state.real[0] = 10.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_MASS_MOMENT_KGM, output[2]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_UNBALANCE_KGM, output[2]);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]); /* mass on the axis: all of it shows */
     /* level, the force is S times the change of speed: gravity, and the damping with the speed */
     state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
     state.real[0] = 0.0f;
     state.input[0] = 0.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
-    const float falls = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2 / WH_RIG_INERTIA_KGM2;
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_MASS_MOMENT_KGM * falls, output[1]);
+    const float falls = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2 / WH_RIG_INERTIA_KGM2;
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_UNBALANCE_KGM * falls, output[1]);
     state.real[0] = 20.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
     const float slows = WH_RIG_DAMPING_NMS * 20.0f / WH_RIG_INERTIA_KGM2;
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_MASS_MOMENT_KGM * (falls + slows), output[1]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_UNBALANCE_KGM * (falls + slows), output[1]);
 }
 
 static void test_a_foreign_scene_is_refused(void) {
@@ -189,7 +189,7 @@ static void test_a_foreign_scene_is_refused(void) {
 #endif
 
 void suite_virtual_rig(void) {
-    RUN_TEST(test_mass_moment_gives_the_dissertations_force);
+    RUN_TEST(test_unbalance_gives_the_dissertations_force);
 #if !WH_DOUBLE
     RUN_TEST(test_measurement_of_the_force);
     RUN_TEST(test_gravity_shows_in_the_peaks_and_spikes);

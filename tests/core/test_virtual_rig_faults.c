@@ -138,7 +138,7 @@ static void test_a_short_stop_is_seen(void) {
         TEST_ASSERT_TRUE(on.command.way != WH_MOTOR_DRIVES);
         plant_go_on_to_the_end(&on);
         TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_NONE);
-        TEST_ASSERT_TRUE(on.rig.state == WH_LIFE_IDLE);
+        TEST_ASSERT_TRUE(on.rig.state == WH_RIG_IDLE);
         plant_check_stopped(&on);
     }
 }

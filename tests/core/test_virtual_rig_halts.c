@@ -48,19 +48,19 @@ static void check_off(void) {
 }
 
 /* It does not start by itself, nor by orders out of sequence. */
-static void check_stays_off(unsigned steps, wh_life state) {
+static void check_stays_off(unsigned steps, wh_rig_state state) {
     for (unsigned i = 0; i < steps; i++) {
         if (i % 100U == 7) {
             const wh_refusal answer = plant_order(&on, WH_EVENT_START, 330.0f * RPM);
-            TEST_ASSERT_TRUE(answer == (on.rig.state == WH_LIFE_TRIPPED    ? WH_REFUSED_TRIPPED
-                                        : on.rig.state == WH_LIFE_STOPPING ? WH_REFUSED_STOPPING
-                                                                           : WH_REFUSED_NOT_ARMED));
+            TEST_ASSERT_TRUE(answer == (on.rig.state == WH_RIG_TRIPPED    ? WH_REFUSED_TRIPPED
+                                        : on.rig.state == WH_RIG_STOPPING ? WH_REFUSED_STOPPING
+                                                                          : WH_REFUSED_NOT_ARMED));
         } else {
             plant_control(&on);
         }
         check_off();
         TEST_ASSERT_TRUE(on.rig.state == state ||
-                         (state == WH_LIFE_STOPPING && on.rig.state == WH_LIFE_IDLE));
+                         (state == WH_RIG_STOPPING && on.rig.state == WH_RIG_IDLE));
     }
 }
 
@@ -73,15 +73,15 @@ static void test_stop_in_every_state(void) {
         stand_at(place);
         for (unsigned round = 0; round < 6; round++) {
             stand_again();
-            const wh_life before = on.rig.state;
+            const wh_rig_state before = on.rig.state;
             hal_virtual_rig_instance()->stop_pressed = true;
             plant_control(&on);
             check_off();
-            const wh_life then =
-                before == WH_LIFE_IDLE || before == WH_LIFE_ARMED ? WH_LIFE_IDLE : WH_LIFE_STOPPING;
+            const wh_rig_state then =
+                before == WH_RIG_IDLE || before == WH_RIG_ARMED ? WH_RIG_IDLE : WH_RIG_STOPPING;
             TEST_ASSERT_TRUE(on.rig.state == then && on.rig.guard.trip == WH_TRIP_NONE);
             TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) ==
-                             (then == WH_LIFE_IDLE ? WH_REFUSED_STOP_INPUT : WH_REFUSED_STOPPING));
+                             (then == WH_RIG_IDLE ? WH_REFUSED_STOP_INPUT : WH_REFUSED_STOPPING));
             check_stays_off(draw_one_of(&seed, 400), then);
             hal_virtual_rig_instance()->stop_pressed = false;
             check_stays_off(600, then);
@@ -121,10 +121,10 @@ static void test_stop_of_a_tripped_rig(void) {
     plant_control(&on);
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_SUPPLY);
     hal_virtual_rig_instance()->stop_pressed = true;
-    check_stays_off(50, WH_LIFE_TRIPPED);
+    check_stays_off(50, WH_RIG_TRIPPED);
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_REFUSED_TRIPPED);
     hal_virtual_rig_instance()->stop_pressed = false;
-    check_stays_off(50, WH_LIFE_TRIPPED);
+    check_stays_off(50, WH_RIG_TRIPPED);
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_SUPPLY);
 }
 
@@ -143,16 +143,16 @@ static void test_supplies_out_of_range(void) {
                                    : kind == 2 ? 10.79f * part
                                                : 37.21f + 30.0f * part;
             stand_again();
-            const bool drives = on.rig.state == WH_LIFE_ARMED || on.command.way == WH_MOTOR_DRIVES;
+            const bool drives = on.rig.state == WH_RIG_ARMED || on.command.way == WH_MOTOR_DRIVES;
             hal_virtual_rig_instance()->supply_V = supply_V;
-            if (on.rig.state == WH_LIFE_IDLE) {
+            if (on.rig.state == WH_RIG_IDLE) {
                 TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_REFUSED_SUPPLY);
             }
             plant_control(&on);
             TEST_ASSERT_TRUE(!drives || on.rig.guard.trip == WH_TRIP_SUPPLY);
             TEST_ASSERT_TRUE(!drives || __builtin_memcmp(&on.rig.record.supply_V, &supply_V,
                                                          sizeof supply_V) == 0);
-            check_stays_off(40, drives ? WH_LIFE_TRIPPED : on.rig.state);
+            check_stays_off(40, drives ? WH_RIG_TRIPPED : on.rig.state);
         }
     }
 }
@@ -196,7 +196,7 @@ static void check_reset(wh_trip trip) {
     TEST_ASSERT_FLOAT_WITHIN(0.0f, speed_radps,
                              hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
     TEST_ASSERT_TRUE(hal_reset_cause() == cause);
-    TEST_ASSERT_TRUE(on.rig.state == (tripped ? WH_LIFE_TRIPPED : WH_LIFE_IDLE));
+    TEST_ASSERT_TRUE(on.rig.state == (tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE));
     TEST_ASSERT_TRUE(on.rig.guard.trip == trip);
     if (tripped) {
         check_same_record(&record, &on.rig.record);
@@ -207,7 +207,7 @@ static void check_reset(wh_trip trip) {
                      (!tripped && on.rig.answer == WH_REFUSED_SUPPLY));
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_CLEAR, 0.0f) ==
                      (tripped ? WH_REFUSED_TURNING : WH_REFUSED_NO_TRIP));
-    check_stays_off(300, tripped ? WH_LIFE_TRIPPED : WH_LIFE_IDLE);
+    check_stays_off(300, tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE);
 }
 
 /* At any instant, with a trip latched or not: off, then idle or tripped as before, and the same after the next reset. */
@@ -239,13 +239,13 @@ static void test_what_is_cleared_is_forgotten(void) {
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_CLEAR, 0.0f) == WH_REFUSED_SUPPLY);
     hal_virtual_rig_instance()->supply_V = HAL_VIRTUAL_RATED_V;
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_CLEAR, 0.0f) == WH_ALLOWED);
-    check_stays_off(800, WH_LIFE_IDLE);
+    check_stays_off(800, WH_RIG_IDLE);
     check_reset(WH_TRIP_NONE);
     stand_at(AT_PHASES + 1);
     TEST_ASSERT_TRUE(break_something(WEAK) == WH_TRIP_SUPPLY);
     plant_start(&on); /* power-on */
     TEST_ASSERT_TRUE(hal_reset_cause() == HAL_RESET_POWER_ON);
-    TEST_ASSERT_TRUE(on.rig.state == WH_LIFE_IDLE && on.rig.guard.trip == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(on.rig.state == WH_RIG_IDLE && on.rig.guard.trip == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_ALLOWED);
 }
 
@@ -263,7 +263,7 @@ static void test_a_lost_host_in_every_phase(void) {
             TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_HOST_LOST, 0.0f) == WH_ALLOWED);
             if (stops == 1) {
                 check_off();
-                check_stays_off(100, WH_LIFE_STOPPING);
+                check_stays_off(100, WH_RIG_STOPPING);
                 plant_go_on_to_the_end(&on);
                 TEST_ASSERT_TRUE(on.rig.has_result == (phase >= WH_PHASE_RAMP_DOWN));
             } else {
@@ -299,7 +299,7 @@ static void test_a_record_is_latched_from_its_bytes(void) {
         TEST_ASSERT_TRUE(wh_rig_post(&rig, WH_EVENT_ARM, WH_R(0.0)));
         TEST_ASSERT_TRUE(wh_rig_step(&wh_rig_standard, &rig, &inputs).way == WH_MOTOR_COASTS);
         TEST_ASSERT_TRUE(rig.answer == (is ? WH_REFUSED_TRIPPED : WH_REFUSED_LOAD_CELL));
-        TEST_ASSERT_TRUE(rig.state == (is ? WH_LIFE_TRIPPED : WH_LIFE_IDLE));
+        TEST_ASSERT_TRUE(rig.state == (is ? WH_RIG_TRIPPED : WH_RIG_IDLE));
     }
 }
 

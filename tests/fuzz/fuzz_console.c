@@ -87,7 +87,7 @@ static void hear(bench *b) {
 static size_t step(bench *b, const uint8_t *data, size_t size) {
     const uint8_t how = data[0];
     const size_t come = (size_t)(how & 31U) < size - 1U ? (size_t)(how & 31U) : size - 1U;
-    wh_seen seen = {.inputs = {.now_ticks = b->ticks, .supply_V = 24.0f}};
+    wh_step_inputs seen = {.inputs = {.now_ticks = b->ticks, .supply_V = 24.0f}};
     if ((how & PULSED) != 0) {
         seen.pulsed = true;
         seen.sensor = b->ticks / STEP_TICKS & 1U;
@@ -96,7 +96,7 @@ static size_t step(bench *b, const uint8_t *data, size_t size) {
     }
     if ((how & SAMPLED) != 0) {
         seen.samples = 1;
-        seen.sample[0] = (wh_seen_sample){b->ticks - 100U, (int32_t)how * 250 - 30000,
+        seen.sample[0] = (wh_step_sample){b->ticks - 100U, (int32_t)how * 250 - 30000,
                                           (wh_load_status)(how % WH_LOAD_STATUSES)};
         wh_rig_load(&b->config, &b->rig, seen.sample[0].ticks, seen.sample[0].raw,
                     seen.sample[0].status);

@@ -11,7 +11,7 @@ static const struct {
     unsigned stage;
     double span_s;
 } stages[] = {
-    {WH_LIFE_IDLE, 1.4},
+    {WH_RIG_IDLE, 1.4},
     {PHASE(WH_PHASE_TARE), 0.5},
     {PHASE(WH_PHASE_SPIN_UP), 0.6},
     {PHASE(WH_PHASE_RAMP), 2.8},
@@ -40,9 +40,9 @@ int rig_stage_of(const float *note) {
     return -1;
 }
 
-bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_TRIPPED; }
+bool rig_is_tripped(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_RIG_TRIPPED; }
 
-bool rig_is_idle(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_LIFE_IDLE; }
+bool rig_is_idle(const float *note) { return (int)note[HAL_NOTE_STATE] == (int)WH_RIG_IDLE; }
 
 bool rig_may_drive(const float *note) {
     const unsigned stage = (unsigned)note[HAL_NOTE_STATE];
@@ -51,7 +51,7 @@ bool rig_may_drive(const float *note) {
 
 const char *rig_tripped_when(void) {
     static char when[32];
-    snprintf(when, sizeof when, "state=%d", (int)WH_LIFE_TRIPPED);
+    snprintf(when, sizeof when, "state=%d", (int)WH_RIG_TRIPPED);
     return when;
 }
 
@@ -72,7 +72,7 @@ double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 #define INERTIA_KGM2 5.77e-3
 
 double rig_caught_rpm(double target_rpm) {
-    const double weight_Nm = (double)(WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2);
+    const double weight_Nm = (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2);
     double rpm = target_rpm;
     double turns = 0.0;
     for (unsigned late = 0; late < PERIOD_STEPS; late += turns >= TURNS) {

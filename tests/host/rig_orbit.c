@@ -13,7 +13,7 @@
 
 const rig_plant rig_plant_nominal = {
     /* two sets: arm 0.152 lb, 7.25 in long; discs 0.15 lb at 6.5 in; 5e-4 kg m^2 of motor and shafts */
-    .mass_moment_kgm = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * 0.0254,
+    .unbalance_kgm = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * 0.0254,
     .inertia_kgm2 =
         2.0 * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) * 0.45359237 * 0.0254 * 0.0254 + 5e-4,
     .drag_Nms = 0.001,
@@ -27,7 +27,7 @@ const rig_plant rig_plant_nominal = {
 static double acceleration(const rig_plant *p, double drive_Nm, double theta, double w) {
     const double given_Nm = fmax(0.0, drive_Nm + p->fed_Nm * sin(theta - p->fed_late_rad));
     return (given_Nm - (p->line_Nms + p->drag_Nms) * w -
-            p->mass_moment_kgm * p->gravity_mps2 * sin(theta) +
+            p->unbalance_kgm * p->gravity_mps2 * sin(theta) +
             p->twice_Nm * cos(2.0 * theta + p->twice_rad)) /
            p->inertia_kgm2;
 }
@@ -79,7 +79,7 @@ static double periodic(const rig_plant *p, double drive_Nm, double from) {
 }
 
 static double force(const rig_plant *p, double drive_Nm, double theta, double w) {
-    return p->mass_moment_kgm *
+    return p->unbalance_kgm *
            (w * w * cos(theta) + acceleration(p, drive_Nm, theta, w) * sin(theta));
 }
 

@@ -8,7 +8,7 @@
 
 /* The plant: eccentric_fixed with gravity of core/models/eccentric.whirl, written independently. */
 typedef struct rig_plant {
-    double mass_moment_kgm;
+    double unbalance_kgm;
     double inertia_kgm2;
     double drag_Nms; /* of the bearings */
     double line_Nms; /* slope of the motor's torque line */

@@ -88,9 +88,9 @@ static void check_scene(const image *im) {
 
 TEST(emitted_scene, the_scene_is_the_images) { each_emitted(check_scene); }
 
-/* WH_SPAN(step, its remainder in float) */
+/* WH_TWO_PART(step, its remainder in float) */
 static int expect_span(int at, double step_s) {
-    at = c_need(&emitted.file, at, "WH_SPAN (");
+    at = c_need(&emitted.file, at, "WH_TWO_PART (");
     TEST_ASSERT_TRUE(c_number(&emitted.file, &at) == step_s);
     at++;
     TEST_ASSERT_TRUE(c_number(&emitted.file, &at) == step_s - (double)(float)step_s);

@@ -113,9 +113,9 @@ static void test_the_plant_is_the_model(void) {
         wh_real output[8];
         rig_fixed.observe(&rig_fixed, &state, output);
         const double turned = (1.5 * duty - (p->line_Nms + p->drag_Nms) * w -
-                               p->mass_moment_kgm * p->gravity_mps2 * sin(theta)) /
+                               p->unbalance_kgm * p->gravity_mps2 * sin(theta)) /
                               p->inertia_kgm2;
-        const double force = p->mass_moment_kgm * (w * w * cos(theta) + turned * sin(theta));
+        const double force = p->unbalance_kgm * (w * w * cos(theta) + turned * sin(theta));
         TEST_ASSERT_DOUBLE_WITHIN(2e-4, p->tare_N + force, (double)output[0]);
     }
 }
@@ -128,8 +128,8 @@ static void test_the_truth_is_what_theory_says(void) {
     for (unsigned i = 0; i < 2; i++) {
         rig_orbit_find(&rig_plant_nominal, rpm[i], LEAD_RAD, &orbit);
         const double mean = rpm[i] * 2.0 * 3.14159265358979323846 / 60.0;
-        const double wanted = rig_plant_nominal.mass_moment_kgm * mean * mean *
-                              (1.0 + 1.5 * orbit.swing * orbit.swing);
+        const double wanted =
+            rig_plant_nominal.unbalance_kgm * mean * mean * (1.0 + 1.5 * orbit.swing * orbit.swing);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, orbit.phase_rad);
         TEST_ASSERT_DOUBLE_WITHIN(4e-3 * orbit.swing * wanted, wanted, orbit.amplitude_N);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 60.0 / rpm[i], orbit.turn_s);
@@ -284,7 +284,7 @@ static void feed(const fed_kind *kind, double rpm) {
     rig_plant plant = rig_plant_nominal;
     plant.inertia_kgm2 *= kind->inertia;
     plant.drag_Nms *= kind->drag;
-    plant.fed_Nm = kind->part * plant.mass_moment_kgm * plant.gravity_mps2;
+    plant.fed_Nm = kind->part * plant.unbalance_kgm * plant.gravity_mps2;
     plant.fed_late_rad = kind->late_rad;
     rig_orbit_find(&plant, rpm, LEAD_RAD, &orbit);
 }

@@ -261,7 +261,7 @@ static double growth_of_decay(wh_method method, double h) {
     wh_real x = WH_R(1.0);
     wh_state state = {.real = &x};
     TEST_ASSERT_EQUAL_INT(WH_OK, wh_step_first(NULL, decay, method, false, 0, 1,
-                                               (wh_span){(wh_real)h, WH_R(0.0)}, &state));
+                                               (wh_two_part){(wh_real)h, WH_R(0.0)}, &state));
     return fabs((double)x);
 }
 
@@ -271,7 +271,7 @@ static double growth_of_spring(wh_method method, double h) {
         wh_real x[2] = {k == 0 ? WH_R(1.0) : WH_R(0.0), k == 1 ? WH_R(1.0) : WH_R(0.0)};
         wh_state state = {.real = x};
         TEST_ASSERT_EQUAL_INT(WH_OK, wh_step_second(NULL, spring, method, false, 0, 1,
-                                                    (wh_span){(wh_real)h, WH_R(0.0)}, &state));
+                                                    (wh_two_part){(wh_real)h, WH_R(0.0)}, &state));
         matrix[0][k] = (double)x[0];
         matrix[1][k] = (double)x[1];
     }

@@ -26,7 +26,7 @@ static void draw_bench(bool fed) {
     plant.inertia_kgm2 *= drawn(0.75, 1.45);
     rpm = fed ? drawn(100.0, 170.0) : drawn(170.0, 360.0);
     if (fed) {
-        plant.fed_Nm = plant.mass_moment_kgm * plant.gravity_mps2;
+        plant.fed_Nm = plant.unbalance_kgm * plant.gravity_mps2;
         plant.fed_late_rad = drawn(-0.02, 0.02);
     }
     noise = (rig_noise){.cell_N = drawn(0.07, 0.3),

@@ -1,11 +1,11 @@
-/* feed.h: feed-forward of gravity's torque to the motor.
+/* gravity_compensation.h: feed-forward of gravity's torque to the motor.
  *
  * Gravity pulls arms in a vertical plane back with S g sin(theta - gamma). S is the sum of mass times radius, gamma the
  * direction of gravity. The rotor's speed would vary by E = S g/(I omega^2) about its mean. A motor with that torque
  * added holds it at the mean. theta is the observer's angle at the middle of the time for which the voltage will be
  * applied. That is half a control step of zero-order hold, and the delay of computing and of the motor's inductance. */
-#ifndef WH_RIG_FEED_H
-#define WH_RIG_FEED_H
+#ifndef WH_RIG_GRAVITY_COMPENSATION_H
+#define WH_RIG_GRAVITY_COMPENSATION_H
 
 #include "observer.h"
 
@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-typedef struct wh_feed_config {
+typedef struct wh_compensation_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
     wh_real gravity_rad; /* gamma: the angle at which the arms hang */
     wh_real stall_Nm;    /* motor torque at standstill and rated voltage, > 0 */
@@ -21,27 +21,27 @@ typedef struct wh_feed_config {
         lead_ticks; /* from now to the middle of the time for which the voltage will be applied */
     wh_real fade_s; /* fade-in time; 0: at once */
     wh_real most;   /* limit, in parts of the rated voltage, >= 0 */
-} wh_feed_config;
+} wh_compensation_config;
 
-typedef struct wh_feed {
+typedef struct wh_compensation {
     wh_real part; /* faded in, 0 to 1; 0 to begin with */
-} wh_feed;
+} wh_compensation;
 
 /* For the rig of eccentric.whirl. */
-#define WH_FEED_STANDARD \
+#define WH_COMPENSATION_STANDARD \
     { \
-        .weight_Nm = WH_RIG_MASS_MOMENT_KGM * WH_RIG_GRAVITY_MPS2, .stall_Nm = WH_RIG_STALL_NM, \
+        .weight_Nm = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2, .stall_Nm = WH_RIG_STALL_NM, \
         .lead_ticks = 3000, .fade_s = WH_R(0.5), .most = WH_R(0.3), \
     }
-#define wh_feed_standard WH_NAME(wh_feed_standard)
-extern const wh_feed_config wh_feed_standard;
+#define wh_compensation_standard WH_NAME(wh_compensation_standard)
+extern const wh_compensation_config wh_compensation_standard;
 
-#define wh_feed_step WH_NAME(wh_feed_step)
+#define wh_compensation_step WH_NAME(wh_compensation_step)
 
 /* One control step of step_s seconds, after the observer's: the voltage to add to the drive's, in parts of the rated
  * voltage. 0 while the observer is not valid or a number is NaN; then it fades in again. */
-wh_real wh_feed_step(const wh_feed_config *config, wh_feed *feed, const wh_observer *observer,
-                     uint32_t now_ticks, wh_real step_s);
+wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensation *compensation,
+                             const wh_observer *observer, uint32_t now_ticks, wh_real step_s);
 
 #ifdef __cplusplus
 }

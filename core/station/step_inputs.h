@@ -1,6 +1,6 @@
-/* seen.h: a control step's observations, for telemetry and self-test. */
-#ifndef WH_STATION_SEEN_H
-#define WH_STATION_SEEN_H
+/* step_inputs.h: a control step's observations, for telemetry and self-test. */
+#ifndef WH_STATION_STEP_INPUTS_H
+#define WH_STATION_STEP_INPUTS_H
 
 #include "core/rig/rig.h"
 
@@ -8,15 +8,15 @@
 extern "C" {
 #endif
 
-#define WH_SEEN_SAMPLES 2U
+#define WH_STEP_SAMPLES 2U
 
-typedef struct wh_seen_sample {
+typedef struct wh_step_sample {
     uint32_t ticks;
     int32_t raw;
     wh_load_status status;
-} wh_seen_sample;
+} wh_step_sample;
 
-typedef struct wh_seen {
+typedef struct wh_step_inputs {
     wh_rig_inputs inputs;
     bool pulsed; /* the next two are of this step */
     unsigned sensor;
@@ -25,8 +25,8 @@ typedef struct wh_seen {
     unsigned end_sensor;
     uint32_t end_ticks;
     unsigned samples; /* number of: */
-    wh_seen_sample sample[WH_SEEN_SAMPLES];
-} wh_seen;
+    wh_step_sample sample[WH_STEP_SAMPLES];
+} wh_step_inputs;
 
 #ifdef __cplusplus
 }

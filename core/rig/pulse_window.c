@@ -1,5 +1,5 @@
-/* expect.c: bounds on the speed and time of the next slot pulse. */
-#include "expect.h"
+/* pulse_window.c: bounds on the speed and time of the next slot pulse. */
+#include "pulse_window.h"
 
 #include "datasheet.h"
 
@@ -9,22 +9,23 @@
 #define FIRST_PART WH_R(0.8)   /* of the commanded speed: from rest it takes time to reach it */
 #define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a braked rotor are slower */
 
-void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
-                      wh_pulses *pulses, bool open, uint32_t ticks) {
+void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
+                         wh_pulses *pulses, bool open, uint32_t ticks) {
     const wh_rig_phase phase = run->phase;
     const wh_speed *speed = &pulses->speed;
-    const wh_led led = wh_run_led(running, run, ticks);
+    const wh_setpoint setpoint = wh_run_setpoint(running, run, ticks);
     const bool from_rest = phase == WH_PHASE_SPIN_UP && !speed->known;
     const wh_real part = from_rest && speed->taken < 2U ? FIRST_PART : WH_R(1.0);
     const wh_real falls = from_rest ? WH_R(0.0) : open ? WH_GUARD_LIGHTER : WH_R(1.0);
-    pulses->bound_radps = wh_guard_bound_radps(guard, part * led.base_radps, falls);
-    pulses->climb_radps2 = led.jumps
-                               ? guard->climb_start_radps2
-                               : wh_guard_climb_radps2(guard, led.lead_radps - speed->turn_radps,
-                                                       wh_run_is_closed(run));
+    pulses->bound_radps = wh_guard_bound_radps(guard, part * setpoint.limit_radps, falls);
+    pulses->climb_radps2 =
+        setpoint.jumps ? guard->climb_start_radps2
+                       : wh_guard_climb_radps2(guard, setpoint.setpoint_radps - speed->turn_radps,
+                                               wh_run_is_closed(run));
     /* it falls as the rotor does, and rises only with the commanded speed: a runaway drive does not raise it */
-    run->left_radps =
-        speed->known && speed->turn_radps < led.base_radps ? speed->turn_radps : led.base_radps;
+    run->left_radps = speed->known && speed->turn_radps < setpoint.limit_radps
+                          ? speed->turn_radps
+                          : setpoint.limit_radps;
     pulses->window = phase == WH_PHASE_RECORD
                          ? RECORD_PART * running->record_band_radps / run->target_radps
                          : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
@@ -32,8 +33,8 @@ void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running
 
 /* With the motor off, only gravity can make the rotor faster than between its last two pulses. A sensor that fires
  * twice running swings in its slot or has missed a pulse: the speed is then unknown. */
-void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
-                      uint32_t ticks) {
+void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
+                         uint32_t ticks) {
     static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;

@@ -1,10 +1,10 @@
-/* test_rig_life.c: the rig's life cycle: every state and event, every named refusal, and how `arm` ends. */
+/* test_rig_states.c: the rig's life cycle: every state and event, every named refusal, and how `arm` ends. */
 #include <stddef.h>
 
 #include "even_rig.h"
 #include "unity.h"
 
-void suite_rig_life(void);
+void suite_rig_states(void);
 
 static even_rig even;
 static even_rig stood;
@@ -14,23 +14,23 @@ static void stand_tripped(void) {
     even.inputs.supply_V = WH_R(0.0);
     even_step(&even);
     even.inputs.supply_V = WH_RIG_RATED_V;
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED);
     even_go_on_until(&even, EVEN_NEVER);
     TEST_ASSERT_TRUE(even.rig.rested);
 }
 
 /* Only the state can refuse an order. */
-static void stand_in(wh_life state) {
+static void stand_in(wh_rig_state state) {
     switch (state) {
-    case WH_LIFE_IDLE:
+    case WH_RIG_IDLE:
         even_start(&even);
         even_rest(&even);
         break;
-    case WH_LIFE_ARMED: even_arm(&even); break;
-    case WH_LIFE_RUNNING: even_reach(&even, WH_PHASE_TARE); break;
-    case WH_LIFE_STOPPING: even_reach(&even, WH_PHASE_OFF); break;
-    case WH_LIFE_TRIPPED: stand_tripped(); break;
-    case WH_LIVES: break;
+    case WH_RIG_ARMED: even_arm(&even); break;
+    case WH_RIG_RUNNING: even_reach(&even, WH_PHASE_TARE); break;
+    case WH_RIG_STOPPING: even_reach(&even, WH_PHASE_OFF); break;
+    case WH_RIG_TRIPPED: stand_tripped(); break;
+    case WH_RIG_STATES: break;
     }
     TEST_ASSERT_TRUE(even.rig.state == state);
 }
@@ -53,12 +53,12 @@ static const expectation expected[] = {
 
 static bool is_state(char letter) { return letter >= 'A' && letter <= 'Z'; }
 
-static wh_life state_of(char letter) {
-    return letter == 'I'   ? WH_LIFE_IDLE
-           : letter == 'A' ? WH_LIFE_ARMED
-           : letter == 'R' ? WH_LIFE_RUNNING
-           : letter == 'S' ? WH_LIFE_STOPPING
-                           : WH_LIFE_TRIPPED;
+static wh_rig_state state_of(char letter) {
+    return letter == 'I'   ? WH_RIG_IDLE
+           : letter == 'A' ? WH_RIG_ARMED
+           : letter == 'R' ? WH_RIG_RUNNING
+           : letter == 'S' ? WH_RIG_STOPPING
+                           : WH_RIG_TRIPPED;
 }
 
 static wh_refusal refusal_of(char letter) {
@@ -75,36 +75,40 @@ static wh_refusal refusal_of(char letter) {
 static void test_the_table_has_every_pair(void) {
     TEST_ASSERT_EQUAL_UINT(WH_EVENTS, sizeof expected / sizeof expected[0]);
     for (unsigned i = 0; i < WH_EVENTS; i++) {
-        for (unsigned state = 0; state < WH_LIVES; state++) {
+        for (unsigned state = 0; state < WH_RIG_STATES; state++) {
             const char letter = expected[i].becomes[state];
-            const wh_life_rule rule = wh_life_rule_of((wh_life)state, expected[i].event);
+            const wh_rig_transition rule =
+                wh_rig_transition_of((wh_rig_state)state, expected[i].event);
             TEST_ASSERT_TRUE(rule.refusal == refusal_of(letter));
-            TEST_ASSERT_TRUE(rule.next == (is_state(letter) ? state_of(letter) : (wh_life)state));
+            TEST_ASSERT_TRUE(rule.next ==
+                             (is_state(letter) ? state_of(letter) : (wh_rig_state)state));
         }
     }
     static const int strange[] = {-1, 100, 200, INT16_MAX}; /* none of them 0 in a byte */
     for (unsigned i = 0; i < 4; i++) {
-        const wh_life_rule event = wh_life_rule_of(WH_LIFE_ARMED, (wh_rig_event)strange[i]);
-        const wh_life_rule state = wh_life_rule_of((wh_life)strange[i], WH_EVENT_ARM);
-        TEST_ASSERT_TRUE(event.refusal == WH_REFUSED_EVENT && event.next == WH_LIFE_ARMED);
+        const wh_rig_transition event =
+            wh_rig_transition_of(WH_RIG_ARMED, (wh_rig_event)strange[i]);
+        const wh_rig_transition state =
+            wh_rig_transition_of((wh_rig_state)strange[i], WH_EVENT_ARM);
+        TEST_ASSERT_TRUE(event.refusal == WH_REFUSED_EVENT && event.next == WH_RIG_ARMED);
         TEST_ASSERT_TRUE(state.refusal == WH_REFUSED_EVENT);
     }
-    TEST_ASSERT_TRUE(wh_life_rule_of(WH_LIVES, WH_EVENT_ARM).refusal == WH_REFUSED_EVENT);
-    TEST_ASSERT_TRUE(wh_life_rule_of(WH_LIFE_ARMED, WH_EVENTS).refusal == WH_REFUSED_EVENT);
+    TEST_ASSERT_TRUE(wh_rig_transition_of(WH_RIG_STATES, WH_EVENT_ARM).refusal == WH_REFUSED_EVENT);
+    TEST_ASSERT_TRUE(wh_rig_transition_of(WH_RIG_ARMED, WH_EVENTS).refusal == WH_REFUSED_EVENT);
 }
 
-static void check_answer(const expectation *of, wh_life state) {
+static void check_answer(const expectation *of, wh_rig_state state) {
     const char letter = of->becomes[state];
     const wh_refusal answer = even_order(&even, of->event, WH_R(250.0) * EVEN_RPM);
     TEST_ASSERT_TRUE(answer == (of->is_order ? refusal_of(letter) : WH_REFUSED_EVENT));
     const bool goes = of->is_order && is_state(letter);
     TEST_ASSERT_TRUE(even.rig.state == (goes ? state_of(letter) : state));
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED || even.rig.guard.trip == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED || even.rig.guard.trip == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES || wh_run_drives(&even.rig.run));
 }
 
 static void test_every_event_in_every_state(void) {
-    for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
+    for (wh_rig_state state = WH_RIG_IDLE; state < WH_RIG_STATES; state++) {
         stand_in(state);
         stood = even;
         for (unsigned i = 0; i < WH_EVENTS; i++) {
@@ -118,27 +122,27 @@ static void test_every_event_in_every_state(void) {
         for (unsigned i = 0; i < WH_EVENTS; i++) {
             even = stood;
             check_answer(&expected[i],
-                         phase == WH_PHASE_RAMP_DOWN ? WH_LIFE_STOPPING : WH_LIFE_RUNNING);
+                         phase == WH_PHASE_RAMP_DOWN ? WH_RIG_STOPPING : WH_RIG_RUNNING);
         }
     }
 }
 
 static wh_refusal arm(void) { return even_order(&even, WH_EVENT_ARM, WH_R(0.0)); }
 
-static void check_refused(wh_refusal answer, wh_refusal why, wh_life state) {
+static void check_refused(wh_refusal answer, wh_refusal why, wh_rig_state state) {
     TEST_ASSERT_EQUAL_INT(why, answer);
     TEST_ASSERT_TRUE(even.rig.state == state);
     TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
 }
 
 static void test_what_arm_asks_for(void) {
-    stand_in(WH_LIFE_IDLE);
+    stand_in(WH_RIG_IDLE);
     stood = even;
     even.inputs.stop_pressed = true;
-    check_refused(arm(), WH_REFUSED_STOP_INPUT, WH_LIFE_IDLE);
+    check_refused(arm(), WH_REFUSED_STOP_INPUT, WH_RIG_IDLE);
     even = stood;
     even.inputs.clock_is_fallback = true;
-    check_refused(arm(), WH_REFUSED_CLOCK, WH_LIFE_IDLE);
+    check_refused(arm(), WH_REFUSED_CLOCK, WH_RIG_IDLE);
     const wh_real supplies_V[] = {WH_R(0.0),
                                   WH_R(-24.0),
                                   WH_R(10.0),
@@ -150,35 +154,35 @@ static void test_what_arm_asks_for(void) {
     for (unsigned i = 0; i < sizeof supplies_V / sizeof supplies_V[0]; i++) {
         even = stood;
         even.inputs.supply_V = supplies_V[i];
-        check_refused(arm(), WH_REFUSED_SUPPLY, WH_LIFE_IDLE);
+        check_refused(arm(), WH_REFUSED_SUPPLY, WH_RIG_IDLE);
         TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE); /* idle: not needed */
     }
     even = stood;
     even.fails = (even_failure){.in = WH_PHASE_NONE, .lose_samples = EVEN_ALWAYS};
     even_steps(&even, 11);
-    check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+    check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     for (unsigned minute = 0; minute < 160U;
          minute++) { /* silent for more than two wraps of the clock */
         even.inputs.now_ticks += 60U * WH_RIG_TICKS_PER_S;
-        check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+        check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     }
     for (wh_load_status status = WH_LOAD_SATURATED; status <= WH_LOAD_DISCONNECTED; status++) {
         even = stood;
         even.fails = (even_failure){.in = WH_PHASE_NONE, .status = status};
-        check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_LIFE_IDLE);
+        check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     }
     even = stood; /* a trip as well, after the orders */
     even.inputs.watchdog_has_cut = true;
-    check_refused(arm(), WH_REFUSED_WATCHDOG, WH_LIFE_TRIPPED);
+    check_refused(arm(), WH_REFUSED_WATCHDOG, WH_RIG_TRIPPED);
     even_start(&even); /* rest is not known yet */
-    check_refused(arm(), WH_REFUSED_TURNING, WH_LIFE_IDLE);
+    check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
     even = stood; /* a single pulse */
     even.fails = (even_failure){.in = WH_PHASE_NONE, .adds = {true, false}};
-    check_refused(arm(), WH_REFUSED_TURNING, WH_LIFE_IDLE);
+    check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
     even_steps(&even, 740);
-    check_refused(arm(), WH_REFUSED_TURNING, WH_LIFE_IDLE);
+    check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
     even_steps(&even, 20);
-    TEST_ASSERT_TRUE(arm() == WH_ALLOWED && even.rig.state == WH_LIFE_ARMED);
+    TEST_ASSERT_TRUE(arm() == WH_ALLOWED && even.rig.state == WH_RIG_ARMED);
 }
 
 static void test_what_start_and_set_ask_for(void) {
@@ -192,7 +196,7 @@ static void test_what_start_and_set_ask_for(void) {
                                  (wh_real)__builtin_nanf("")};
     for (unsigned running = 0; running < 2; running++) {
         const wh_rig_event event = running == 0 ? WH_EVENT_START : WH_EVENT_SET;
-        const wh_life state = running == 0 ? WH_LIFE_ARMED : WH_LIFE_RUNNING;
+        const wh_rig_state state = running == 0 ? WH_RIG_ARMED : WH_RIG_RUNNING;
         stand_in(state);
         stood = even;
         for (unsigned i = 0; i < sizeof wrong_rpm / sizeof wrong_rpm[0]; i++) {
@@ -205,31 +209,31 @@ static void test_what_start_and_set_ask_for(void) {
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, 250.0f, (float)(even.rig.run.target_radps / EVEN_RPM));
     }
     stand_in(
-        WH_LIFE_ARMED); /* just enough suffices, and the slowest set-point without feed needs none */
+        WH_RIG_ARMED); /* just enough suffices, and the slowest set-point without feed needs none */
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);
-    even.config.feeds = WH_FEED_SLOW;
+    even.config.feeds = WH_COMPENSATION_SLOW;
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, slowest) == WH_ALLOWED);
     TEST_ASSERT_FALSE(even.rig.fed);
     for (unsigned never = 0; never < 2;
          never++) { /* slower ones need an observer and a permitted feed-forward */
-        stand_in(WH_LIFE_ARMED);
+        stand_in(WH_RIG_ARMED);
         even.rig.observer.status = WH_OK;
-        even.config.feeds = never == 1 ? WH_FEED_NEVER : WH_FEED_SLOW;
+        even.config.feeds = never == 1 ? WH_COMPENSATION_NEVER : WH_COMPENSATION_SLOW;
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(110.0) * EVEN_RPM) ==
                          (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
         TEST_ASSERT_TRUE(even.rig.fed == (never == 0));
     }
-    stand_in(WH_LIFE_ARMED); /* the stop input disarms before the order is processed */
+    stand_in(WH_RIG_ARMED); /* the stop input disarms before the order is processed */
     even.inputs.stop_pressed = true;
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
-                  WH_LIFE_IDLE);
+                  WH_RIG_IDLE);
 }
 
 /* Four orders a step; the fifth is refused at once. All get their answers, in order. */
 static void test_too_many_orders(void) {
-    stand_in(WH_LIFE_IDLE);
+    stand_in(WH_RIG_IDLE);
     for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
         TEST_ASSERT_TRUE(wh_rig_post(&even.rig, i < 2U ? WH_EVENT_STOP : WH_EVENT_ARM, WH_R(0.0)));
     }
@@ -237,13 +241,13 @@ static void test_too_many_orders(void) {
     const uint32_t answers = even.rig.answers;
     even_step(&even);
     TEST_ASSERT_EQUAL_UINT32(answers + WH_RIG_ORDERS_MOST, even.rig.answers);
-    check_refused(even.rig.answer, WH_REFUSED_ARMED, WH_LIFE_ARMED);
+    check_refused(even.rig.answer, WH_REFUSED_ARMED, WH_RIG_ARMED);
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
 }
 
 /* Events that the rig detects itself, and unknown ones, cannot be posted. */
 static void test_unknown_and_internal_events_are_refused(void) {
-    for (wh_life state = WH_LIFE_IDLE; state < WH_LIVES; state++) {
+    for (wh_rig_state state = WH_RIG_IDLE; state < WH_RIG_STATES; state++) {
         stand_in(state);
         for (int event = (int)WH_EVENT_DONE; event < (int)WH_EVENTS + 3; event++) {
             TEST_ASSERT_TRUE(even_order(&even, (wh_rig_event)event, WH_R(1.0)) == WH_REFUSED_EVENT);
@@ -255,12 +259,12 @@ static void test_unknown_and_internal_events_are_refused(void) {
 }
 
 static void test_armed_lasts_a_minute(void) {
-    stand_in(WH_LIFE_ARMED);
+    stand_in(WH_RIG_ARMED);
     even_steps(&even, 30000U);
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_ARMED);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_ARMED);
     even_step(&even);
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
-                  WH_LIFE_IDLE);
+                  WH_RIG_IDLE);
     TEST_ASSERT_TRUE(arm() == WH_ALLOWED);
 }
 
@@ -268,18 +272,18 @@ static void test_armed_lasts_a_minute(void) {
 static void test_armed_ends_when_the_rotor_turns(void) {
     static const wh_real hands_rpm[] = {WH_R(20.0), WH_R(60.0), WH_R(100.0), WH_R(140.0)};
     for (unsigned i = 0; i < 4; i++) {
-        stand_in(WH_LIFE_ARMED);
+        stand_in(WH_RIG_ARMED);
         even_turn_by_hand(&even, hands_rpm[i]);
         unsigned steps = 0;
-        for (; steps < 5000U && even.rig.state == WH_LIFE_ARMED; steps++) {
+        for (; steps < 5000U && even.rig.state == WH_RIG_ARMED; steps++) {
             even_step(&even);
             TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
         }
-        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
+        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
         /* two pulses are a shiver; the third comes after a turn */
         TEST_ASSERT_TRUE((float)steps <= 60.0f / (float)hands_rpm[i] * 500.0f + 2.0f);
         even_steps(&even, 2000);
-        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
         TEST_ASSERT_TRUE(arm() == WH_REFUSED_TURNING);
         even_turn_by_hand(&even, WH_R(0.0));
         even_rest(&even);
@@ -287,7 +291,7 @@ static void test_armed_ends_when_the_rotor_turns(void) {
     }
 }
 
-void suite_rig_life(void) {
+void suite_rig_states(void) {
     RUN_TEST(test_the_table_has_every_pair);
     RUN_TEST(test_every_event_in_every_state);
     RUN_TEST(test_what_arm_asks_for);

@@ -1,22 +1,22 @@
-/* small_turn.h: sin d and cos d - 1, the increments of a rotation by d, by two short polynomials. Part of stage_turn.h. */
-#ifndef WH_SMALL_TURN_H
-#define WH_SMALL_TURN_H
+/* sincos_small.h: sin d and cos d - 1, the increments of a rotation by d, by two short polynomials. Part of stage_turn.h. */
+#ifndef WH_SINCOS_SMALL_H
+#define WH_SINCOS_SMALL_H
 
 #ifdef __cplusplus
 #error \
-    "core/number/small_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/number/sincos_small.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
 #include "sine.h"
 
 /* limit of small rotations, rad */
-#define WH_TURN_SMALL WH_R(0.5)
+#define WH_SINCOS_SMALL WH_R(0.5)
 
 /* Most halvings of a rotation: they make 2^15 rad small. Larger ones end as infinity or NaN, and the step is refused. */
-#define WH_TURN_HALVINGS 16U
+#define WH_SINCOS_HALVINGS 16U
 
 /* The rotation by d rad, |d| <= 1/2: within 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double, before rounding. */
-WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
+WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
     const wh_real z = d * d;
     wh_wave turn;
 #if WH_DOUBLE
@@ -40,15 +40,15 @@ WH_INLINE_WITH_FPU wh_wave wh_small_turn(wh_real d) {
 /* The same for any d: the rotation by d / 2^k, doubled k times. The error doubles with it: within 7e-7 |d| in float,
  * 1.3e-15 |d| in double. `surely`: d is not small. Rarely needed. Not a call, because a call would spill all registers
  * of the step. */
-WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d, bool surely) {
+WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     unsigned doublings = 0;
-    if (surely || WH_ABS(d) > WH_TURN_SMALL) {
+    if (surely || WH_ABS(d) > WH_SINCOS_SMALL) {
         do {
             d *= WH_R(0.5);
             doublings++;
-        } while (WH_ABS(d) > WH_TURN_SMALL && doublings < WH_TURN_HALVINGS);
+        } while (WH_ABS(d) > WH_SINCOS_SMALL && doublings < WH_SINCOS_HALVINGS);
     }
-    wh_wave turn = wh_small_turn(d);
+    wh_wave turn = wh_sincos_small(d);
     if (surely || doublings > 0) {
         do {
             const wh_real less = turn.cosine;
@@ -59,8 +59,8 @@ WH_INLINE_WITH_FPU WH_COLD wh_wave wh_far_turn(wh_real d, bool surely) {
     return turn;
 }
 
-/* wh_far_turn() of any d as a call; in angle.c. */
-#define wh_far_turn_called WH_NAME(wh_far_turn_called)
-wh_wave wh_far_turn_called(wh_real d);
+/* wh_sincos_far() of any d as a call; in angle.c. */
+#define wh_sincos_far_called WH_NAME(wh_sincos_far_called)
+wh_wave wh_sincos_far_called(wh_real d);
 
 #endif

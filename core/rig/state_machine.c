@@ -1,16 +1,16 @@
-/* life.c: the rig's life cycle, as one table. */
-#include "life.h"
+/* state_machine.c: the rig's life cycle, as one table. */
+#include "state_machine.h"
 
 #include "core/text.h"
 
 #define TO(state) \
-    { WH_LIFE_##state, WH_ALLOWED }
+    { WH_RIG_##state, WH_ALLOWED }
 #define NO(state, why) \
-    { WH_LIFE_##state, WH_REFUSED_##why }
+    { WH_RIG_##state, WH_REFUSED_##why }
 
-/* Columns as in WH_LIFE_ROWS. Every state accepts `stop` and a trip; an event for the present state changes nothing. */
+/* Columns as in WH_RIG_STATE_ROWS. Every state accepts `stop` and a trip; an event for the present state changes nothing. */
 /* clang-format off */
-static const wh_life_rule rules[WH_EVENTS][WH_LIVES] = {
+static const wh_rig_transition rules[WH_EVENTS][WH_RIG_STATES] = {
     /*                       idle                   armed                   running               stopping                tripped */
     [WH_EVENT_ARM]       = { TO(ARMED),             NO(ARMED, ARMED),       NO(RUNNING, RUNNING), NO(STOPPING, STOPPING), NO(TRIPPED, TRIPPED) },
     [WH_EVENT_START]     = { NO(IDLE, NOT_ARMED),   TO(RUNNING),            NO(RUNNING, RUNNING), NO(STOPPING, STOPPING), NO(TRIPPED, TRIPPED) },
@@ -25,9 +25,9 @@ static const wh_life_rule rules[WH_EVENTS][WH_LIVES] = {
 };
 /* clang-format on */
 
-wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event) {
-    if ((unsigned)state >= (unsigned)WH_LIVES || (unsigned)event >= (unsigned)WH_EVENTS) {
-        return (wh_life_rule){state, WH_REFUSED_EVENT};
+wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event) {
+    if ((unsigned)state >= (unsigned)WH_RIG_STATES || (unsigned)event >= (unsigned)WH_EVENTS) {
+        return (wh_rig_transition){state, WH_REFUSED_EVENT};
     }
     return rules[event][state];
 }
@@ -37,9 +37,9 @@ wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event) {
 #define NUMBERED_ITEM(name, number, words) words "\0"
 _Static_assert(0 WH_REFUSAL_ROWS(ONE) == (int)WH_REFUSALS, "all numbers are used");
 
-const char *wh_life_text(wh_life state) {
-    static const char words[] WH_WORD_LIST = WH_LIFE_ROWS(ITEM) "unknown state"
-                                                                "\0";
+const char *wh_rig_state_text(wh_rig_state state) {
+    static const char words[] WH_WORD_LIST = WH_RIG_STATE_ROWS(ITEM) "unknown state"
+                                                                     "\0";
     return wh_words_item(words, state);
 }
 

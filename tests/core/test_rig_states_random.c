@@ -1,4 +1,4 @@
-/* test_rig_life_random.c: the rig's controller under random orders and inputs, new set-points, and a result that outlives a
+/* test_rig_states_random.c: the rig's controller under random orders and inputs, new set-points, and a result that outlives a
  * trip. */
 #include <stddef.h>
 
@@ -6,7 +6,7 @@
 #include "even_rig.h"
 #include "unity.h"
 
-void suite_rig_life_random(void);
+void suite_rig_states_random(void);
 
 static even_rig even;
 static uint32_t result_end_ticks;
@@ -66,7 +66,7 @@ static void test_a_record_that_is_left_brings_no_result(void) {
             even_steps(&even, 300U + 60U * i);
             even_turn_by_hand(&even, i % 2U == 0 ? WH_R(235.0) : WH_R(265.0));
             even_steps(&even, 600);
-            TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED &&
+            TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED &&
                              even.rig.guard.trip == WH_TRIP_UNSETTLED);
             TEST_ASSERT_FALSE(even.rig.has_result);
         }
@@ -144,26 +144,26 @@ static void disturb_anything(void) {
     }
 }
 
-static void check_what_always_holds(wh_life before, asked of) {
+static void check_what_always_holds(wh_rig_state before, asked of) {
     const wh_rig *rig = &even.rig;
     const wh_rig_command *command = &even.command;
     const bool drives = command->way == WH_MOTOR_DRIVES;
-    TEST_ASSERT_TRUE(rig->state < WH_LIVES && rig->run.phase < WH_PHASES);
-    TEST_ASSERT_TRUE((rig->state == WH_LIFE_TRIPPED) == (rig->guard.trip != WH_TRIP_NONE));
+    TEST_ASSERT_TRUE(rig->state < WH_RIG_STATES && rig->run.phase < WH_PHASES);
+    TEST_ASSERT_TRUE((rig->state == WH_RIG_TRIPPED) == (rig->guard.trip != WH_TRIP_NONE));
     TEST_ASSERT_TRUE(!drives ||
-                     ((rig->state == WH_LIFE_RUNNING || rig->state == WH_LIFE_STOPPING) &&
+                     ((rig->state == WH_RIG_RUNNING || rig->state == WH_RIG_STOPPING) &&
                       rig->run.phase >= WH_PHASE_SPIN_UP && rig->run.phase <= WH_PHASE_RAMP_DOWN));
-    TEST_ASSERT_TRUE(rig->state != WH_LIFE_TRIPPED || command->way == WH_MOTOR_COASTS);
+    TEST_ASSERT_TRUE(rig->state != WH_RIG_TRIPPED || command->way == WH_MOTOR_COASTS);
     TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
     TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* NaN is not */
     TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
     /* allowed sequences */
-    TEST_ASSERT_TRUE(rig->state != WH_LIFE_ARMED || before == WH_LIFE_ARMED || of.arm);
-    TEST_ASSERT_TRUE(rig->state != WH_LIFE_RUNNING || before == WH_LIFE_RUNNING ||
-                     (of.start && (before == WH_LIFE_ARMED || of.arm)));
-    TEST_ASSERT_TRUE(before != WH_LIFE_TRIPPED || rig->state == WH_LIFE_TRIPPED || of.clear);
-    TEST_ASSERT_TRUE(before != WH_LIFE_TRIPPED || !drives);
-    TEST_ASSERT_TRUE(before != WH_LIFE_STOPPING || rig->state != WH_LIFE_RUNNING);
+    TEST_ASSERT_TRUE(rig->state != WH_RIG_ARMED || before == WH_RIG_ARMED || of.arm);
+    TEST_ASSERT_TRUE(rig->state != WH_RIG_RUNNING || before == WH_RIG_RUNNING ||
+                     (of.start && (before == WH_RIG_ARMED || of.arm)));
+    TEST_ASSERT_TRUE(before != WH_RIG_TRIPPED || rig->state == WH_RIG_TRIPPED || of.clear);
+    TEST_ASSERT_TRUE(before != WH_RIG_TRIPPED || !drives);
+    TEST_ASSERT_TRUE(before != WH_RIG_STOPPING || rig->state != WH_RIG_RUNNING);
 }
 
 #define SEQUENCES 500U /* from each phase */
@@ -178,7 +178,7 @@ static void go_through_anything(void) {
         even = stood;
         even_steps(&even, draw_one_of(&seed, 20));
         for (unsigned step = 0; step < STEPS; step++) {
-            const wh_life before = even.rig.state;
+            const wh_rig_state before = even.rig.state;
             const asked of = order_anything();
             disturb_anything();
             even_step(&even);
@@ -236,13 +236,13 @@ static void test_what_holds_for_hours(void) {
     unsigned results = 0;
     unsigned trips = 0;
     for (uint32_t step = 0; step < 150000U; step++) {
-        const wh_life before = even.rig.state;
+        const wh_rig_state before = even.rig.state;
         asked of = {.arm = false};
         even.inputs.supply_V = draw_one_in(&seed, 6000) ? any_supply_V() : WH_RIG_RATED_V;
         even.inputs.stop_pressed = draw_one_in(&seed, 20000);
         if (draw_one_in(&seed, 20000)) {
             of = order_anything();
-        } else if (even.rig.state != WH_LIFE_RUNNING && step % 50U == 0) {
+        } else if (even.rig.state != WH_RIG_RUNNING && step % 50U == 0) {
             static const wh_rig_event orders[] = {WH_EVENT_CLEAR, WH_EVENT_ARM, WH_EVENT_START};
             for (unsigned i = 0; i < 3; i++) {
                 TEST_ASSERT_TRUE(wh_rig_post(&even.rig, orders[i], draw_whole(&seed, 18, 37)));
@@ -255,14 +255,14 @@ static void test_what_holds_for_hours(void) {
         const wh_rig before_step = even.rig;
         even_step(&even);
         check_what_always_holds(before, of);
-        trips += before != WH_LIFE_TRIPPED && even.rig.state == WH_LIFE_TRIPPED ? 1U : 0U;
-        results += before == WH_LIFE_RUNNING && even.rig.run.phase == WH_PHASE_RAMP_DOWN ? 1U : 0U;
+        trips += before != WH_RIG_TRIPPED && even.rig.state == WH_RIG_TRIPPED ? 1U : 0U;
+        results += before == WH_RIG_RUNNING && even.rig.run.phase == WH_PHASE_RAMP_DOWN ? 1U : 0U;
         check_result(&before_step);
     }
     TEST_ASSERT_TRUE(results >= 3U && trips >= 3U);
 }
 
-void suite_rig_life_random(void) {
+void suite_rig_states_random(void) {
     RUN_TEST(test_another_set_point_while_it_runs);
     RUN_TEST(test_the_run_before_does_not_count);
     RUN_TEST(test_a_record_that_is_left_brings_no_result);

@@ -1,4 +1,4 @@
-/* test_rig_feed.c: gravity's feed-forward: its voltage, the times without one, and its effect on a rotor's ripple in closed
+/* test_rig_gravity.c: gravity's feed-forward: its voltage, the times without one, and its effect on a rotor's ripple in closed
  * loop (fed_rotor.c), also with wrong settings. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
@@ -10,7 +10,7 @@
 
 #include "unity.h"
 
-void suite_rig_feed(void);
+void suite_rig_gravity(void);
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
@@ -38,14 +38,14 @@ static void test_it_says_gravitys_voltage(void) {
         fed_rotor_standard(&fed, 1);
         TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
         fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
-        wh_feed_config config = wh_feed_standard;
+        wh_compensation_config config = wh_compensation_standard;
         config.gravity_rad = gravity_rad[i % 3U];
         config.weight_Nm *= i < 3U ? WH_R(1.0) : WH_R(10.0);
-        wh_feed feed = {WH_R(0.0)};
+        wh_compensation feed = {WH_R(0.0)};
         for (unsigned k = 1; k <= 300; k++) {
             fed_rotor_run(&fed, WH_R(330.0), FED_STEP_S);
             const wh_real said =
-                wh_feed_step(&config, &feed, &fed.observer, fed.rotor.ticks, FED_STEP_S);
+                wh_compensation_step(&config, &feed, &fed.observer, fed.rotor.ticks, FED_STEP_S);
             const wh_real part = k < 250U ? (wh_real)k / WH_R(250.0) : WH_R(1.0);
             const wh_real at =
                 fed.rotor.angle_rad + WH_R(0.003) * fed.rotor.speed_radps - config.gravity_rad;
@@ -64,25 +64,26 @@ static void test_it_says_nothing_without_an_angle(void) {
     fed_rotor_standard(&fed, 1);
     TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
     fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
-    TEST_ASSERT_TRUE(fed.observer.valid && fed.feed.part >= WH_R(1.0));
+    TEST_ASSERT_TRUE(fed.observer.valid && fed.compensation.part >= WH_R(1.0));
     fed.observer.valid = false;
     const uint32_t now = fed.rotor.ticks;
-    TEST_ASSERT_TRUE(wh_feed_step(&fed.feeding, &fed.feed, &fed.observer, now, FED_STEP_S) ==
-                     WH_R(0.0));
-    TEST_ASSERT_TRUE(fed.feed.part == WH_R(0.0));
+    TEST_ASSERT_TRUE(wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer, now,
+                                          FED_STEP_S) == WH_R(0.0));
+    TEST_ASSERT_TRUE(fed.compensation.part == WH_R(0.0));
     fed.observer.valid = true;
-    TEST_ASSERT_TRUE(WH_ABS(wh_feed_step(&fed.feeding, &fed.feed, &fed.observer, now, FED_STEP_S)) <
-                     WH_R(0.001));
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.004f, (float)fed.feed.part);
+    TEST_ASSERT_TRUE(WH_ABS(wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer,
+                                                 now, FED_STEP_S)) < WH_R(0.001));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.004f, (float)fed.compensation.part);
     fed.feeding.fade_s = WH_R(0.0);
-    wh_feed_step(&fed.feeding, &fed.feed, &fed.observer, now, FED_STEP_S);
-    TEST_ASSERT_TRUE(fed.feed.part == WH_R(1.0));
+    wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer, now, FED_STEP_S);
+    TEST_ASSERT_TRUE(fed.compensation.part == WH_R(1.0));
     for (unsigned i = 0; i < 4; i++) {
-        wh_feed_config config = wh_feed_standard;
+        wh_compensation_config config = wh_compensation_standard;
         wh_real *const numbers[] = {&config.weight_Nm, &config.gravity_rad, &config.stall_Nm,
                                     &config.fade_s};
         *numbers[i] = nan;
-        const wh_real said = wh_feed_step(&config, &fed.feed, &fed.observer, now, FED_STEP_S);
+        const wh_real said =
+            wh_compensation_step(&config, &fed.compensation, &fed.observer, now, FED_STEP_S);
         TEST_ASSERT_TRUE(WH_ABS(said) <= config.most);
     }
 }
@@ -257,7 +258,7 @@ static void test_the_lockin_is_told(void) {
     wh_lockin_mark(&lockin, 0, 2000, 4);
     wh_lockin_feed(&lockin, true, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 1U);
-    const wh_real weight_Nm = rotor->mass_moment_kgm * rotor->gravity_mps2;
+    const wh_real weight_Nm = rotor->unbalance_kgm * rotor->gravity_mps2;
     lockin.angle.held_V = WH_R(16.0) * weight_Nm;
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
@@ -294,7 +295,7 @@ static void test_the_answer_to_a_pulse(void) {
         rotor.damping_Nms = WH_R(0.01) * draw_whole(&seed, 2, 4);
         const wh_real speed = draw_whole(&seed, 70, 120) * RPM;
         const wh_real cut = WH_R(0.01) * draw_whole(&seed, 3, 35);
-        const wh_real weight_Nm = rotor.mass_moment_kgm * rotor.gravity_mps2;
+        const wh_real weight_Nm = rotor.unbalance_kgm * rotor.gravity_mps2;
         wh_turn_angle angle;
         wh_turn_angle_start(&rotor, &angle);
         wh_turn_angle_feed(&angle, true, WH_R(0.0625));
@@ -325,7 +326,7 @@ static void test_the_answer_to_a_pulse(void) {
     }
 }
 
-void suite_rig_feed(void) {
+void suite_rig_gravity(void) {
     RUN_TEST(test_it_says_gravitys_voltage);
     RUN_TEST(test_it_says_nothing_without_an_angle);
     RUN_TEST(test_the_ripple_goes);

@@ -1,12 +1,12 @@
-/* life.h: the rig's life cycle: its states, the events allowed in each, and the refusals by name.
+/* state_machine.h: the rig's life cycle: its states, the events allowed in each, and the refusals by name.
  *
  *     IDLE --arm--> ARMED --start--> RUNNING --done, stop--> STOPPING --rested--> IDLE
  *       \_____________\________________\_______trip___________/--> TRIPPED --clear--> IDLE
  *
  * The motor moves only after `arm` and then `start`. One table has every pair of state and event; a test checks all.
  * Further conditions of an event (a supply, a rig at rest) are in rig.c, with the refusals listed here. */
-#ifndef WH_RIG_LIFE_H
-#define WH_RIG_LIFE_H
+#ifndef WH_RIG_STATE_MACHINE_H
+#define WH_RIG_STATE_MACHINE_H
 
 #include "core/real.h"
 
@@ -15,12 +15,12 @@ extern "C" {
 #endif
 
 /* X(name, words) */
-#define WH_LIFE_ROWS(X) \
-    X(WH_LIFE_IDLE, "idle")         /* motor off; the rotor is watched */ \
-    X(WH_LIFE_ARMED, "armed")       /* motor off; `start` is allowed, for a minute */ \
-    X(WH_LIFE_RUNNING, "running")   /* a test run: phases.h has its phases */ \
-    X(WH_LIFE_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
-    X(WH_LIFE_TRIPPED, "tripped")   /* motor off; latched until `clear` */
+#define WH_RIG_STATE_ROWS(X) \
+    X(WH_RIG_IDLE, "idle")         /* motor off; the rotor is watched */ \
+    X(WH_RIG_ARMED, "armed")       /* motor off; `start` is allowed, for a minute */ \
+    X(WH_RIG_RUNNING, "running")   /* a test run: phases.h has its phases */ \
+    X(WH_RIG_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
+    X(WH_RIG_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 
 /* X(name, words): orders from outside, then the rig's own findings. */
 #define WH_EVENT_ROWS(X) \
@@ -68,33 +68,33 @@ extern "C" {
     X(WH_END_HOST_LOST, "host lost") \
     X(WH_END_TRIP, "trip")
 
-#define WH_LIFE_NAME(name, words) name,
+#define WH_RIG_STATE_NAME(name, words) name,
 #define WH_REFUSAL_NAME(name, number, words) name = (number),
-typedef enum wh_life { WH_LIFE_ROWS(WH_LIFE_NAME) WH_LIVES } wh_life;
-typedef enum wh_rig_event { WH_EVENT_ROWS(WH_LIFE_NAME) WH_EVENTS } wh_rig_event;
-typedef enum wh_rig_end { WH_END_ROWS(WH_LIFE_NAME) WH_ENDS } wh_rig_end;
+typedef enum wh_rig_state { WH_RIG_STATE_ROWS(WH_RIG_STATE_NAME) WH_RIG_STATES } wh_rig_state;
+typedef enum wh_rig_event { WH_EVENT_ROWS(WH_RIG_STATE_NAME) WH_EVENTS } wh_rig_event;
+typedef enum wh_rig_end { WH_END_ROWS(WH_RIG_STATE_NAME) WH_ENDS } wh_rig_end;
 typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refusal;
-#undef WH_LIFE_NAME
+#undef WH_RIG_STATE_NAME
 #undef WH_REFUSAL_NAME
 
 /* The result of an event in a state. */
-typedef struct wh_life_rule {
-    wh_life next; /* the next state, if no other condition refuses the event */
+typedef struct wh_rig_transition {
+    wh_rig_state next; /* the next state, if no other condition refuses the event */
     wh_refusal
         refusal; /* WH_ALLOWED, or the reason for refusal: `next` is then the present state */
-} wh_life_rule;
+} wh_rig_transition;
 
-#define wh_life_rule_of WH_NAME(wh_life_rule_of)
-#define wh_life_text WH_NAME(wh_life_text)
+#define wh_rig_transition_of WH_NAME(wh_rig_transition_of)
+#define wh_rig_state_text WH_NAME(wh_rig_state_text)
 #define wh_rig_event_text WH_NAME(wh_rig_event_text)
 #define wh_refusal_text WH_NAME(wh_refusal_text)
 #define wh_rig_end_text WH_NAME(wh_rig_end_text)
 
 /* From the table. An unknown event or state is refused. */
-wh_life_rule wh_life_rule_of(wh_life state, wh_rig_event event);
+wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event);
 
 /* In words, for consoles, by wh_text_add(). */
-const char *wh_life_text(wh_life state);
+const char *wh_rig_state_text(wh_rig_state state);
 const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);
 const char *wh_rig_end_text(wh_rig_end end);

@@ -1,6 +1,6 @@
-/* expect.h: bounds on the speed and time of the next slot pulse, from the speed that the rotor is led to. */
-#ifndef WH_RIG_EXPECT_H
-#define WH_RIG_EXPECT_H
+/* pulse_window.h: bounds on the speed and time of the next slot pulse, from the speed that the rotor is led to. */
+#ifndef WH_RIG_PULSE_WINDOW_H
+#define WH_RIG_PULSE_WINDOW_H
 
 #include "guard.h"
 #include "phases.h"
@@ -9,18 +9,19 @@
 extern "C" {
 #endif
 
-#define wh_expect_pulses WH_NAME(wh_expect_pulses)
-#define wh_expect_slower WH_NAME(wh_expect_slower)
+#define wh_pulse_window_set WH_NAME(wh_pulse_window_set)
+#define wh_pulse_window_off WH_NAME(wh_pulse_window_off)
 
 /* Before the pulse captured at `ticks`: set its bounds and window, and the rotor's remaining speed by then. `open`: the
  * enable is off, and a light rotor slows faster than one that a motor brakes. */
-void wh_expect_pulses(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
-                      wh_pulses *pulses, bool open, uint32_t ticks);
+void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
+                         wh_pulses *pulses, bool open, uint32_t ticks);
 
 /* Before that, with the motor off. Only gravity can make the rotor faster than between its last two pulses. A sensor
  * that fires twice running swings in its slot or has missed a pulse: the speed is then unknown. `brakes`: a rotor that
  * almost rests stays so. */
-void wh_expect_slower(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor, uint32_t ticks);
+void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
+                         uint32_t ticks);
 
 #ifdef __cplusplus
 }

@@ -1,11 +1,11 @@
-/* test_rig_life_trips.c: a tripped or stopped rig stays stopped. Trips in each phase, their record through a reset, `clear`,
+/* test_rig_states_trips.c: a tripped or stopped rig stays stopped. Trips in each phase, their record through a reset, `clear`,
  * `stop`, the stop input, a lost host, a rotor that turns at the controller's start. */
 #include <stddef.h>
 
 #include "even_rig.h"
 #include "unity.h"
 
-void suite_rig_life_trips(void);
+void suite_rig_states_trips(void);
 
 static even_rig even;
 static even_rig stood;
@@ -16,7 +16,7 @@ static void check_off(void) {
 }
 
 static void check_tripped(wh_trip trip) {
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED && even.rig.run.phase == WH_PHASE_NONE);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED && even.rig.run.phase == WH_PHASE_NONE);
     TEST_ASSERT_EQUAL_INT(trip, even.rig.guard.trip);
     TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
     check_off();
@@ -47,7 +47,7 @@ static void check_clears(void) {
     }
     even_rest(&even);
     TEST_ASSERT_TRUE(clear() == WH_ALLOWED);
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
     check_off();
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) ==
                      WH_REFUSED_NOT_ARMED);
@@ -102,7 +102,7 @@ static void check_reset(wh_trip trip) {
     even.fails = before.fails;
     even.failing = before.failing;
     wh_rig_start(&even.config, &even.rig, now, &record);
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_TRIPPED && even.rig.guard.trip == trip);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED && even.rig.guard.trip == trip);
     TEST_ASSERT_TRUE(even.rig.record.ticks == record.ticks && !even.rig.rested);
     even_step(&even);
     check_tripped(trip);
@@ -138,9 +138,9 @@ static void test_a_reset_without_a_trip_is_idle(void) {
     const wh_trip_record none = {.trip = WH_TRIP_NONE, .ticks = 7};
     even_start(&even);
     wh_rig_start(&even.config, &even.rig, even.inputs.now_ticks, &none);
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
     even_rest(&even);
-    TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
 }
 
 /* Implausible pulses cannot show rest: that trip waits only for its time. */
@@ -148,7 +148,7 @@ static void test_a_trip_for_its_pulses_waits_longer(void) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
     even_begin(&even, WH_R(330.0), &failing);
-    for (unsigned i = 0; i < 20000U && even.rig.state != WH_LIFE_TRIPPED; i++) {
+    for (unsigned i = 0; i < 20000U && even.rig.state != WH_RIG_TRIPPED; i++) {
         even_step(&even);
     }
     check_tripped(WH_TRIP_PULSES);
@@ -157,7 +157,7 @@ static void test_a_trip_for_its_pulses_waits_longer(void) {
     even_step(&even);
     TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING); /* unknown */
     even_steps(&even, 100U * 500U);
-    TEST_ASSERT_TRUE(clear() == WH_ALLOWED && even.rig.state == WH_LIFE_IDLE);
+    TEST_ASSERT_TRUE(clear() == WH_ALLOWED && even.rig.state == WH_RIG_IDLE);
 }
 
 /* The wait is over, but `clear` is still refused while the rotor turns. */
@@ -198,7 +198,7 @@ static void test_stop_is_at_once(void) {
                 even.config.stop_brakes = brakes == 1;
                 stop(way);
                 check_off();
-                TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_STOPPING &&
+                TEST_ASSERT_TRUE(even.rig.state == WH_RIG_STOPPING &&
                                  even.rig.run.phase == WH_PHASE_OFF);
                 /* a stop never switches the enable on */
                 const bool enabled = phase != WH_PHASE_TARE && phase != WH_PHASE_OFF;
@@ -208,11 +208,11 @@ static void test_stop_is_at_once(void) {
                 TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) ==
                                  WH_REFUSED_STOPPING);
                 unsigned steps = 0;
-                for (; steps < 1000U && even.rig.state == WH_LIFE_STOPPING; steps++) {
+                for (; steps < 1000U && even.rig.state == WH_RIG_STOPPING; steps++) {
                     even_step(&even);
                     check_off();
                 }
-                TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE && steps >= 700U);
+                TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && steps >= 700U);
                 TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE);
                 TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) ==
                                  (way == STOP_INPUT ? WH_REFUSED_STOP_INPUT : WH_ALLOWED));
@@ -223,7 +223,7 @@ static void test_stop_is_at_once(void) {
         even_arm(&even);
         stop(way);
         check_off();
-        TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
+        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
     }
 }
 
@@ -250,7 +250,7 @@ static void test_a_reset_while_the_rotor_turns(void) {
         for (unsigned step = 0; step < 3000U; step++) {
             even_step(&even);
             check_off();
-            TEST_ASSERT_TRUE(even.rig.state == WH_LIFE_IDLE);
+            TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
         }
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_REFUSED_TURNING);
         even_turn_by_hand(&even, WH_R(0.0));
@@ -277,7 +277,7 @@ static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
         for (unsigned pulses = 1; pulses <= 3U; pulses++) {
             wh_rig_pulse(&even.config, &even.rig, i >> (pulses - 1U) & 1U, even.inputs.now_ticks);
             even_steps(&even, 3);
-            TEST_ASSERT_TRUE(even.rig.state == (pulses <= 2U ? WH_LIFE_ARMED : WH_LIFE_IDLE));
+            TEST_ASSERT_TRUE(even.rig.state == (pulses <= 2U ? WH_RIG_ARMED : WH_RIG_IDLE));
         }
     }
 }
@@ -306,13 +306,13 @@ static void test_rest_may_last_any_time(void) {
         even.inputs.now_ticks = wakes;
         even_turn_by_hand(&even, WH_R(60.0));
         even_steps(&even, 1600);
-        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE && even.rig.state == WH_LIFE_IDLE);
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE && even.rig.state == WH_RIG_IDLE);
         TEST_ASSERT_EQUAL_UINT32(rejected, even.rig.pulses.rejected);
         TEST_ASSERT_FLOAT_WITHIN(0.1f, 60.0f, (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
     }
 }
 
-void suite_rig_life_trips(void) {
+void suite_rig_states_trips(void) {
     RUN_TEST(test_armed_is_no_more_when_somebody_turns_the_rotor);
     RUN_TEST(test_rest_may_last_any_time);
     RUN_TEST(test_trips_latch);

@@ -1,0 +1,48 @@
+/* two_part.h: constants as sums of two reals, for more precision than one has. With compensated sums in float, a step of a
+ * millisecond as one real would be too long by 4.7e-8 of itself, in every step. Part of step.h. */
+#ifndef WH_TWO_PART_H
+#define WH_TWO_PART_H
+
+#include "turn.h"
+
+/* high + low, low below half a unit in the last place of high. A length of time, or a constant derived from one. */
+typedef struct wh_two_part {
+    wh_real high;
+    wh_real low;
+} wh_two_part;
+
+/* For generated code. Double needs no low part. */
+#if WH_DOUBLE
+#define WH_TWO_PART(high, low) ((wh_two_part){high, 0.0})
+#else
+#define WH_TWO_PART(high, low) ((wh_two_part){WH_R(high), WH_R(low)})
+#endif
+
+/* The round-off of a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of Floating-Point Arithmetic,
+ * section 4.4). */
+WH_INLINE wh_real wh_product_rest(wh_real a, wh_real b) {
+    const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);
+    const wh_real product = a * b;
+    const wh_real a_wide = split * a;
+    const wh_real a_high = a_wide - (a_wide - a);
+    const wh_real b_wide = split * b;
+    const wh_real b_high = b_wide - (b_wide - b);
+    const wh_real a_low = a - a_high;
+    const wh_real b_low = b - b_high;
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+}
+
+WH_INLINE wh_two_part wh_two_part_over(wh_two_part a, wh_real parts) {
+    wh_two_part part = {a.high / parts, WH_R(0.0)};
+    const wh_real missing = (a.high - part.high * parts) - wh_product_rest(part.high, parts);
+    part.low = (missing + a.low) / parts;
+    return part;
+}
+
+WH_INLINE wh_two_part wh_two_part_times(wh_two_part a, wh_two_part b) {
+    const wh_two_part product = {a.high * b.high, wh_product_rest(a.high, b.high) +
+                                                      (a.high * b.low + a.low * b.high)};
+    return product;
+}
+
+#endif
