@@ -2,7 +2,6 @@
 #ifndef PROGRAMS_RIG_REPORT_H
 #define PROGRAMS_RIG_REPORT_H
 
-#include "core/rig/carriage.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "core/text.h"

@@ -3,7 +3,7 @@
 
 #include "core/root.h"
 #include "datasheet.h"
-#include "swing_guess.h"
+#include "polar.h"
 
 static wh_real square_of(wh_real x) { return x * x; }
 
@@ -300,4 +300,127 @@ const char *wh_swing_text(wh_swing_why why) {
     case WH_SWING_WHYS: break;
     }
     return "unknown reason";
+}
+
+/* === the rotor =============================================================================== */
+
+void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps) {
+    *rotor = (wh_free_rotor){.q_rad = wh_free_angle(q_rad), .rate_radps = rate_radps};
+    rotor->q_by[WH_FREE_Q] = WH_R(1.0);
+    rotor->rate_by[WH_FREE_RATE] = WH_R(1.0);
+}
+
+static void drift(wh_free_rotor *rotor, wh_real h) {
+    rotor->q_rad = wh_free_angle(rotor->q_rad + h * rotor->rate_radps);
+    for (unsigned i = 0; i < WH_FREE_CAUSES; i++) {
+        rotor->q_by[i] += h * rotor->rate_by[i];
+    }
+}
+
+static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
+    const wh_wave wave = wh_wave_of(rotor->q_rad);
+    const wh_real rate = rotor->rate_radps;
+    const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
+    const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
+    const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
+    wh_real before = h; /* it turns back */
+    wh_real after = WH_R(0.0);
+    wh_real ratio = WH_R(1.0);
+    rotor->rate_radps = rate + h * slowed;
+    if (rotor->rate_radps * sign < WH_R(0.0)) {
+        before = -rate / slowed;
+        after = h - before;
+        ratio = (pulled + sign * cause[WH_FREE_FRICTION]) / slowed;
+        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* friction holds it there */
+        rotor->rate_radps = ratio * slowed * after;
+    }
+    const wh_real both = ratio * before + after;
+    const wh_real by_q = -both * cause[WH_FREE_GRAVITY] * wave.cosine;
+    const wh_real by_rate = ratio * (WH_R(1.0) - before * cause[WH_FREE_DRAG]);
+    for (unsigned i = 0; i < WH_FREE_CAUSES; i++) {
+        rotor->rate_by[i] = by_rate * rotor->rate_by[i] + by_q * rotor->q_by[i];
+    }
+    rotor->rate_by[WH_FREE_GRAVITY] -= both * wave.sine;
+    rotor->rate_by[WH_FREE_FRICTION] += sign * (after - ratio * before);
+    rotor->rate_by[WH_FREE_DRAG] -= ratio * before * rate;
+}
+
+void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
+    drift(rotor, WH_R(0.5) * h);
+    kick(cause, rotor, h);
+    drift(rotor, WH_R(0.5) * h);
+}
+
+/* === normal equations ======================================================================== */
+
+#define N WH_NORMAL_UNKNOWNS
+
+void wh_normal_start(wh_normal *normal, const wh_real guess[N]) {
+    for (unsigned i = 0; i < N; i++) {
+        for (unsigned j = 0; j < N; j++) {
+            normal->matrix[i][j] = i == j ? WH_R(1.0) : WH_R(0.0);
+        }
+        normal->right[i] = guess[i];
+    }
+    normal->misfit = WH_R(0.0);
+}
+
+void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real weight) {
+    for (unsigned i = 0; i < N; i++) {
+        const wh_real weighted = weight * row[i];
+        normal->right[i] += weighted * off;
+        for (unsigned j = 0; j <= i; j++) {
+            normal->matrix[i][j] += weighted * row[j];
+        }
+    }
+    normal->misfit += weight * off * off;
+}
+
+/* Round-off of a diagonal's prior 1 after the rows have made it large. */
+#define PIVOT_LEAST WH_R(1e-3)
+
+void wh_normal_factor(wh_normal *normal) {
+    wh_real(*m)[N] = normal->matrix;
+    for (unsigned j = 0; j < N; j++) {
+        for (unsigned i = j; i < N; i++) {
+            wh_real sum = m[i][j];
+            for (unsigned k = 0; k < j; k++) {
+                sum -= m[i][k] * m[j][k];
+            }
+            m[i][j] = i != j ? sum / m[j][j] : WH_SQRT(sum > PIVOT_LEAST ? sum : PIVOT_LEAST);
+        }
+    }
+}
+
+/* y becomes L^-1 y; before `from` it is zero. */
+static WH_CALLED void forward(const wh_normal *normal, wh_real y[N], unsigned from) {
+    for (unsigned i = from; i < N; i++) {
+        for (unsigned k = from; k < i; k++) {
+            y[i] -= normal->matrix[i][k] * y[k];
+        }
+        y[i] /= normal->matrix[i][i];
+    }
+}
+
+void wh_normal_solve(wh_normal *normal) {
+    wh_real *y = normal->right;
+    forward(normal, y, 0);
+    for (unsigned i = N; i-- > 0;) {
+        for (unsigned k = i + 1U; k < N; k++) {
+            y[i] -= normal->matrix[k][i] * y[k];
+        }
+        y[i] /= normal->matrix[i][i];
+    }
+}
+
+/* The inverse's diagonal: the square of L^-1 times the unit vector. */
+wh_real wh_normal_deviation(const wh_normal *normal, unsigned which) {
+    wh_real y[N] = {WH_R(0.0)};
+    wh_real sum = WH_R(0.0);
+    y[which] = WH_R(1.0);
+    forward(normal, y, which);
+    for (unsigned i = which; i < N; i++) {
+        sum += y[i] * y[i];
+    }
+    return WH_SQRT(sum);
 }

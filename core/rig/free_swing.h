@@ -2,7 +2,7 @@
  *
  * No quantity of a run distinguishes a misplaced sensor from a force out of line with the masses: both shift the phase
  * equally. The hanging position of the arms does. With the motor's leads open, only gravity and friction move the rotor
- * (free_rotor.h). If q(t) is a motion, -q(t) is one, too. So between two passages of q = 0 it takes as long on the right as
+ * (below). If q(t) is a motion, -q(t) is one, too. So between two passages of q = 0 it takes as long on the right as
  * on the left, with or without friction, except for the loss from swing to swing. Pulses come at the slot's leading edge: a
  * sensor at p is passed at p - lead to the right and at p + lead to the left. So the lead cancels, and half a swing on the
  * right is shorter than one on the left by 4 p/v, with v the speed at the bottom. A slow rotor shows most.
@@ -25,12 +25,191 @@
 #ifndef WH_RIG_FREE_SWING_H
 #define WH_RIG_FREE_SWING_H
 
+#include "core/real.h"
+#include "datasheet.h"
 #include "result.h"
-#include "swing_state.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* === normal equations ======================================================================== */
+/* Linear least squares: normal equations that grow row by row, solved by Cholesky factorization.
+ *
+ * The unit of each unknown is its initial uncertainty, and a row of its own states it. So the matrix is the unit matrix
+ * plus the other rows, and never singular. */
+
+#define WH_NORMAL_UNKNOWNS 7
+
+typedef struct wh_normal {
+    wh_real matrix[WH_NORMAL_UNKNOWNS]
+                  [WH_NORMAL_UNKNOWNS]; /* its lower triangle; then its factors */
+    wh_real right[WH_NORMAL_UNKNOWNS];  /* right side; then the solution */
+    /* sum of squared residuals over their variances at the guess; the solution reduces it */
+    wh_real misfit;
+} wh_normal;
+
+#define wh_normal_start WH_NAME(wh_normal_start)
+#define wh_normal_add WH_NAME(wh_normal_add)
+#define wh_normal_factor WH_NAME(wh_normal_factor)
+#define wh_normal_solve WH_NAME(wh_normal_solve)
+#define wh_normal_deviation WH_NAME(wh_normal_deviation)
+
+/* Only the prior: each unknown is `guess`, with a standard deviation of 1. */
+void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS]);
+
+/* A measurement: `off` is the sum of row times unknowns, with this weight (one over its variance). */
+void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
+                   wh_real weight);
+
+/* First the factors, some 1,000 instructions; then the unknowns, into normal->right. */
+void wh_normal_factor(wh_normal *normal);
+void wh_normal_solve(wh_normal *normal);
+
+/* After the solution: the standard deviation of an unknown. */
+wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
+
+/* === the rotor =============================================================================== */
+/* A rotor under gravity and friction alone, and the derivatives of its motion with respect to its causes.
+ *
+ *     q'' = -g sin q - f sign q' - c q'          q its angle from hanging; g = S g/I, f and c friction over I
+ *
+ * Stoermer's steps: drift, kick, drift, forwards in time or backwards. Friction changes sign with the motion within the
+ * step. There the rate has a kink, and the derivatives are multiplied with the ratio of the accelerations after and
+ * before. */
+
+/* The causes of the motion: initial q and q', g, f, c. */
+enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
+
+typedef struct wh_free_rotor {
+    wh_real q_rad; /* -pi ... pi */
+    wh_real rate_radps;
+    wh_real q_by[WH_FREE_CAUSES]; /* derivatives */
+    wh_real rate_by[WH_FREE_CAUSES];
+} wh_free_rotor;
+
+#define wh_free_rotor_start WH_NAME(wh_free_rotor_start)
+#define wh_free_rotor_step WH_NAME(wh_free_rotor_step)
+
+void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
+
+/* A step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` has g, f and c in its places. */
+void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
+
+/* Wrap into -pi ... pi, from less than a turn beyond; 0 for larger angles and NaN. */
+WH_SHARED wh_real wh_free_angle(wh_real rad) {
+    const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
+    const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
+    return near >= -half && near <= half ? near : WH_R(0.0);
+}
+
+/* === the state of an evaluation ============================================================== */
+
+/* The unknowns' places. */
+enum wh_swing_unknown {
+    WH_SWING_Q = WH_FREE_Q,
+    WH_SWING_RATE = WH_FREE_RATE,
+    WH_SWING_GRAVITY = WH_FREE_GRAVITY,
+    WH_SWING_FRICTION = WH_FREE_FRICTION,
+    WH_SWING_DRAG = WH_FREE_DRAG,
+    WH_SWING_PLACE = WH_FREE_CAUSES, /* of sensor 1; then of sensor 2 */
+};
+
+#define WH_SWING_SENSORS 2U
+#define WH_SWING_TURNING 6U /* pulses stored from before the swing, */
+#define WH_SWING_PULSES 36U /* and in all */
+#define WH_SWING_LAST 10U   /* of sensor 1's last */
+
+/* Pieces of the work: before a pulse or at it, the equations in two, another pass, another guess, the end. */
+typedef enum wh_swing_piece {
+    WH_SWING_GOES,
+    WH_SWING_FACTORS,
+    WH_SWING_SOLVES,
+    WH_SWING_PASSES,
+    WH_SWING_GUESSES,
+    WH_SWING_ENDS
+} wh_swing_piece;
+
+/* The outcome: X(name, words). */
+#define WH_SWING_ROWS(X) \
+    X(WH_SWING_NONE, "no run has ended in a free swing") \
+    X(WH_SWING_SWINGS, "the rotor is not at rest yet") \
+    X(WH_SWING_WORKS, "its pulses are being looked at") \
+    X(WH_SWING_FOUND, "found") \
+    X(WH_SWING_NOT_FREE, "the rotor did not come to rest freely") \
+    X(WH_SWING_FEW, "too few swings: friction stops the rotor") \
+    X(WH_SWING_MISFIT, "the pulses are not those of a free swing") \
+    X(WH_SWING_SIDES, "nothing tells right from left: sensor 2 was not passed") \
+    X(WH_SWING_WIDE, "the swings do not tell it: the interval is too wide")
+
+#define WH_SWING_NAME(name, words) name,
+typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swing_why;
+#undef WH_SWING_NAME
+
+typedef struct wh_swing_config {
+    wh_real lead_rad;  /* pulses come this far before the sensor, from either side */
+    wh_real most_rad;  /* sensors are within this of their positions, at 95 % */
+    wh_real jitter_s;  /* of the pulses, standard deviation */
+    wh_real rough_rad; /* further error of a pulse, ditto: a coupling's twist */
+    wh_real floor_rad; /* calibration, 95 %: slot, lead, friction that differs with the direction */
+    wh_real wide_rad;  /* limit of a useful interval */
+    wh_real off_rad; /* limit of sensor 1's error and its interval: beyond, results are doubtful */
+    unsigned swings_least; /* half ones */
+} wh_swing_config;
+
+typedef struct wh_swung {
+    wh_swing_why why;
+    wh_real place_rad[WH_SWING_SENSORS]; /* when found: the sensor's position, */
+    wh_real half_rad[WH_SWING_SENSORS];  /* half-widths of the intervals, 95 % */
+    unsigned swings;                     /* half swings used */
+} wh_swung;
+
+typedef struct wh_swing {
+    wh_swung result;
+    bool free;    /* motor off, its leads open, since the last step */
+    bool any;     /* there was a pulse, */
+    bool forward; /* passed this way, */
+    uint8_t sensor;
+    bool swings;          /* the rotor has passed sensor 1 backwards: at kept[first], */
+    wh_swing_piece piece; /* the next piece of the work */
+    unsigned first;
+    unsigned passed; /* and its later passages, stored or not */
+    unsigned kept;
+    unsigned start; /* guesses before this one that failed */
+    unsigned pass;
+    unsigned at;     /* the next pulse */
+    unsigned fits;   /* pulses used in this pass, */
+    unsigned strays; /* that cannot be, */
+    /* and their number for each sensor: a swing seen by sensor 1 alone could be its mirror image */
+    unsigned fits_of[WH_SWING_SENSORS];
+    uint32_t ticks;                     /* of `way` */
+    wh_real soft_rad2;                  /* variance added to the pulses' own */
+    wh_free_rotor way;                  /* the rotor during a pass */
+    uint32_t last_ticks[WH_SWING_LAST]; /* sensor 1's, the newest first */
+    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place and q' at the first passage, g, f, c, sensor
+                                    * positions, */
+    wh_real guess[WH_NORMAL_UNKNOWNS];  /* as they were guessed, */
+    wh_real within[WH_NORMAL_UNKNOWNS]; /* and their standard deviations */
+    uint32_t kept_ticks[WH_SWING_PULSES];
+    uint8_t kept_sensor[WH_SWING_PULSES];
+    wh_normal normal; /* equations of this pass, in units of `within` */
+} wh_swing;
+
+/* === the first guess ========================================================================= */
+
+#define WH_SWING_STARTS 3U /* guesses, one after the other */
+
+#define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
+#define wh_swing_guess WH_NAME(wh_swing_guess)
+
+/* Near the top, guesses of the amplitude are useless, because it depends steeply on times: a pass begins after such
+ * swings. */
+void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
+
+/* x and its uncertainty, with which the regression begins; swing->start counts the guesses. */
+void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
+
+/* === the evaluation ========================================================================== */
 
 /* 0, possible in a small chip's build: swings are not evaluated. */
 #ifndef WH_RIG_SWINGS

@@ -2,7 +2,7 @@
 #include "gravity_compensation.h"
 
 #include "datasheet.h"
-#include "wave.h"
+#include "polar.h"
 
 const wh_compensation_config wh_compensation_standard = WH_COMPENSATION_STANDARD;
 

@@ -1,6 +1,7 @@
 /* guard.c: the reasons to stop the rig. */
 #include "guard.h"
 
+#include "cell.h"
 #include "core/root.h"
 #include "core/text.h"
 
@@ -136,4 +137,16 @@ const char *wh_trip_text(wh_trip reason) {
         row++;
     }
     return wh_words_item(words, row);
+}
+
+/* === a load sample's status in words ========================================================= */
+
+const char *wh_load_text(wh_load_status status) {
+#define WH_LOAD_CASE(name, words) \
+    case name: return words;
+    switch (status) {
+        WH_LOAD_ROWS(WH_LOAD_CASE)
+    case WH_LOAD_STATUSES: break;
+    }
+    return "unknown status";
 }

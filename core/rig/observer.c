@@ -2,7 +2,7 @@
 #include "observer.h"
 
 #include "datasheet.h"
-#include "wave.h"
+#include "polar.h"
 
 /* More than a turn without a mark: one of either sensor was missed. */
 #define MISSED_RAD (WH_R(1.06) * WH_RIG_TWO_PI)

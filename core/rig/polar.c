@@ -1,8 +1,6 @@
 /* polar.c: amplitude and phase from a cosine and a sine component. */
 #include "polar.h"
 
-#include "wave.h"
-
 #define PI WH_R(3.141592653589793)
 
 WH_INLINE wh_real begin(wh_real x, wh_real y) {

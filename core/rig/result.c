@@ -5,7 +5,6 @@
 #include "core/text.h"
 #include "datasheet.h"
 #include "polar.h"
-#include "wave.h"
 
 #define PI WH_R(3.141592653589793)
 /* Remaining part of gravity with feed: above it the feed is wrong or misses the arms, and the torque on them is

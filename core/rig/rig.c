@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 
+#include "core/frame.h"
 #include "datasheet.h"
 #include "pulse_window.h"
 
@@ -478,4 +479,229 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     }
     rig->command = command_of(config, rig, inputs);
     return rig->command;
+}
+
+/* === conditions of an order beyond the states': a supply, a rig at rest, a removed cause ===== */
+
+static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
+                                   const wh_rig_inputs *inputs) {
+    return rig->guard.load_good &&
+           wh_guard_load_comes(&config->guard, &rig->guard, inputs->now_ticks);
+}
+
+static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
+                          const wh_rig_inputs *inputs) {
+    if (inputs->stop_pressed) {
+        return WH_REFUSED_STOP_INPUT;
+    }
+    if (inputs->watchdog_has_cut) {
+        return WH_REFUSED_WATCHDOG;
+    }
+    if (inputs->clock_is_fallback) {
+        return WH_REFUSED_CLOCK;
+    }
+    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
+        return WH_REFUSED_SUPPLY;
+    }
+    if (!cell_is_good(config, rig, inputs)) {
+        return WH_REFUSED_LOAD_CELL;
+    }
+    return rig->guard.quiet ? WH_ALLOWED : WH_REFUSED_TURNING;
+}
+
+static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
+                           const wh_rig_inputs *inputs, wh_real target_radps) {
+    /* slower set-points are possible if gravity's torque can be fed forward */
+    const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
+    const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
+                                    target_radps < config->guard.target_min_radps);
+    if (!wh_guard_allows(&config->guard, target_radps, feeds)) {
+        return WH_REFUSED_TARGET;
+    }
+    return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED
+                                                                          : WH_REFUSED_VOLTAGE;
+}
+
+/* Rest, and the cause removed. With unreliable pulses, rest is a matter of time. */
+static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
+                            const wh_rig_inputs *inputs) {
+    if (!rig->at_rest || !rig->guard.quiet) {
+        return WH_REFUSED_TURNING;
+    }
+    switch (rig->guard.trip) {
+    case WH_TRIP_WATCHDOG: return inputs->watchdog_has_cut ? WH_REFUSED_WATCHDOG : WH_ALLOWED;
+    case WH_TRIP_SUPPLY:
+        return wh_guard_supply(&config->guard, inputs->supply_V) ? WH_ALLOWED : WH_REFUSED_SUPPLY;
+    case WH_TRIP_LOAD_CELL:
+        return cell_is_good(config, rig, inputs) ? WH_ALLOWED : WH_REFUSED_LOAD_CELL;
+    case WH_TRIP_NONE:
+    case WH_TRIP_OVERSPEED:
+    case WH_TRIP_PULSES:
+    case WH_TRIP_STALLED:
+    case WH_TRIP_MOVING:
+    case WH_TRIP_UNSETTLED:
+    case WH_TRIP_RECORD:
+    case WH_TRIP_RUNS_ON:
+    case WH_TRIP_FASTER:
+    case WH_TRIP_ORDER:
+    case WH_TRIP_UNBRAKED: break;
+    }
+    return WH_ALLOWED;
+}
+
+wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
+                            const wh_rig_inputs *inputs, const wh_rig_order *order) {
+    switch (order->event) {
+    case WH_EVENT_ARM: return may_arm(config, rig, inputs);
+    case WH_EVENT_START:
+        return inputs->stop_pressed ? WH_REFUSED_STOP_INPUT
+                                    : may_turn(config, rig, inputs, order->value);
+    case WH_EVENT_SET: return may_turn(config, rig, inputs, order->value);
+    case WH_EVENT_CLEAR: return may_clear(config, rig, inputs);
+    case WH_EVENT_STOP:
+    case WH_EVENT_HOST_LOST:
+    case WH_EVENT_DONE:
+    case WH_EVENT_RESTED:
+    case WH_EVENT_EXPIRED:
+    case WH_EVENT_TRIP:
+    case WH_EVENTS: break;
+    }
+    return WH_ALLOWED;
+}
+
+/* === read-out: stage, speed, a result's age, the likely cause of a trip ====================== */
+
+WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
+    return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
+                                           : WH_RIG_STAGE_OF_PHASE + (unsigned)rig->run.phase;
+}
+
+WH_CALLED unsigned wh_rig_shown_stage(const wh_rig *rig) {
+    return rig->command.way == WH_MOTOR_BRAKES && rig->run.phase == WH_PHASE_OFF
+               ? WH_RIG_STAGE_BRAKES
+               : wh_rig_stage(rig);
+}
+
+WH_CALLED const char *wh_rig_stage_text(unsigned stage) {
+    return stage < WH_RIG_STAGE_OF_PHASE
+               ? wh_rig_state_text((wh_rig_state)stage)
+               : wh_phase_text((wh_rig_phase)(stage - WH_RIG_STAGE_OF_PHASE));
+}
+
+uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks) {
+    return rig->result_s + (now_ticks - rig->result_ticks) / WH_RIG_TICKS_PER_S;
+}
+
+/* --- the last pulses ------------------------------------------------------------------------------ */
+
+#define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
+
+/* Four pulses of alternating sensors: the ticks between them, the newest first, and the sensor of the last. */
+static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
+    *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
+    const uint32_t *newest = rig->heard_ticks[*last];
+    const uint32_t *other = rig->heard_ticks[1U - *last];
+    way[0] = newest[0] - other[0];
+    way[1] = other[0] - newest[1];
+    way[2] = newest[1] - other[1];
+    bool alternate =
+        rig->pulses_ever - rig->pulses_before >= 4U && now_ticks - other[1] < HEARD_TICKS;
+    for (unsigned i = 0; i < 3U; i++) {
+        alternate = alternate && way[i] > 0 && way[i] < HEARD_TICKS;
+    }
+    return alternate;
+}
+
+bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
+    uint32_t way[3];
+    unsigned last;
+    const bool drives = wh_run_drives(&rig->run);
+    *speed_radps = rig->pulses.speed.known ? rig->pulses.speed.turn_radps : WH_R(0.0);
+    if (!drives && rig->guard.quiet) {
+        return true;
+    }
+    /* speed.h takes a rotor that slows down over the top for a gap, and keeps the speed before it */
+    if (!drives && last_ways(rig, now_ticks, way, &last)) {
+        *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
+        return true;
+    }
+    return rig->pulses.speed.known;
+}
+
+/* --- the likely cause of a trip ------------------------------------------------------------------- */
+
+/* A whole turn at 3,200 rpm: the fastest motor of the settings (2,000 rpm) at the highest supply turns slower. */
+#define STORM_TICKS 18750U
+
+/* The direction: forwards, from sensor 1 to sensor 2 is a quarter turn, backwards three quarters. It must take longer
+ * than both ways back, because a starting rotor changes its speed. Pulses faster than any rotor show no direction. */
+static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
+    uint32_t way[3];
+    unsigned last;
+    if (!last_ways(rig, now_ticks, way, &last)) {
+        return false;
+    }
+    if (way[0] + way[1] < STORM_TICKS || way[1] + way[2] < STORM_TICKS) {
+        return false;
+    }
+    return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
+}
+
+/* The rotor starts or was just taken over: the commanded voltage leads it, not yet the loop. A falling bound then shows
+ * after two further pulses. */
+#define TWO_PULSES_S WH_R(0.5)
+
+static bool starts(const wh_rig *rig, uint32_t now_ticks) {
+    return rig->run.phase == WH_PHASE_SPIN_UP ||
+           !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
+}
+
+wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
+    const wh_trip trip = rig->guard.trip;
+    const bool of_pulses = trip == WH_TRIP_OVERSPEED || trip == WH_TRIP_PULSES ||
+                           trip == WH_TRIP_STALLED || trip == WH_TRIP_UNSETTLED;
+    if (!of_pulses || !wh_run_drives(&rig->run)) {
+        return trip;
+    }
+    if (order_is_wrong(rig, now_ticks)) {
+        return WH_TRIP_ORDER;
+    }
+    return trip == WH_TRIP_OVERSPEED && starts(rig, now_ticks) &&
+                   !(rig->pulses.speed.turn_radps > config->guard.limit_radps)
+               ? WH_TRIP_FASTER
+               : trip;
+}
+
+/* === a trip's record as bytes ================================================================ */
+
+void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes) {
+    wh_bytes out = {.to = bytes, .room = WH_TRIP_RECORD_BYTES};
+    wh_bytes_put(&out, (uint32_t)record->trip, 1);
+    wh_bytes_put(&out, (uint32_t)record->phase, 1);
+    wh_bytes_put(&out, record->ticks, 4);
+    wh_bytes_put_float(&out, (float)record->speed_radps);
+    wh_bytes_put_float(&out, (float)record->volts);
+    wh_bytes_put_float(&out, (float)record->supply_V);
+}
+
+static bool is_trip(uint32_t number) {
+#define IS(name, value, words) || number == (value)
+    return number != (uint32_t)WH_TRIP_NONE && (false WH_TRIP_ROWS(IS));
+#undef IS
+}
+
+bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length) {
+    wh_bytes in = {.from = bytes, .room = length};
+    const uint32_t trip = wh_bytes_get(&in, 1);
+    const uint32_t phase = wh_bytes_get(&in, 1);
+    if (length != WH_TRIP_RECORD_BYTES || !is_trip(trip) || phase >= (uint32_t)WH_PHASES) {
+        return false;
+    }
+    record->trip = (wh_trip)trip;
+    record->phase = (wh_rig_phase)phase;
+    record->ticks = wh_bytes_get(&in, 4);
+    record->speed_radps = (wh_real)wh_bytes_get_float(&in);
+    record->volts = (wh_real)wh_bytes_get_float(&in);
+    record->supply_V = (wh_real)wh_bytes_get_float(&in);
+    return true;
 }

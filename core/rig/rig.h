@@ -14,13 +14,57 @@
 
 #include "free_swing.h"
 #include "gravity_compensation.h"
-#include "inputs.h"
 #include "phases.h"
-#include "record.h"
+#include "state_machine.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* === a trip's record, as bytes the same on every processor; readable after a reset =========== */
+
+/* Given to wh_rig_start() after a reset, it is latched again. */
+typedef struct wh_trip_record {
+    wh_trip trip;
+    wh_rig_phase phase;
+    uint32_t ticks; /* of a timer that a reset may have cleared since */
+    wh_real speed_radps;
+    wh_real volts;
+    wh_real supply_V;
+} wh_trip_record;
+
+#define WH_TRIP_RECORD_BYTES 18U
+
+#define wh_trip_record_put WH_NAME(wh_trip_record_put)
+#define wh_trip_record_get WH_NAME(wh_trip_record_get)
+
+/* Into bytes[WH_TRIP_RECORD_BYTES]. */
+void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
+
+/* False if the bytes are no record: another length, or an unknown trip or phase. */
+bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length);
+
+/* === a control step's inputs ================================================================= */
+
+/* The source of a stop request: the drive stage's fault may share the stop input's line. */
+typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
+
+/* A control step's inputs other than pulses, samples and orders. */
+typedef struct wh_rig_inputs {
+    uint32_t now_ticks;
+    wh_real supply_V;
+    bool stop_pressed;
+    wh_stop_by stop_by;     /* when it is */
+    bool clock_is_fallback; /* too inexact for a speed */
+    bool watchdog_has_cut;
+} wh_rig_inputs;
+
+typedef struct wh_rig_order {
+    wh_rig_event event;
+    wh_real value;
+} wh_rig_order;
+
+/* === the controller ========================================================================== */
 
 #define WH_RIG_ORDERS_MOST 4U /* posted between two control steps */
 
@@ -191,6 +235,30 @@ wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
 
 /* One control step. */
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs);
+
+/* === the rig on a carriage =================================================================== */
+/* The rig on a carriage that moves freely along a level rail, with arms in a level plane.
+ *
+ * Almesallmy (2006), I.3.2.2 and I.3.5: the load cell sits between the shaft's pin and the carriage. It measures M/(M +
+ * m) of the force on a fixed mount, with M the carriage's mass and m the eccentric mass. The carriage moves to and fro
+ * by X = S/(M + m) at any speed. */
+
+typedef struct wh_carriage {
+    wh_real disc_m; /* centres of the discs, from the shaft */
+    wh_real ratio;  /* m/M; 0: too heavy to move */
+} wh_carriage;
+
+#define wh_carriage_mount WH_NAME(wh_carriage_mount)
+#define wh_carriage_displacement_m WH_NAME(wh_carriage_displacement_m)
+
+/* Change wh_rig_standard, or a copy with other cells and sensors, to the rig on that carriage. Without gravity there is
+ * nothing to observe or to feed forward. */
+void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
+
+/* Displacement amplitude of the carriage in m: F/(M <w^2>) with the cell's force F and the mean over the angle. 0 for a
+ * fixed mount. */
+wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
+                                   const wh_measured *force);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /* swing_guess.c: the first guess of a free swing, from its pulses' times alone. */
-#include "swing_guess.h"
+#include "free_swing.h"
 
 #include "core/root.h"
 #include "datasheet.h"

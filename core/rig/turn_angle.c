@@ -3,7 +3,7 @@
 
 #include "core/root.h"
 #include "datasheet.h"
-#include "wave.h"
+#include "polar.h"
 
 /* Beyond this the series is invalid: the rotor hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)

@@ -1,8 +1,8 @@
 /* test_rig_carriage.c: the angle within a turn on a compliant carriage against the rotor integrated over its angle, and the
  * mount's effect on the controller's numbers. */
 #include "core/angle.h"
-#include "core/rig/carriage.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/rig.h"
 #include "core/root.h"
 
 #include "unity.h"

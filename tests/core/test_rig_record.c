@@ -1,5 +1,5 @@
 /* test_rig_record.c: a trip's record as bytes reads back as written; invalid records are refused. */
-#include "core/rig/record.h"
+#include "core/rig/rig.h"
 
 #include "draw.h"
 #include "unity.h"

@@ -4,7 +4,6 @@
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
 #include "core/rig/rig.h"
-#include "core/rig/swing_guess.h"
 #include "core/root.h"
 #include "draw.h"
 #include "rotor.h"

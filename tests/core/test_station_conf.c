@@ -234,8 +234,8 @@ static void test_what_follows(void) {
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mass_moment,
                                  WH_R(2.0) * plain.measure.rotor.unbalance_kgm) == WH_STATION_FINE);
     const float twice = 2.0f;
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, twice,
-                             (float)(even.config.compensation.weight_Nm / plain.compensation.weight_Nm));
+    TEST_ASSERT_FLOAT_WITHIN(
+        1e-5f, twice, (float)(even.config.compensation.weight_Nm / plain.compensation.weight_Nm));
     TEST_ASSERT_FLOAT_WITHIN(
         1e-5f, twice, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.41421356f,
