@@ -15,16 +15,17 @@ for value in $values; do
     radius) set -- --set "r_disc=$value [in]" ;;
     esac
     "$whirl" run carriage_free "$@" --quiet --columns - | awk -v value="$value" '
-        NR == 1 { next }
+        /^%/ { next }
         {
-            if (NR == 2 || $3 > high) high = $3
-            if (NR == 2 || $3 < low) low = $3
+            if (!seen || $3 > high) high = $3
+            if (!seen || $3 < low) low = $3
             # whole periods of the velocity, from one upward passage of zero to the last
-            if (NR > 2 && before < 0 && $5 >= 0) {
+            if (seen && before < 0 && $5 >= 0) {
                 last = $1 - 0.001 * $5 / ($5 - before)
                 if (n++ == 0) first = last
             }
             before = $5
+            seen = 1
         }
         END { printf "%s,%.6f,%.6f\n", value, 500 * (high - low), (n - 1) / (last - first) }'
 done

@@ -13,7 +13,8 @@ for step_ms in 0.03125 0.0625 0.125 0.25 0.5 1 2 4; do
     "$whirl" run "$scene" --step "${step_ms}ms" --every "$every" --quiet --columns - |
         awk -v name="$column" -v step="$step_ms" '
         NR == 1 { for (i = 2; i <= NF; i++) if ($i == name) c = i - 1; next }
-        NR == 2 { start = $c }
+        /^%/ { next }
+        !seen++ { start = $c }
         { d = $c - start; if (d < 0) d = -d; if (d > worst) worst = d }
         END { printf "%s,%.6g\n", step, worst }'
 done

@@ -9,9 +9,9 @@ echo reversals,width_m
 for k in 0 1 2 3 4 5 6 7 8; do
     "$whirl" run thomson_b --start "theta1'=$speed" --start "theta2=$hold+0.001*$k" \
         --step 0.25ms --every 1ms --quiet --columns - | awk '
-        NR == 1 { next }
-        { if (NR == 2 || $4 > high) high = $4
-          if (NR == 2 || $4 < low) low = $4
+        /^%/ { next }
+        { if (!seen || $4 > high) high = $4
+          if (!seen++ || $4 < low) low = $4
           if (before * $7 < 0) reversals++
           before = $7 }
         END { printf "%d,%.6g\n", reversals, high - low }'
