@@ -1,4 +1,4 @@
-/* describe.c: `whirl describe`: the contents of a scene's image, for programs and for readers. */
+/* describe.c: `whirl describe`, `whirl check` and `whirl accel`: answers about a scene that does not run. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* figure.c: `whirl figure`: a figure of the dissertation, in its original or a varied form. */
+/* figure.c: `whirl plot` and `whirl figure`: curves of runs, and the figures of the dissertation. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

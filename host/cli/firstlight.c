@@ -18,7 +18,6 @@
 #include "host/os/system.h"
 
 /* === the expected record ====================================================================== */
-/* The interpreter's runs of the scenes, and a board with working crystal, sensors and stop line. */
 
 enum { LIGHT_EXPECTED = 100 };
 

@@ -9,7 +9,6 @@
 #include "host/base/alloc.h"
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
-/* The search of forces, losses and contacts for one coordinate. */
 
 /* The statements besides the energies that change the momentum of coordinate i, in words: "the Q in line 9, the stop in
  * line 12". *count is their number. */

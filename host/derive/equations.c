@@ -1,4 +1,4 @@
-/* equations.c: queries on complete equations. */
+/* equations.c: the symbolic equations of an instance, with its contacts, forces and energy. */
 #include "host/derive/equations.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "host/derive/equations.h"
 #include "host/image/image.h"
 
-/* === image_once =============================================================================== */
+/* === one image ================================================================================ */
 /* One image, with its numbers folded in the current way (host/number/folding.h). image_make() makes variants, too. */
 
 /* The purpose of an image. One to run also has the expressions that may be undefined, in the spelling of the file, so

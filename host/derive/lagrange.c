@@ -1,4 +1,4 @@
-/* lagrange.c: Lagrange's equations, and systems given by their equations. */
+/* lagrange.c: Lagrange's equations, systems given by their equations, and the refusal of singular ones. */
 #include "host/derive/lagrange.h"
 
 #include <math.h>

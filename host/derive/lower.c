@@ -8,7 +8,7 @@
 #include "host/base/alloc.h"
 #include "host/number/folding.h"
 
-/* === turning ================================================================================== */
+/* === turn angles ============================================================================== */
 /* The choice of turn angles: coordinates that occur only inside sines and cosines, with whole factors. */
 
 static bool whole_in_angle(const poly *angle, const symbol *sym) {

@@ -1,4 +1,4 @@
-/* matrix_make.c: the change of the state in a step from its rates, rounded once, and the list that adds it. */
+/* matrix_make.c: the whole step of a linear scene as one matrix. */
 #include "host/derive/matrix_make.h"
 
 #include <math.h>
@@ -157,7 +157,7 @@ static void affine_takes(const image *im, int number, bool *taking) {
     free(needed);
 }
 
-/* === the report of the nonlinear term of a mechanism, with its place ========================== */
+/* === the report of a nonlinear term =========================================================== */
 /* The innermost subexpression, in the spelling of the file, whose degree in the state is too high. */
 
 /* The degree of an expression that is not a polynomial. Sums of degrees stay within an int. */

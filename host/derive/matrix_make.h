@@ -6,7 +6,7 @@
 #include "host/image/image.h"
 #include "host/number/double_double.h"
 
-/* === affine =================================================================================== */
+/* === an affine right-hand side ================================================================ */
 /* The coefficients of an affine right-hand side, x' = A x + B u + c, from its operation list. */
 
 /* The states of a scene, angles first, and the columns: states, inputs, and the constant. */

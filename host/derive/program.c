@@ -1,4 +1,4 @@
-/* program.c: entry of the lists. */
+/* program.c: the lists of an instance: step, contacts, ledger, outputs. */
 #include "host/derive/program.h"
 
 #include <stdlib.h>
@@ -305,7 +305,6 @@ static void contact_lists_free(contact_lists *c) {
 }
 
 /* === the ledger =============================================================================== */
-/* Entry of the ledger's lists. */
 
 static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const place *at,
                       int account, const poly *what) {
@@ -469,7 +468,6 @@ static void ledger_lists_free(ledger_lists *l) {
 }
 
 /* === conditions of --stabilized =============================================================== */
-/* The conditions for correcting the energy drift of a scene (--stabilized; core/step/stabilize.h). */
 
 static const char no_stabilized[] = "leave out --stabilized";
 

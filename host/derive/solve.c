@@ -13,7 +13,6 @@
 #include "host/number/folding.h"
 
 /* === solving n linear equations by entering operations into a list ============================ */
-/* Gaussian elimination and Cramer's rule, as operations. */
 
 static int minus_product(op_list *t, int from, int x, int y) {
     return op_list_sub(t, from, op_list_mul(t, x, y));

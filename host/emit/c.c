@@ -215,7 +215,6 @@ bool emit_c_name_is_free_in_cpp(const char *name) {
 }
 
 /* === a scene's contacts as C ================================================================== */
-/* The lists and the table of a scene's contacts. */
 
 /* The declared bounds and the core's header. */
 static void c_contacts_include(FILE *out, const image *im) {
@@ -293,7 +292,6 @@ static void c_contacts_write(FILE *out, const image *im) {
 }
 
 /* === a scene's ledger as C ==================================================================== */
-/* The lists of a scene's ledger. */
 
 /* The declared bounds: before the core's headers. */
 static void c_ledger_bounds(FILE *out, const image *im) {

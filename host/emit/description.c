@@ -1,4 +1,4 @@
-/* description.c: an image as JSON. */
+/* description.c: an image as JSON, and for readers. */
 #include "host/emit/description.h"
 
 #include <inttypes.h>
@@ -304,7 +304,6 @@ void describe_json(FILE *out, const image *im, const char *file) {
 }
 
 /* === for readers ============================================================================== */
-/* An image for readers. */
 
 static void put_name(FILE *out, const char *kind, int index, const char *name, int primes,
                      const char *si) {

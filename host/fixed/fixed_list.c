@@ -100,7 +100,6 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
 /* === the list ================================================================================= */
 
 /* === binary points and shifts ================================================================= */
-/* The binary point of each value, and the shifts that follow. */
 
 /* Points beyond these are for numbers that no mechanism has. */
 enum { BITS_LEAST = -60, BITS_MOST = 90 };

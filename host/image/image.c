@@ -6,7 +6,6 @@
 #include "host/base/alloc.h"
 
 /* === turned or looked up ====================================================================== */
-/* The choice of the form of a scene's step. */
 
 #define IMAGE_ANGLES_WORD(id, word) word,
 const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ANGLES_WORD)};

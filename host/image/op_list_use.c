@@ -11,7 +11,6 @@
 static void op_list_renumber(op_list *t, const int *order, const int *number);
 
 /* === dependencies between operations ========================================================== */
-/* The cost of a list, and of its order. */
 
 /* Single-precision registers of an Arm or RISC-V FPU for a list: 32, less those of the surrounding step. */
 enum { OP_LIST_REGISTERS = 20 };

@@ -1,7 +1,4 @@
-/* gnuplot.c: the colours and point shapes of all pictures, on white and dark pages. Every line colour has a contrast of
- * 3:1 (WCAG 2.1, 1.4.11) with both backgrounds. Any two differ by 11 (CIEDE2000), in normal vision and with each kind
- * of colour blindness (Machado, Oliveira and Fernandes, 2009). tests/host/test_plot.c computes both.
- * mk/curves/chart.sh also reads the rows of lines. */
+/* gnuplot.c: pictures by gnuplot, and quoting of text for it. */
 #include "host/io/gnuplot.h"
 
 #include <stdlib.h>
@@ -9,8 +6,6 @@
 
 #include "host/os/atomic_file.h"
 #include "host/os/system.h"
-
-/* === gnuplot ================================================================================== */
 
 static const char *ending_of(const char *file) {
     const char *dot = strrchr(file, '.');

@@ -1,4 +1,4 @@
-/* plot.c: gnuplot commands for the curves of runs. */
+/* plot.c: curves of runs: their data, a choice of quantities, and the commands for gnuplot. */
 #include "host/io/plot.h"
 
 #include <ctype.h>

@@ -1,4 +1,4 @@
-/* records.c: writing a run as comma-separated values or plain columns. */
+/* records.c: records of a run: comma-separated values, plain columns, and waves. */
 #include "host/io/records.h"
 
 #include <math.h>
@@ -164,7 +164,7 @@ bool records_write(const records *r) {
     return csv_written && plain_written;
 }
 
-/* === traces =================================================================================== */
+/* === waves of a run =========================================================================== */
 
 /* Doubles know whole numbers to twice this. */
 #define TICKS_MOST 0x1p52

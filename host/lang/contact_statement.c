@@ -1,4 +1,4 @@
-/* contact_statement.c: the parser of stop, friction and hold; `when` has its own file. */
+/* contact_statement.c: the parser of stop, friction, hold and when. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* parser.c: the symbols of one mechanism, found by name. */
+/* parser.c: the parser's state: the symbols of a mechanism, and the token in hand. */
 #include "host/lang/parser.h"
 
 #include <ctype.h>

@@ -1,4 +1,4 @@
-/* value.c: the units of displayed numbers: the declared unit, or SI. */
+/* value.c: values of constant expressions, and the units in which values are shown. */
 #include "host/lang/value.h"
 
 #include <math.h>

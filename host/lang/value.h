@@ -1,4 +1,4 @@
-/* value.h: evaluation of constant expressions. */
+/* value.h: values of constant expressions, and the units in which values are shown. */
 #ifndef LANG_VALUE_H
 #define LANG_VALUE_H
 

@@ -1,4 +1,4 @@
-/* words.c: the kinds of symbols, terms and contacts, and their names in messages. */
+/* words.c: the words of the language, and names of kinds in messages. */
 #include "host/lang/words.h"
 
 #include <string.h>

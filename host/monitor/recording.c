@@ -1,4 +1,4 @@
-/* recording.c: the schema of a rig's telemetry, as the rig describes it (`tel schema`). */
+/* recording.c: the recording of a rig's telemetry by the schema that the rig describes (`tel schema`). */
 #include "host/monitor/recording.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* ratio.c: unsigned integers of 128 bits, for compilers without them (all for 32 bits). */
+/* ratio.c: fractions of whole numbers, and the wide integers that compare them. */
 #include "host/number/ratio.h"
 
 #include <math.h>

@@ -13,7 +13,6 @@
 #include "host/number/functions.h"
 
 /* === faults of readings ======================================================================= */
-/* Faults of sensors, the load cell and the line. */
 
 /* A new random number from 0 to below 1. */
 static double fault_draw(const fault_plan *plan, fault_case *f) {
@@ -223,7 +222,6 @@ static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_re
 }
 
 /* === when faults begin and end ================================================================ */
-/* Their effect on the plant and on orders. */
 
 /* The scene's input of a fault, and the change of its normal value. */
 static const struct {

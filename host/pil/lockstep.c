@@ -1,4 +1,4 @@
-/* lockstep.c: the exchange of firmware and plant in turns. */
+/* lockstep.c: the exchange of frames between firmware and plant, in turns. */
 #include "host/pil/lockstep.h"
 
 #include <math.h>

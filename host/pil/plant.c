@@ -1,4 +1,4 @@
-/* plant.c: sensors and actuators of a scene. */
+/* plant.c: a scene as the hardware of a controller: signals, sensors, actuators, records. */
 #include "host/pil/plant.h"
 
 #include <math.h>

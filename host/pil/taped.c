@@ -14,7 +14,7 @@
 #include "host/os/guest.h"
 #include "host/pil/lockstep.h"
 
-/* === taped ==================================================================================== */
+/* === the reader =============================================================================== */
 /* A tape has the frames of the line in order: hello, then readings and orders in turns; hello and a reset after each
  * restart of the firmware. */
 
@@ -197,7 +197,6 @@ static bool taped_next(taped *t, taped_turn *turn) {
 }
 
 /* === a tape as a table ======================================================================== */
-/* A tape as a table: one row for each input and output of the firmware. */
 
 /* The state of the table's rows. */
 typedef struct rows {
@@ -353,7 +352,6 @@ bool taped_show(const char *name, const char *csv) {
 }
 
 /* === a tape in the place of the plant ========================================================= */
-/* A tape in place of the plant. */
 
 static void say_difference(const wh_orders *kept, const wh_orders *now, const talk *t) {
     fprintf(stderr, "whirl pil: error: exchange %llu, t = %.6f s: other orders than on the tape\n",

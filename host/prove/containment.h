@@ -71,7 +71,6 @@ containment_found containment_run(const containment_wish *w);
 void containment_free(containment_found *h);
 
 /* === in words ================================================================================= */
-/* The results for a run, in words and in rows. */
 
 void containment_print(FILE *out, const containment_found *h, const containment_wish *w);
 

@@ -1,4 +1,4 @@
-/* graph.c: the graph of operations. */
+/* graph.c: the graph of operations, its derivatives, and its nodes for a model's expressions. */
 #include "host/prove/graph.h"
 
 #include <math.h>
@@ -273,7 +273,6 @@ int graph_power(graph *g, int a, enclosure exponent) {
 }
 
 /* === derivatives ============================================================================== */
-/* Derivatives of a graph's nodes, and nodes with zeros substituted. */
 
 /* The results for the nodes visited so far. New nodes appear meanwhile, but only earlier ones are looked up. */
 typedef struct rewriting {

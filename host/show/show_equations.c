@@ -1,4 +1,4 @@
-/* show_equations.c: the equations of motion and the first-order form, for screen and paper. */
+/* show_equations.c: the equations of motion, events and derivation, for screen and paper. */
 #include "host/show/show_equations.h"
 
 #include <ctype.h>
@@ -434,7 +434,7 @@ static void show_contacts(const show *s, const equations *e) {
 
 /* === the equations ============================================================================ */
 
-/* === step by step ============================================================================= */
+/* === the derivation, step by step ============================================================= */
 /* Lagrange's equations step by step, one coordinate after another, as in a derivation by hand. */
 
 /* d/dt of the momentum: the mass matrix times the accelerations, plus the terms of the rates. equations.h combines the
