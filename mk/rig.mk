@@ -64,9 +64,7 @@ rig-worst: $(PLUGIN) ##- the longest control steps of the last make faults BOARD
 # What the last campaign on this machine found, between the marks of docs/dev/rig.md.
 faults-page: ##- docs/dev/rig.md shows what the last make faults found
 	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
-	@awk '/<!-- faults: end -->/ { held = 0 } !held { print } \
-	    /<!-- faults: begin -->/ { held = 1; print ""; while ((getline line <"build/faults.md") > 0) print line; print "" }' \
-	    docs/dev/rig.md >build/rig_page.md && cp build/rig_page.md docs/dev/rig.md
+	@mk/price/into_page.sh build/faults.md docs/dev/rig.md faults
 
 # The suites that ask the rig's controller, in a program of their own: what a change of the controller takes to be asked.
 RIG_SUITES := $(patsubst tests/core/test_%.c,%,$(sort $(wildcard $(addprefix tests/core/test_,rig*.c virtual_rig*.c lockin*.c station*.c))))
