@@ -37,25 +37,20 @@ fi
         w = $4; rate = $5 - $4; phi = $3 - $2
         p = (b + a * cos(phi)) * w + b * rate
         L = (a + b + 2 * a * cos(phi)) * w + (b + a * cos(phi)) * rate
-        kinetic = (a * w * w + b * $5 * $5) / 2 + a * w * $5 * cos(phi)
-        swing = kinetic - L * L / (2 * (3 * a + b))
         # a cycle is from one upward passage of phi = 0 to the next
-        if (n > 0 && before < 0 && phi >= 0) {
-            part = -before / (phi - before)
-            area += (p_before + p) / 2 * part * (phi - before)
+        ends = n++ > 0 && before < 0 && phi >= 0
+        part = ends ? -before / (phi - before) : 1
+        area += (p_before + p) / 2 * part * (phi - before)
+        if (ends) {
             crossed = $1 - (1 - part) * 0.001
-            if (since != "") {
-                printf "%.6f,%.6f,%.8f,%.8f\n", (since + crossed) / 2, (high - low) / 2, area,
-                    sum / points
-            }
+            if (since != "") printf "%.6f,%.6f,%.8f,%.8f\n", (since + crossed) / 2, (high - low) / 2, area, sum / points
             since = crossed
             area = (p_before + p) / 2 * (1 - part) * (phi - before)
             high = low = sum = points = 0
-        } else {
-            area += (p_before + p) / 2 * (phi - before)
         }
         if (phi > high) high = phi
         if (phi < low) low = phi
-        sum += swing; points++; n++
+        sum += (a * w * w + b * $5 * $5) / 2 + a * w * $5 * cos(phi) - L * L / (2 * (3 * a + b))
+        points++
         before = phi; p_before = p
     }'
