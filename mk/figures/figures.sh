@@ -28,29 +28,23 @@ figures=$*
 mkdir -p "$out/data"
 trap 'rm -f "$out"/data/*.records' EXIT
 
-# record FIGURE KIND NAME WORDS...: make OUT/data/….csv unless another figure has, and print its path.
+# record KIND NAME WORDS...: make OUT/data/….csv unless another figure has, and print its path.
 # Files are named after the command, so that figures share their runs.
 record() {
-    kind=$2
-    shift 3
+    kind=$1
+    shift 2
     file=$out/data/$kind-$(printf '%s' "$*" | tr -c 'A-Za-z0-9.\n' '_').csv
+    raw=$file.raw status=0
     if [ ! -s "$file" ]; then
-        rm -f "$file.raw" "$file.raw.sweep" # a sweep would go on with it
+        rm -f "$raw" "$raw.sweep" # a sweep would go on with it
         case $kind in
-        run) "$whirl" run "$@" --strict=off --quiet --csv "$file.raw" ;;
-        sweep) "$whirl" sweep "$@" --strict=off --csv "$file.raw" >/dev/null ;;
-        table)
-            script=$1
-            shift
-            sh "$here/$script" "$whirl" "$@" >"$file.raw"
-            ;;
-        esac || {
-            rm -f "$file.raw" "$file.raw.sweep" "$file.raw.toml"
-            echo "figures.sh: cannot $kind $*" >&2
-            return 1
-        }
-        tr -d '\r' <"$file.raw" >"$file"
-        rm -f "$file.raw" "$file.raw.sweep" "$file.raw.toml"
+        run) "$whirl" run "$@" --strict=off --quiet --csv "$raw" ;;
+        sweep) "$whirl" sweep "$@" --strict=off --csv "$raw" >/dev/null ;;
+        table) script=$1 && shift && sh "$here/$script" "$whirl" "$@" >"$raw" ;;
+        esac || status=$?
+        [ $status -ne 0 ] || tr -d '\r' <"$raw" >"$file"
+        rm -f "$raw" "$raw.sweep" "$raw.toml"
+        [ $status -eq 0 ] || { echo "figures.sh: cannot $kind $*" >&2; return 1; }
     fi
     printf '%s\n' "$file"
 }
@@ -60,7 +54,7 @@ for fig in $figures; do
     grep -E '^(run|sweep|table) ' "$fig" >"$out/data/$name.records" || true
     set --
     while read -r kind label words; do
-        file=$(eval "record \"$fig\" $kind $label $words") # the words may be quoted
+        file=$(eval "record $kind $label $words") # the words may be quoted
         set -- "$@" --data "$label=$file"
     done <"$out/data/$name.records"
     for kind in svg png; do
