@@ -358,25 +358,22 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         const int chosen = options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);
         *bad = chosen < 0;
         o->as = chosen < 0 ? o->as : &forms[chosen];
-    } else if (!*bad && (value = options_value(count, words, at, "--header", bad)) != NULL) {
-        o->header = value;
     } else if (!*bad && (value = options_value(count, words, at, "--name", bad)) != NULL) {
         *bad = !take_name(&o->common.change, value);
-    } else if (!*bad && strcmp(words[*at], "--steps") == 0) {
-        o->steps = true;
-        value = words[(*at)++];
-    } else if (!*bad && strcmp(words[*at], "--folded") == 0) {
-        o->folded = true;
-        value = words[(*at)++];
     }
     return value != NULL;
 }
 
 static bool read_options(int count, char **words, derive_options *o) {
-    static const char *const own[] = {"--as", "--header", "--name", "--steps", "--folded", NULL};
+    static const char *const other[] = {"--as", "--name", NULL};
+    const own_option own[] = {{.word = "--header", .text = &o->header},
+                              {.word = "--steps", .flag = &o->steps},
+                              {.word = "--folded", .flag = &o->folded},
+                              {.word = NULL}};
     const target_reader reader = {.command = "derive",
                                   .groups = options_of_derive.groups,
-                                  .own = own,
+                                  .table = own,
+                                  .own = other,
                                   .take = take_one,
                                   .derives = true};
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
