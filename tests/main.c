@@ -2,8 +2,6 @@
  * ("suite_lang lang") and runs only those; a name that is none of them ends it with status 2. */
 #include "tests/suites.h"
 
-#include "unity.h"
-
 #if __STDC_HOSTED__
 #include <stdbool.h>
 #include <stdio.h>

@@ -2,6 +2,8 @@
 #ifndef TESTS_SUITES_H
 #define TESTS_SUITES_H
 
+#include "unity.h"
+
 struct suite {
     const char *name;
     const char *file; /* that defines it: what its lines begin with */

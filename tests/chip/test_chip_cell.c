@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "core/rig/guard.h"
 #include "hal/loadcell.h"
@@ -10,8 +10,6 @@
 #include "hal/settings.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_cell(void);
 
 #define PI 3.14159265358979323846
 #define MIDDLE_V 1.65
@@ -102,7 +100,7 @@ static void begin(uint64_t seed) {
 }
 
 /* Amplitude to 0.05 %, stamps to 1.5 us. Frequencies are the rig's, and ones at which a plain mean would be a percent low. */
-static void test_sines(void) {
+TEST(chip_cell, sines) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
         turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
@@ -133,7 +131,7 @@ static double parabola(double s) {
     const double t = s - bend_from;
     return 0.3 + 15000.0 * t * t;
 }
-static void test_parabolas(void) {
+TEST(chip_cell, parabolas) {
     for (unsigned i = 0; i < 10; i++) {
         begin(40U + i);
         chip_pass(scattered() % (2000U * CHIP_UNITS_PER_US));
@@ -162,7 +160,7 @@ static double level(double s) {
     (void)s;
     return level_V;
 }
-static void test_ends(void) {
+TEST(chip_cell, ends) {
     begin(60);
     chip_cell_V = level;
     /* a broken wire leaves the pin's leakage; an amplifier does not quite reach its rails */
@@ -220,13 +218,13 @@ static void clipped_at(double V) {
     TEST_ASSERT_TRUE(marked >= 7);
 }
 
-static void test_clipped_for_a_moment(void) {
+TEST(chip_cell, clipped_for_a_moment) {
     clipped_at(4.0);
     clipped_at(0.0);
 }
 
 /* At least four are buffered; the newest are lost. */
-static void test_kept(void) {
+TEST(chip_cell, kept) {
     begin(62);
     run_take();
     got_count = 0;
@@ -244,7 +242,7 @@ static void erase(void) { (void)hal_settings_erase(0); }
 
 /* The core stops at any instant for any time (erase, debugger). A sample reported as good is still the force at its stamp. */
 static double ramp(double s) { return 0.4 + 2.4 * fabs(remainder(s, 1.0)); }
-static void test_core_that_stood(void) {
+TEST(chip_cell, core_that_stood) {
     for (unsigned i = 0; i < 30; i++) {
         begin(70U + i);
         chip_cell_V = ramp;
@@ -278,7 +276,7 @@ static void test_core_that_stood(void) {
 
 /* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no sample follows, right or wrong. The
  * controller sees a silent cell. A reset restores the samples. */
-static void test_overrun(void) {
+TEST(chip_cell, overrun) {
     begin(110);
     chip_cell_V = ramp;
     chip_pass_us(10000);
@@ -299,7 +297,7 @@ static void test_overrun(void) {
 }
 
 /* Also on the chip's internal oscillator: a pair is converted before the next request, and the force is right. */
-static void test_fallback(void) {
+TEST(chip_cell, fallback) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(111);
     world.crystal = false;
@@ -318,7 +316,7 @@ static void test_fallback(void) {
 /* The supply channel: its value within the last 2 ms. */
 static float supply;
 static void read_supply(void) { supply = hal_motor_supply_V(); }
-static void test_supply(void) {
+TEST(chip_cell, supply) {
     begin(120);
     for (unsigned i = 0; i < 30; i++) {
         chip_supply_V = (double)(scattered() % 3200U) / 100.0;
@@ -330,7 +328,7 @@ static void test_supply(void) {
 
 /* Any supply up to 60 V over a divider of 1 % resistors (1.8 % of its ratio). The guard accepts 12 to 30 V, and nothing above
  * 31.5 V plus that error, by its own limit or by any setting. */
-static void test_supplies(void) {
+TEST(chip_cell, supplies) {
     wh_guard_config guard = {.supply_min_V = 10.8F, .supply_max_V = hal_motor_supply_most_V()};
     begin(121);
     for (unsigned i = 0; i < 200; i++) {
@@ -348,17 +346,4 @@ static void test_supplies(void) {
                                      .supply_max_V = 31.5F + (float)(scattered() % 28501U) / 1e3F};
         TEST_ASSERT_TRUE(chip_supply_V < 32.9 || !wh_guard_supply(&set, supply));
     }
-}
-
-void suite_chip_cell(void) {
-    RUN_TEST(test_sines);
-    RUN_TEST(test_parabolas);
-    RUN_TEST(test_ends);
-    RUN_TEST(test_clipped_for_a_moment);
-    RUN_TEST(test_kept);
-    RUN_TEST(test_core_that_stood);
-    RUN_TEST(test_overrun);
-    RUN_TEST(test_fallback);
-    RUN_TEST(test_supply);
-    RUN_TEST(test_supplies);
 }

@@ -1,13 +1,11 @@
 /* test_chip_clock.c: start and time of the STM32F405 on the chip model. Every limit of clock tree and flash holds at every
  * instant, and a dead clock delays the start only briefly. */
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "boards/stm32f4/registers.h"
 #include "hal/motor.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_clock(void);
 
 static hal_start how;
 static uint32_t ticks;
@@ -24,7 +22,7 @@ static double ppm_over(double s) {
     return ((double)(ticks - before) / us - 1.0) * 1e6;
 }
 
-static void test_crystals_that_start(void) {
+TEST(chip_clock, crystals_that_start) {
     scattered_state = chip_seed(1);
     for (unsigned i = 0; i < 20; i++) {
         chip_wired(scattered());
@@ -59,20 +57,20 @@ static void fallback_is_taken(uint64_t most_ms) {
     TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
 }
 
-static void test_no_crystal(void) {
+TEST(chip_clock, no_crystal) {
     chip_wired(2);
     world.crystal = false;
     fallback_is_taken(1000);
 }
 
-static void test_no_lock(void) {
+TEST(chip_clock, no_lock) {
     chip_wired(3);
     world.pll = false;
     fallback_is_taken(1000);
 }
 
 /* A slow crystal against the driver's timeout: one source or the other, and all limits hold. */
-static void test_crystals_that_are_late(void) {
+TEST(chip_clock, crystals_that_are_late) {
     scattered_state = chip_seed(7);
     unsigned taken = 0;
     for (unsigned i = 0; i < 30; i++) {
@@ -112,7 +110,7 @@ static void loader(void) {
     reg_store(RCC_AT(0x30U), 0x00100007U);
     (void)reg_load(RCC_AT(0x30U));
 }
-static void test_behind_a_loader(void) {
+TEST(chip_clock, behind_a_loader) {
     scattered_state = chip_seed(8);
     for (unsigned i = 0; i < 14; i++) {
         chip_wired(30 + i);
@@ -129,7 +127,7 @@ static void test_behind_a_loader(void) {
     }
 }
 
-static void test_from_every_reset(void) {
+TEST(chip_clock, from_every_reset) {
     static const chip_cause causes[] = {CHIP_BY_DIP, CHIP_BY_PIN, CHIP_BY_WATCHDOG,
                                         CHIP_BY_SOFTWARE};
     for (unsigned i = 0; i < sizeof causes / sizeof *causes; i++) {
@@ -146,7 +144,7 @@ static uint32_t target;
 static void wait_there(void) { hal_clock_wait_until(target); }
 
 /* Never early, at most 0.1 ms late, also over the timer's wrap and with interrupts. */
-static void test_waits(void) {
+TEST(chip_clock, waits) {
     scattered_state = chip_seed(5);
     chip_on(5);
     for (unsigned i = 0; i < 60; i++) {
@@ -176,7 +174,7 @@ static void drive(void) {
 }
 
 /* A crystal that stops while the motor turns: the hardware pulls the output low before the NMI. */
-static void test_crystal_dies(void) {
+TEST(chip_clock, crystal_dies) {
     scattered_state = chip_seed(6);
     for (unsigned i = 0; i < 10; i++) {
         chip_on(scattered());
@@ -197,15 +195,4 @@ static void test_crystal_dies(void) {
         TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 13));
         TEST_ASSERT_EQUAL_STRING("none", chip_violation());
     }
-}
-
-void suite_chip_clock(void) {
-    RUN_TEST(test_crystals_that_start);
-    RUN_TEST(test_no_crystal);
-    RUN_TEST(test_no_lock);
-    RUN_TEST(test_crystals_that_are_late);
-    RUN_TEST(test_behind_a_loader);
-    RUN_TEST(test_from_every_reset);
-    RUN_TEST(test_waits);
-    RUN_TEST(test_crystal_dies);
 }

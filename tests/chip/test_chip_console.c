@@ -1,13 +1,11 @@
 /* test_chip_console.c: the console on the chip model, both ways, at 115,200 baud and random times. */
 #include <string.h>
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "hal/console.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_console(void);
 
 static char bytes[4096];
 static unsigned room, count;
@@ -19,7 +17,7 @@ static void run(void (*what)(void)) {
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
 
-static void test_rate(void) {
+TEST(chip_console, rate) {
     chip_on(1);
     TEST_ASSERT_DOUBLE_WITHIN(
         0.005, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
@@ -33,7 +31,7 @@ static void test_rate(void) {
 }
 
 /* A write waits until all is sent, an offer does not. Bytes arrive in order, each once, in bursts, with or without pauses. */
-static void test_out(void) {
+TEST(chip_console, out) {
     static uint8_t mine[16384];
     scattered_state = chip_seed(2);
     chip_on(3);
@@ -67,7 +65,7 @@ static void test_out(void) {
 }
 
 /* The same with long delays between accesses and incoming bytes, so that interrupts come in between. */
-static void test_out_between_accesses(void) {
+TEST(chip_console, out_between_accesses) {
     scattered_state = chip_seed(10);
     chip_on(10);
     const unsigned from = chip_serial_sent();
@@ -96,7 +94,7 @@ static void test_out_between_accesses(void) {
 }
 
 /* Continuous offers never let the line idle: at least 11,000 bytes per second. */
-static void test_out_is_full(void) {
+TEST(chip_console, out_is_full) {
     chip_on(4);
     const unsigned from = chip_serial_sent();
     for (unsigned i = 0; i < 100; i++) {
@@ -109,7 +107,7 @@ static void test_out_is_full(void) {
 
 /* Bytes arrive in order, and none is lost if read each control step. After a framing error or noise a zero stands for the byte,
  * except Escape. */
-static void test_in(void) {
+TEST(chip_console, in) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);
     chip_on(5);
@@ -140,7 +138,7 @@ static void test_in(void) {
     TEST_ASSERT_EQUAL(made, got);
 }
 
-static void test_both(void) {
+TEST(chip_console, both) {
     scattered_state = chip_seed(6);
     chip_on(6);
     const unsigned from = chip_serial_sent();
@@ -225,11 +223,11 @@ static void lost(bool held) {
         TEST_ASSERT_EQUAL_MESSAGE(251U, seen[got - 1U], "what comes behind is lost, too");
     }
 }
-static void test_nobody_reads(void) {
+TEST(chip_console, nobody_reads) {
     scattered_state = chip_seed(7);
     lost(false);
 }
-static void test_core_that_stood(void) {
+TEST(chip_console, core_that_stood) {
     scattered_state = chip_seed(8);
     lost(true);
 }
@@ -242,7 +240,7 @@ static void write_held(void) {
     hal_console_write(bytes, room);
     reg_go_on(before);
 }
-static void test_from_a_fault(void) {
+TEST(chip_console, from_a_fault) {
     scattered_state = chip_seed(9);
     for (unsigned i = 0; i < 20; i++) {
         chip_on(scattered());
@@ -263,16 +261,4 @@ static void test_from_a_fault(void) {
         TEST_ASSERT_EQUAL(100, faults);
         TEST_ASSERT_TRUE(chip_serial_sent() <= from + 100U + before);
     }
-}
-
-void suite_chip_console(void) {
-    RUN_TEST(test_rate);
-    RUN_TEST(test_out);
-    RUN_TEST(test_out_between_accesses);
-    RUN_TEST(test_out_is_full);
-    RUN_TEST(test_in);
-    RUN_TEST(test_both);
-    RUN_TEST(test_nobody_reads);
-    RUN_TEST(test_core_that_stood);
-    RUN_TEST(test_from_a_fault);
 }

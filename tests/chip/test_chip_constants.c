@@ -6,11 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "boards/stm32f4/rm0090.h"
-
-void suite_chip_constants(void);
 
 /* Bases by the second source's names. */
 #define APB1 0x40000000U
@@ -221,13 +219,13 @@ static const struct {
     ROW(NVIC_ICER(0U), 0xE000E180U),
 };
 
-static void test_values(void) {
+TEST(chip_constants, values) {
     for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
         TEST_ASSERT_EQUAL_HEX32_MESSAGE(rows[i].theirs, rows[i].ours, rows[i].name);
     }
 }
 
-static void test_interrupts(void) {
+TEST(chip_constants, interrupts) {
     static const struct {
         const char *name;
         unsigned number;
@@ -243,7 +241,7 @@ static void test_interrupts(void) {
 }
 
 /* Every #define of the header has a row here. */
-static void test_every_one_has_a_row(void) {
+TEST(chip_constants, every_one_has_a_row) {
     FILE *file = fopen("boards/stm32f4/rm0090.h", "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, "to be run from the project's root");
     char line[256];
@@ -265,10 +263,4 @@ static void test_every_one_has_a_row(void) {
     }
     (void)fclose(file);
     TEST_ASSERT_TRUE(seen > 150);
-}
-
-void suite_chip_constants(void) {
-    RUN_TEST(test_values);
-    RUN_TEST(test_interrupts);
-    RUN_TEST(test_every_one_has_a_row);
 }

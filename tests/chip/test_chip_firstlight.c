@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "boards/cortexm/cortexm.h"
 #include "hal/loadcell.h"
@@ -14,7 +14,6 @@
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
 
-void suite_chip_firstlight(void);
 int firstlight_main(void);
 
 #define RUN_UNITS (CHIP_UNITS_PER_S * 3U) /* two seconds, and the record's output */
@@ -74,7 +73,7 @@ static void numbers(const char *name, int count, int *const *number) {
 static double cell_V;
 static double level_of_cell(double s) { return cell_V + 0.002 * sin(s * 3000.0); }
 
-static void test_drawn_worlds(void) {
+TEST(chip_firstlight, drawn_worlds) {
     char first[LIGHT_ROOM] = "";
     scattered_state = chip_seed(20);
     for (unsigned i = 0; i < 5; i++) {
@@ -146,7 +145,7 @@ static void test_drawn_worlds(void) {
     }
 }
 
-static void test_again(void) {
+TEST(chip_firstlight, again) {
     static char said[LIGHT_ROOM];
     chip_wired(120);
     world.access_cycles = ACCESS_CYCLES(true);
@@ -172,9 +171,4 @@ static void test_again(void) {
     TEST_ASSERT_EQUAL_MESSAGE(0, sent % 2U, "two records");
     read_record(once + sent / 2U);
     TEST_ASSERT_EQUAL_STRING(said, l.text);
-}
-
-void suite_chip_firstlight(void) {
-    RUN_TEST(test_drawn_worlds);
-    RUN_TEST(test_again);
 }

@@ -1,7 +1,7 @@
 /* test_chip_motor.c: the motor's PWM, enable and break at the pins of the chip model. */
 #include <math.h>
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "boards/stm32f4/stm32f4.h"
 #include "hal/motor.h"
@@ -9,8 +9,6 @@
 #include "hal/watchdog.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_motor(void);
 
 static float volts;
 static hal_motor_off_way way;
@@ -63,7 +61,7 @@ static void is_low_for(uint64_t units) {
 static bool enabled(void) { return chip_pin('B', 14) == CHIP_HIGH; }
 
 /* Low in reset and before any start, also if off is called then. */
-static void test_before_the_start(void) {
+TEST(chip_motor, before_the_start) {
     chip_wired(1);
     chip_reset(CHIP_BY_POWER);
     is_low_for(PERIOD_UNITS);
@@ -89,7 +87,7 @@ static void leave_levels(void) {
     (void)reg_load(0x40023830U);
     reg_store(0x40020414U, left_levels); /* GPIOB_ODR */
 }
-static void test_through_the_start(void) {
+TEST(chip_motor, through_the_start) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 12; i++) {
         hal_start how = HAL_START_NO_TIMER;
@@ -103,7 +101,7 @@ static void test_through_the_start(void) {
     }
 }
 
-static void test_duty(void) {
+TEST(chip_motor, duty) {
     scattered_state = chip_seed(3);
     for (unsigned chips = 0; chips < 6; chips++) {
         chip_on(scattered());
@@ -123,7 +121,7 @@ static void test_duty(void) {
     }
 }
 
-static void test_what_is_out_of_range(void) {
+TEST(chip_motor, what_is_out_of_range) {
     static const struct {
         float volts;
         unsigned high;
@@ -152,7 +150,7 @@ static void first_store(void) {
         is_low_for(PERIOD_UNITS);
     }
 }
-static void test_off_at_once(void) {
+TEST(chip_motor, off_at_once) {
     scattered_state = chip_seed(5);
     chip_on(5);
     chip_pass_us(10000);
@@ -181,7 +179,7 @@ static void fault_stores(void) {
 #define SAFE_STORE(address, value) reg_store((address), (value));
     BOARD_SAFE_ROWS(SAFE_STORE)
 }
-static void test_fault_from_anywhere(void) {
+TEST(chip_motor, fault_from_anywhere) {
     scattered_state = chip_seed(11);
     for (unsigned i = 0; i < 12; i++) {
         chip_on(scattered());
@@ -198,7 +196,7 @@ static void test_fault_from_anywhere(void) {
 }
 
 /* Stop or the drive stage's fault pulls the output low without software, until the next off, for any pulse length and order. */
-static void test_break(void) {
+TEST(chip_motor, break) {
     scattered_state = chip_seed(6);
     chip_on(6);
     chip_pass_us(10000);
@@ -237,7 +235,7 @@ static void test_break(void) {
 }
 
 /* An order given while stop is pressed has no effect on release. It takes an off and another start. */
-static void test_ordered_while_pressed(void) {
+TEST(chip_motor, ordered_while_pressed) {
     chip_on(7);
     chip_pass_us(10000);
     chip_pin_drive('A', 6, CHIP_LOW);
@@ -259,7 +257,7 @@ static void test_ordered_while_pressed(void) {
 }
 
 /* Stop was pressed for less than a step since the last off (one per step while the motor is off): a start has no effect. */
-static void test_pressed_before_a_start(void) {
+TEST(chip_motor, pressed_before_a_start) {
     scattered_state = chip_seed(14);
     chip_on(14);
     chip_pass_us(10000);
@@ -283,7 +281,7 @@ static void test_pressed_before_a_start(void) {
 }
 
 /* A voltage has no effect before a start and after each off. */
-static void test_voltage_alone(void) {
+TEST(chip_motor, voltage_alone) {
     scattered_state = chip_seed(12);
     chip_on(12);
     chip_pass_us(10000);
@@ -305,7 +303,7 @@ static void off_behind(void) {
     chip_stored = NULL;
     hal_motor_off(way);
 }
-static void test_off_from_an_interrupt(void) {
+TEST(chip_motor, off_from_an_interrupt) {
     scattered_state = chip_seed(13);
     chip_on(13);
     chip_pass_us(10000);
@@ -327,7 +325,7 @@ static void test_off_from_an_interrupt(void) {
 
 /* A start is atomic: an interrupt that switches off comes before its first store or after its last. */
 static void is_held(void) { TEST_ASSERT_TRUE_MESSAGE(chip_is_masked(), "an off may come between"); }
-static void test_start_is_whole(void) {
+TEST(chip_motor, start_is_whole) {
     chip_on(15);
     chip_pass_us(10000);
     for (unsigned i = 0; i < 10; i++) {
@@ -340,7 +338,7 @@ static void test_start_is_whole(void) {
     }
 }
 
-static void test_no_supply(void) {
+TEST(chip_motor, no_supply) {
     chip_on(8);
     chip_supply_V = 0.0;
     chip_pass_us(10000);
@@ -355,7 +353,7 @@ static void test_no_supply(void) {
  * watchdog's reset. Settings that a debugger left before the start change nothing. */
 static void freeze_watchdog(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 static void watch(void) { hal_watchdog_start(20000); }
-static void test_debugger(void) {
+TEST(chip_motor, debugger) {
     scattered_state = chip_seed(9);
     for (unsigned i = 0; i < 20; i++) {
         hal_start how = HAL_START_NO_TIMER;
@@ -383,7 +381,7 @@ static void test_debugger(void) {
 }
 
 /* Each reset, at any instant: both pins float, and the resistors hold them low. */
-static void test_reset_at_any_instant(void) {
+TEST(chip_motor, reset_at_any_instant) {
     scattered_state = chip_seed(10);
     for (unsigned i = 0; i < 12; i++) {
         chip_on(scattered());
@@ -394,22 +392,4 @@ static void test_reset_at_any_instant(void) {
         is_low_for(PERIOD_UNITS);
         TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
     }
-}
-
-void suite_chip_motor(void) {
-    RUN_TEST(test_before_the_start);
-    RUN_TEST(test_through_the_start);
-    RUN_TEST(test_duty);
-    RUN_TEST(test_what_is_out_of_range);
-    RUN_TEST(test_off_at_once);
-    RUN_TEST(test_fault_from_anywhere);
-    RUN_TEST(test_break);
-    RUN_TEST(test_ordered_while_pressed);
-    RUN_TEST(test_pressed_before_a_start);
-    RUN_TEST(test_voltage_alone);
-    RUN_TEST(test_off_from_an_interrupt);
-    RUN_TEST(test_start_is_whole);
-    RUN_TEST(test_no_supply);
-    RUN_TEST(test_debugger);
-    RUN_TEST(test_reset_at_any_instant);
 }

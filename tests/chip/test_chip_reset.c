@@ -1,11 +1,9 @@
 /* test_chip_reset.c: the reset cause and the brown-out level on the chip model. */
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "hal/reset.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_reset(void);
 
 static hal_start how;
 static hal_reset cause;
@@ -23,7 +21,7 @@ static void start_and_ask(void) {
     TEST_ASSERT_TRUE(length > 0 && length < sizeof words && words[length] == 0);
 }
 
-static void test_causes(void) {
+TEST(chip_reset, causes) {
     static const hal_reset told[] = {[CHIP_BY_POWER] = HAL_RESET_POWER_ON,
                                      [CHIP_BY_DIP] = HAL_RESET_SUPPLY,
                                      [CHIP_BY_PIN] = HAL_RESET_OTHER,
@@ -41,7 +39,7 @@ static void test_causes(void) {
     }
 }
 
-static void test_words_are_cut(void) {
+TEST(chip_reset, words_are_cut) {
     chip_on(2);
     for (unsigned room = 1; room < 20; room++) {
         words[room] = 'x';
@@ -54,7 +52,7 @@ static void test_words_are_cut(void) {
 #define LEVEL(options) ((options) >> 2 & 3U) /* BOR_LEV: 0 is level 3, 3 is off (3.9.10) */
 
 /* From any level to level 3. Other option bytes do not change (a violation otherwise), and it is written once. */
-static void test_brown_out(void) {
+TEST(chip_reset, brown_out) {
     chip_wired(3);
     chip_reset(CHIP_BY_POWER);
     TEST_ASSERT_EQUAL(3, LEVEL(chip_option_bytes()));
@@ -73,7 +71,7 @@ static void test_brown_out(void) {
 }
 
 /* Power fails at any instant of the write: the next start repairs it. */
-static void test_brown_out_torn(void) {
+TEST(chip_reset, brown_out_torn) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 15; i++) {
         chip_wired(scattered());
@@ -85,11 +83,4 @@ static void test_brown_out_torn(void) {
         start_and_ask();
         TEST_ASSERT_EQUAL_HEX32(0x0FFFAAE0U, chip_option_bytes());
     }
-}
-
-void suite_chip_reset(void) {
-    RUN_TEST(test_causes);
-    RUN_TEST(test_words_are_cut);
-    RUN_TEST(test_brown_out);
-    RUN_TEST(test_brown_out_torn);
 }

@@ -2,15 +2,13 @@
  * any instant leaves the old content or the new. */
 #include <string.h>
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "core/station/store.h"
 #include "hal/clock.h"
 #include "hal/settings.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_settings(void);
 
 #define SLOT_AT(slot) (0x08004000U + 0x4000U * (slot)) /* sectors 1 and 2 (RM0090, table 5) */
 
@@ -42,7 +40,7 @@ static void run(void (*what)(void)) {
 }
 
 /* Both slots against the test's own memory, through erases and writes of any length; nothing else changes. */
-static void test_slots(void) {
+TEST(chip_settings, slots) {
     static uint8_t mine[2][HAL_SETTINGS_BYTES];
     scattered_state = chip_seed(1);
     chip_clocks_on(1);
@@ -91,7 +89,7 @@ static void test_slots(void) {
     }
 }
 
-static void test_refused(void) {
+TEST(chip_settings, refused) {
     chip_clocks_on(2);
     for (slot = 0; slot < 2; slot++) {
         chip_protect_sector(1U + slot);
@@ -160,7 +158,7 @@ static void old_is_new(void) {
     old_bytes = new_bytes;
 }
 
-static void test_torn_before_any_store(void) {
+TEST(chip_settings, torn_before_any_store) {
     scattered_state = chip_seed(3);
     chip_clocks_on(3);
     drawn_payload();
@@ -187,7 +185,7 @@ static void test_torn_before_any_store(void) {
     TEST_ASSERT_TRUE(torn > 20 && whole >= 1);
 }
 
-static void test_torn_at_any_instant(void) {
+TEST(chip_settings, torn_at_any_instant) {
     scattered_state = chip_seed(4);
     chip_clocks_on(4);
     drawn_payload();
@@ -212,11 +210,4 @@ static void test_torn_at_any_instant(void) {
         }
     }
     TEST_ASSERT_TRUE(torn > 150 && kept > 100);
-}
-
-void suite_chip_settings(void) {
-    RUN_TEST(test_slots);
-    RUN_TEST(test_refused);
-    RUN_TEST(test_torn_before_any_store);
-    RUN_TEST(test_torn_at_any_instant);
 }

@@ -1,11 +1,9 @@
 /* test_chip_slots.c: slot pulses on the chip model: each edge once, with its time, in order. */
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "hal/slots.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_slots(void);
 
 #define ROOM 4096U
 static struct {
@@ -92,7 +90,7 @@ static void turn(unsigned pulses, uint32_t from_ticks) {
     run_take(ROOM);
 }
 
-static void test_random_edges(void) {
+TEST(chip_slots, random_edges) {
     begin(1);
     const uint32_t before = overruns;
     turn(300, 5000);
@@ -100,7 +98,7 @@ static void test_random_edges(void) {
     TEST_ASSERT_EQUAL(before, overruns);
 }
 
-static void test_over_the_wrap(void) {
+TEST(chip_slots, over_the_wrap) {
     for (unsigned i = 0; i < 8; i++) {
         begin(2 + i);
         turn(20, UINT32_MAX - (uint32_t)(scattered() % 60000U));
@@ -109,7 +107,7 @@ static void test_over_the_wrap(void) {
 }
 
 /* Both sensors at or near the same time, also over the wrap: in order of time, though one interrupt may report both. */
-static void test_together(void) {
+TEST(chip_slots, together) {
     begin(11);
     for (unsigned i = 0; i < 200; i++) {
         if (i % 4U == 0) {
@@ -135,7 +133,7 @@ static void test_together(void) {
 }
 
 /* A pulse shorter than the filter does not count, at either level. */
-static void test_spikes(void) {
+TEST(chip_slots, spikes) {
     begin(12);
     for (unsigned i = 0; i < 200; i++) {
         const unsigned pin = (unsigned)(scattered() % 2U);
@@ -159,7 +157,7 @@ static unsigned leading(void) {
 }
 
 /* A level that is high when the timer starts is no pulse; its fall counts as an end only. */
-static void test_high_at_the_start(void) {
+TEST(chip_slots, high_at_the_start) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(13);
     chip_slot_is(0, CHIP_HIGH);
@@ -182,7 +180,7 @@ static void test_high_at_the_start(void) {
 }
 
 /* Unread pulses: the oldest, at least 8, stay, and overruns are counted. Later pulses arrive. */
-static void test_full(void) {
+TEST(chip_slots, full) {
     scattered_state = chip_seed(14);
     for (unsigned round = 0; round < 10; round++) {
         begin(scattered() | 1U);
@@ -212,7 +210,7 @@ static void test_full(void) {
 }
 
 /* The core stops while one pulse per sensor arrives: their times are captured, and they come in order. */
-static void test_core_that_stood(void) {
+TEST(chip_slots, core_that_stood) {
     begin(19);
     for (unsigned i = 0; i < 100; i++) {
         if (i % 4U == 0) {
@@ -238,7 +236,7 @@ static void test_core_that_stood(void) {
 }
 
 /* A pulse over an unread one: one is lost and reported, the other is whole. */
-static void test_overrun(void) {
+TEST(chip_slots, overrun) {
     begin(20);
     for (unsigned i = 0; i < 40; i++) {
         const uint32_t before = overruns;
@@ -297,19 +295,7 @@ static void storm(uint64_t period_us, uint64_t ms) {
     turn(5, chip_tim2_count());
     all_are_there();
 }
-static void test_storms(void) {
+TEST(chip_slots, storms) {
     storm(200, 40);
     storm(33, 40);
-}
-
-void suite_chip_slots(void) {
-    RUN_TEST(test_random_edges);
-    RUN_TEST(test_over_the_wrap);
-    RUN_TEST(test_together);
-    RUN_TEST(test_spikes);
-    RUN_TEST(test_high_at_the_start);
-    RUN_TEST(test_core_that_stood);
-    RUN_TEST(test_overrun);
-    RUN_TEST(test_full);
-    RUN_TEST(test_storms);
 }

@@ -1,11 +1,9 @@
 /* test_chip_unplayed.c: a register missing from the chip model is not silent memory, so a driver that uses it is noticed. */
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "boards/stm32f4/registers.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_unplayed(void);
 
 /* Each part's base, and the registers of the manual that the model lacks. */
 static const struct {
@@ -25,7 +23,7 @@ static uint32_t address;
 static uint32_t value;
 static void store(void) { reg_store(address, value); }
 
-static void test_a_store_to_what_is_not_played_is_told(void) {
+TEST(chip_unplayed, a_store_to_what_is_not_played_is_told) {
     scattered_state = chip_seed(9);
     chip_on(9);
     for (unsigned i = 0; i < PARTS * 8U; i++) {
@@ -37,5 +35,3 @@ static void test_a_store_to_what_is_not_played_is_told(void) {
     }
     chip_forgive();
 }
-
-void suite_chip_unplayed(void) { RUN_TEST(test_a_store_to_what_is_not_played_is_told); }

@@ -1,13 +1,11 @@
 /* test_chip_watchdog.c: the watchdog on the chip model, at any oscillator speed: never early, and within three times its time. */
-#include "unity.h"
+#include "tests/suites.h"
 
 #include "boards/stm32f4/stm32f4.h"
 #include "hal/motor.h"
 #include "hal/watchdog.h"
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
-
-void suite_chip_watchdog(void);
 
 static uint32_t timeout;
 static void start(void) { hal_watchdog_start(timeout); }
@@ -47,7 +45,7 @@ static uint32_t drawn_timeout(void) {
     return most / 4U + (uint32_t)(scattered() % most);
 }
 
-static void test_any_time_and_speed(void) {
+TEST(chip_watchdog, any_time_and_speed) {
     scattered_state = chip_seed(1);
     for (unsigned i = 0; i < 40; i++) {
         begin();
@@ -68,7 +66,7 @@ static void test_any_time_and_speed(void) {
 }
 
 /* Longer for an erase, then short again, at any time and in quick succession. */
-static void test_other_times(void) {
+TEST(chip_watchdog, other_times) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 8; i++) {
         begin();
@@ -96,7 +94,7 @@ static void test_other_times(void) {
 }
 
 /* A new time set at the last moment also counts as a kick. */
-static void test_told_late(void) {
+TEST(chip_watchdog, told_late) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 40; i++) {
         begin();
@@ -113,7 +111,7 @@ static void test_told_late(void) {
 
 /* It stops while a debugger that asked for it (docs/boards.md) holds the core, and continues after that. */
 static void freeze(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
-static void test_debugger(void) {
+TEST(chip_watchdog, debugger) {
     scattered_state = chip_seed(3);
     begin();
     timeout = 20000;
@@ -125,11 +123,4 @@ static void test_debugger(void) {
     run(kick);
     is_quiet_for(timeout);
     bites_by(60000);
-}
-
-void suite_chip_watchdog(void) {
-    RUN_TEST(test_any_time_and_speed);
-    RUN_TEST(test_other_times);
-    RUN_TEST(test_told_late);
-    RUN_TEST(test_debugger);
 }

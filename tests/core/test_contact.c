@@ -1,12 +1,10 @@
 /* test_contact.c: stops, friction, holds and crossings on mechanisms with closed forms (hand.h). */
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact(void);
+#include "tests/suites.h"
 
 /* From 1 m, restitution 1/2: the bounces end at 3 sqrt(2 h / g), and the ball then rests for a minute. */
-static void test_ball_comes_to_rest_and_stays(void) {
+TEST(contact, ball_comes_to_rest_and_stays) {
     const wh_real rest_s = WH_R(3.0) * WH_SQRT(WH_R(2.0) / HAND_G);
     hand_build_ball(WH_R(0.5));
     hand_start(false);
@@ -23,7 +21,7 @@ static void test_ball_comes_to_rest_and_stays(void) {
 }
 
 /* The first impact is at sqrt(2 h / g), with -(1 + e) times the speed. */
-static void test_first_impact_is_where_and_what_it_must_be(void) {
+TEST(contact, first_impact_is_where_and_what_it_must_be) {
     const wh_real fall_s = WH_SQRT(WH_R(2.0) / HAND_G);
     hand_build_ball(WH_R(0.5));
     hand_start(false);
@@ -37,7 +35,7 @@ static void test_first_impact_is_where_and_what_it_must_be(void) {
     TEST_ASSERT_TRUE(event.contact == 0 && event.mode == WH_FREE);
 }
 
-static void test_perfect_bounces_keep_the_height(void) {
+TEST(contact, perfect_bounces_keep_the_height) {
     hand_build_ball(WH_R(1.0));
     hand_start(false);
     wh_real highest = WH_R(0.0);
@@ -51,7 +49,7 @@ static void test_perfect_bounces_keep_the_height(void) {
 }
 
 /* A spring presses the body onto the stop, then a load lifts it off. */
-static void test_resting_stop_lets_go_when_the_force_turns(void) {
+TEST(contact, resting_stop_lets_go_when_the_force_turns) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_now.load[0] = WH_R(-1.0);
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.25), WH_R(0.0), WH_R(0.0));
@@ -68,7 +66,7 @@ static void test_resting_stop_lets_go_when_the_force_turns(void) {
 
 /* M = (2 1; 1 2), v = (-3, 1), a stop on the first coordinate with e = 0.4. The impulse is (1 + e) 3 / (M^-1)_00 = 6.3. Then v+
  * = v + M^-1 (6.3, 0), and the second momentum does not change. */
-static void test_coupled_impact_goes_through_the_mass_matrix(void) {
+TEST(contact, coupled_impact_goes_through_the_mass_matrix) {
     hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
     hand_now.start[0] = WH_R(0.0015);
@@ -85,7 +83,7 @@ static void test_coupled_impact_goes_through_the_mass_matrix(void) {
 }
 
 /* Two stops a micrometre apart and a fast body: far more bounces than a step can hold. */
-static void test_too_many_bounces_are_counted_and_end(void) {
+TEST(contact, too_many_bounces_are_counted_and_end) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
     hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1e-6), WH_R(1.0), WH_R(0.0));
@@ -100,7 +98,7 @@ static void test_too_many_bounces_are_counted_and_end(void) {
 }
 
 /* Between two walls 1 m apart, n of them hit in each 1 ms step. All hits are counted; the first eight are reported. */
-static void test_a_step_has_room_for_so_many_moments(void) {
+TEST(contact, a_step_has_room_for_so_many_moments) {
     for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
         const unsigned n = each / 2U;
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
@@ -128,7 +126,7 @@ static void test_a_step_has_room_for_so_many_moments(void) {
 }
 
 /* A pressed body rests on the wall that it hits at the eighth moment, although it would have left it. */
-static void test_a_rest_at_the_last_moment_is_counted(void) {
+TEST(contact, a_rest_at_the_last_moment_is_counted) {
     for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
         hand_now.load[0] = WH_R(-10.0);
@@ -151,14 +149,14 @@ static void build_block(wh_real coefficient) {
              coefficient * normal);
 }
 
-static void test_block_sticks_on_the_incline(void) {
+TEST(contact, block_sticks_on_the_incline) {
     build_block(WH_R(0.5));
     hand_start(false);
     hand_steps(60000);
     TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.0) && hand_state.real[1] == WH_R(0.0));
 }
 
-static void test_block_slides_when_friction_is_too_small(void) {
+TEST(contact, block_slides_when_friction_is_too_small) {
     build_block(WH_R(0.15));
     hand_start(false);
     hand_steps(1000);
@@ -168,7 +166,7 @@ static void test_block_slides_when_friction_is_too_small(void) {
 }
 
 /* Thrown at 1 m/s on a level table, mu g = 2: stops after 1/2 s and 1/4 m. */
-static void test_thrown_block_stops_and_sticks(void) {
+TEST(contact, thrown_block_stops_and_sticks) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(2.0));
     hand_now.start[1] = WH_R(1.0);
@@ -182,7 +180,7 @@ static void test_thrown_block_stops_and_sticks(void) {
 }
 
 /* Two bodies of 1 kg at 1 and 3 m/s with a held difference go on at 2 m/s. After release, a load moves only the first. */
-static void test_hold_captures_and_lets_go(void) {
+TEST(contact, hold_captures_and_lets_go) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
     hand_now.start[2] = WH_R(1.0);
@@ -203,7 +201,7 @@ static void test_hold_captures_and_lets_go(void) {
 }
 
 /* At x = 0.1 the rate goes from 1 to -1/2: at 0.2 s the body is at 0.05 m. */
-static void test_crossing_sets_the_rate(void) {
+TEST(contact, crossing_sets_the_rate) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0), WH_R(0.1), WH_R(0.0), WH_R(0.0));
     hand_now.contact[0].direction = 1;
@@ -216,7 +214,7 @@ static void test_crossing_sets_the_rate(void) {
 }
 
 /* A load beyond all bounds: the step is refused, with state, modes and books unchanged. */
-static void test_a_refused_step_changes_nothing(void) {
+TEST(contact, a_refused_step_changes_nothing) {
     hand_build_ball(WH_R(0.5));
     hand_start(true);
     hand_steps(500);
@@ -232,7 +230,7 @@ static void test_a_refused_step_changes_nothing(void) {
 }
 
 /* The component that a load drives out of bounds is named at a run's first try, after an event of its step, and later. */
-static void test_the_component_that_diverged_is_told(void) {
+TEST(contact, the_component_that_diverged_is_told) {
     for (unsigned where = 0; where < 3; where++) {
         for (unsigned c = 0; c < 2; c++) {
             hand_build(2, WH_R(2.0), WH_R(0.0), WH_R(3.0));
@@ -250,22 +248,4 @@ static void test_the_component_that_diverged_is_told(void) {
             TEST_ASSERT_TRUE(hand_state.fault == (int)c || hand_state.fault == (int)(2 + c));
         }
     }
-}
-
-void suite_contact(void) {
-    RUN_TEST(test_ball_comes_to_rest_and_stays);
-    RUN_TEST(test_first_impact_is_where_and_what_it_must_be);
-    RUN_TEST(test_perfect_bounces_keep_the_height);
-    RUN_TEST(test_resting_stop_lets_go_when_the_force_turns);
-    RUN_TEST(test_coupled_impact_goes_through_the_mass_matrix);
-    RUN_TEST(test_too_many_bounces_are_counted_and_end);
-    RUN_TEST(test_a_step_has_room_for_so_many_moments);
-    RUN_TEST(test_a_rest_at_the_last_moment_is_counted);
-    RUN_TEST(test_block_sticks_on_the_incline);
-    RUN_TEST(test_block_slides_when_friction_is_too_small);
-    RUN_TEST(test_thrown_block_stops_and_sticks);
-    RUN_TEST(test_hold_captures_and_lets_go);
-    RUN_TEST(test_crossing_sets_the_rate);
-    RUN_TEST(test_a_refused_step_changes_nothing);
-    RUN_TEST(test_the_component_that_diverged_is_told);
 }

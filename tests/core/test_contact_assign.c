@@ -2,9 +2,7 @@
  * are evaluated before any is set, and their low parts are cleared. Invalid values are blamed. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_assign(void);
+#include "tests/suites.h"
 
 static wh_real values[WH_SETS_MAX];
 static uint8_t target[WH_SETS_MAX];
@@ -47,7 +45,7 @@ static unsigned draw_crossing(uint64_t *seed, unsigned n, unsigned angles, unsig
     return k;
 }
 
-static void test_each_component_can_be_assigned(void) {
+TEST(contact_assign, each_component_can_be_assigned) {
     uint64_t seed = 2311;
     for (unsigned round = 0; round < 300; round++) {
         wh_contact_work w;
@@ -79,7 +77,7 @@ static void test_each_component_can_be_assigned(void) {
 }
 
 /* A turn angle holds less than 1e9 rad, any other component less than 1e15; NaN is invalid. */
-static void test_what_cannot_be_held_is_blamed(void) {
+TEST(contact_assign, what_cannot_be_held_is_blamed) {
     uint64_t seed = 1123;
     for (unsigned round = 0; round < 200; round++) {
         wh_contact_work w;
@@ -97,7 +95,7 @@ static void test_what_cannot_be_held_is_blamed(void) {
     }
 }
 
-static void test_nothing_to_set(void) {
+TEST(contact_assign, nothing_to_set) {
     uint64_t seed = 311;
     for (unsigned round = 0; round < 40; round++) {
         wh_contact_work w;
@@ -116,10 +114,4 @@ static void test_nothing_to_set(void) {
         TEST_ASSERT_TRUE(s.angle[0] == before.angle[0] && s.real[0] == before.real[0]);
         TEST_ASSERT_TRUE(s.real[1] == before.real[1] && s.real[2] == before.real[2]);
     }
-}
-
-void suite_contact_assign(void) {
-    RUN_TEST(test_each_component_can_be_assigned);
-    RUN_TEST(test_what_cannot_be_held_is_blamed);
-    RUN_TEST(test_nothing_to_set);
 }

@@ -4,16 +4,14 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_begin(void);
+#include "tests/suites.h"
 
 static union {
     wh_contact_work work;
     unsigned char byte[sizeof(wh_contact_work)];
 } soiled;
 
-static void test_nothing_is_left_of_what_was_there(void) {
+TEST(contact_begin, nothing_is_left_of_what_was_there) {
     uint64_t seed = 2324;
     for (unsigned round = 0; round < 200; round++) {
         static const wh_contact_kind kinds[] = {WH_STOP, WH_HOLD, WH_FRICTION};
@@ -44,5 +42,3 @@ static void test_nothing_is_left_of_what_was_there(void) {
         }
     }
 }
-
-void suite_contact_begin(void) { RUN_TEST(test_nothing_is_left_of_what_was_there); }

@@ -3,9 +3,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_books(void);
+#include "tests/suites.h"
 
 static wh_contact_work w;
 static wh_contact_state s;
@@ -39,7 +37,7 @@ static void expect_entries(unsigned k, const wh_real *change, wh_real size) {
     }
 }
 
-static void test_corrections_are_entered_where_they_belong(void) {
+TEST(contact_books, corrections_are_entered_where_they_belong) {
     uint64_t seed = 2323;
     for (unsigned round = 0; round < 200; round++) {
         static const wh_real none[1] = {WH_R(0.0)};
@@ -86,5 +84,3 @@ static void test_corrections_are_entered_where_they_belong(void) {
         expect_entries(k, change, size);
     }
 }
-
-void suite_contact_books(void) { RUN_TEST(test_corrections_are_entered_where_they_belong); }

@@ -3,9 +3,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_dips(void);
+#include "tests/suites.h"
 
 #define H WH_R(0.0009765625)
 
@@ -35,7 +33,7 @@ static bool is_plain(const drawn_stop *s) {
            WH_ABS(s->gap[0]) > WH_R(1e-6) && WH_ABS(s->rate[0]) > WH_R(1e-4);
 }
 
-static void test_what_dips_and_comes_back(void) {
+TEST(contact_dips, what_dips_and_comes_back) {
     uint64_t seed = 2322;
     unsigned dips = 0;
     unsigned leaves = 0;
@@ -121,5 +119,3 @@ static void test_what_dips_and_comes_back(void) {
     TEST_ASSERT_TRUE(dips > 60 && leaves > 60);
     TEST_ASSERT_TRUE(passed > 60 && missed > 20);
 }
-
-void suite_contact_dips(void) { RUN_TEST(test_what_dips_and_comes_back); }

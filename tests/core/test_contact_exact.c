@@ -5,9 +5,7 @@
 #include "draw.h"
 #include "exact.h"
 
-#include "unity.h"
-
-void suite_contact_exact(void);
+#include "tests/suites.h"
 
 enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
@@ -199,12 +197,12 @@ static void run(uint64_t seed, unsigned touched, bool crosses, int heavy) {
     TEST_ASSERT_TRUE_MESSAGE(t.events >= MECHANISMS / 2U, "too little happens");
 }
 
-static void test_what_touches_nothing_at_first(void) { run(11, 64, false, 1); }
-static void test_what_starts_touching(void) { run(12, 2, false, 1); }
-static void test_crossings_among_them(void) { run(13, 3, true, 1); }
-static void test_what_is_pressed_hard(void) { run(14, 2, false, 128); }
-static void test_what_nothing_presses(void) { run(15, 2, false, 0); }
-static void test_crossings_beside_what_touches(void) { run(16, 1, true, 1); }
+TEST(contact_exact, what_touches_nothing_at_first) { run(11, 64, false, 1); }
+TEST(contact_exact, what_starts_touching) { run(12, 2, false, 1); }
+TEST(contact_exact, crossings_among_them) { run(13, 3, true, 1); }
+TEST(contact_exact, what_is_pressed_hard) { run(14, 2, false, 128); }
+TEST(contact_exact, what_nothing_presses) { run(15, 2, false, 0); }
+TEST(contact_exact, crossings_beside_what_touches) { run(16, 1, true, 1); }
 
 /* --- corrections ---------------------------------------------------------------------------------------------- */
 
@@ -286,7 +284,7 @@ static unsigned stops_that(bool rest, wh_real by) {
 }
 
 /* A corrected run equals, bit by bit, one that starts from the corrected state. No stop stays passed. */
-static void test_a_corrected_run_is_one_that_starts_there(void) {
+TEST(contact_exact, a_corrected_run_is_one_that_starts_there) {
     uint64_t seed = 4600;
     unsigned beyond = 0;
     unsigned resting = 0;
@@ -324,7 +322,7 @@ static void test_a_corrected_run_is_one_that_starts_there(void) {
 }
 
 /* A refused correction changes nothing. */
-static void test_no_number_is_no_correction(void) {
+TEST(contact_exact, no_number_is_no_correction) {
     static const wh_real bad[] = {WH_R(1e16), WH_R(-1e16), WH_R(0.0), WH_R(0.0)};
     volatile wh_real zero = WH_R(0.0);
     hand_build_ball(WH_R(0.5));
@@ -342,15 +340,4 @@ static void test_no_number_is_no_correction(void) {
                      WH_E_ARGUMENT);
     const reached after = reached_now();
     TEST_ASSERT_EQUAL_MEMORY(&before, &after, sizeof before);
-}
-
-void suite_contact_exact(void) {
-    RUN_TEST(test_a_corrected_run_is_one_that_starts_there);
-    RUN_TEST(test_no_number_is_no_correction);
-    RUN_TEST(test_what_touches_nothing_at_first);
-    RUN_TEST(test_what_starts_touching);
-    RUN_TEST(test_crossings_among_them);
-    RUN_TEST(test_what_is_pressed_hard);
-    RUN_TEST(test_what_nothing_presses);
-    RUN_TEST(test_crossings_beside_what_touches);
 }

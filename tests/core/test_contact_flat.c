@@ -2,9 +2,7 @@
  * the row of a contact without a hold, and the place of the loss. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_flat(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
@@ -28,7 +26,7 @@ static bool holds(const wh_contact_work *w, unsigned k) {
 }
 
 /* A contact that holds nothing has a row of zeros; a hold has the row's part independent of the others. */
-static void test_rows_are_those_of_the_place(void) {
+TEST(contact_flat, rows_are_those_of_the_place) {
     uint64_t seed = 241;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -76,7 +74,7 @@ static void test_rows_are_those_of_the_place(void) {
 
 /* Rows that lean with the first line's place. A step is checked at its end and at the place that its rates alone lead to,
  * whichever comes first. A refused step is checked only at the latter. The check needs a curved hold that can slip. */
-static void test_a_say_is_lost_at_either_place(void) {
+TEST(contact_flat, a_say_is_lost_at_either_place) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -117,7 +115,7 @@ static void test_a_say_is_lost_at_either_place(void) {
 }
 
 /* The place that the rates lead to: angles by their turn, lines by their motion. */
-static void test_rates_lead_ahead(void) {
+TEST(contact_flat, rates_lead_ahead) {
     uint64_t seed = 243;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;
@@ -142,10 +140,4 @@ static void test_rates_lead_ahead(void) {
                                         : at.linear[i - angles] == right.linear[i - angles]);
         }
     }
-}
-
-void suite_contact_flat(void) {
-    RUN_TEST(test_rows_are_those_of_the_place);
-    RUN_TEST(test_a_say_is_lost_at_either_place);
-    RUN_TEST(test_rates_lead_ahead);
 }

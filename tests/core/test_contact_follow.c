@@ -2,9 +2,7 @@
  * accelerations with contact forces. Mechanisms with closed forms (hand.h). */
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_follow(void);
+#include "tests/suites.h"
 
 #define STEP_S WH_R(0.001)
 #define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S) /* a body's fall in a step */
@@ -21,7 +19,7 @@ static void rest_on_a_stop(bool books) {
 }
 
 /* Raised, or lowered by at most the ball's fall in a step, the stop takes the ball along. The energy m g s is the stop's. */
-static void test_a_stop_takes_along_what_rests_on_it(void) {
+TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
     const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
                              WH_R(-0.9) * REACH_M};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
@@ -39,7 +37,7 @@ static void test_a_stop_takes_along_what_rests_on_it(void) {
 }
 
 /* Lowered by more, it leaves the ball to free fall. */
-static void test_a_stop_that_drops_away_leaves_the_ball(void) {
+TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
     const wh_real moves[] = {WH_R(-1.2) * REACH_M, WH_R(-2.0) * REACH_M, WH_R(-1e-3), WH_R(-2.0)};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
         rest_on_a_stop(true);
@@ -56,7 +54,7 @@ static void test_a_stop_that_drops_away_leaves_the_ball(void) {
 }
 
 /* A stop that no input moves (direction 0) is checked too. Of two bodies on two stops only the one on the moved stop follows. */
-static void test_others_stay_where_they_are(void) {
+TEST(contact_follow, others_stay_where_they_are) {
     for (unsigned moved = 0; moved < 2; moved++) {
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));
         hand_now.load[0] = -HAND_G;
@@ -80,7 +78,7 @@ static void test_others_stay_where_they_are(void) {
 
 /* Two bodies of 1 and 3 kg held at a distance from an input with a rate, drawn by a load. A jump of the input is corrected at
  * once by both bodies in the ratio of their masses; both continue as one body of 4 kg. */
-static void test_a_hold_takes_along_what_it_holds(void) {
+TEST(contact_follow, a_hold_takes_along_what_it_holds) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(3.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
     hand_now.contact[0].direction = -1;
@@ -111,7 +109,7 @@ static wh_real shown(unsigned i) {
 }
 
 /* Before and after the first step: zero on a stop, free fall above it. Friction holds up to its limit, then slows a slide. */
-static void test_accelerations_with_their_contacts(void) {
+TEST(contact_follow, accelerations_with_their_contacts) {
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));
         hand_now.start[0] = WH_R(0.25) * (wh_real)k;
@@ -139,12 +137,4 @@ static void test_accelerations_with_their_contacts(void) {
             hand_steps(1);
         }
     }
-}
-
-void suite_contact_follow(void) {
-    RUN_TEST(test_a_stop_takes_along_what_rests_on_it);
-    RUN_TEST(test_a_stop_that_drops_away_leaves_the_ball);
-    RUN_TEST(test_others_stay_where_they_are);
-    RUN_TEST(test_a_hold_takes_along_what_it_holds);
-    RUN_TEST(test_accelerations_with_their_contacts);
 }

@@ -2,9 +2,7 @@
  * For redundant contacts the reference is the sharing that test_contact_pivot.c tests. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_forces(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 100 };
 
@@ -14,7 +12,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
 }
 
 /* The others' effect on each other's accelerations. A redundant contact, or one at a limit, has no effect. */
-static void test_a_load_is_what_a_dense_solve_says(void) {
+TEST(contact_forces, a_load_is_what_a_dense_solve_says) {
     uint64_t seed = 101;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -85,7 +83,7 @@ static bool is_pinned(const uint8_t *member, unsigned count, unsigned c) {
     return pinned;
 }
 
-static void test_forces_keep_what_is_kept(void) {
+TEST(contact_forces, forces_keep_what_is_kept) {
     uint64_t seed = 221;
     unsigned regular = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -161,7 +159,7 @@ static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, cons
 
 /* Redundant contacts: if all agree and no limit is exceeded, they carry nothing. Otherwise the load is shared, and a contact
  * that cannot take its share reports a force beyond its limit. The motion changes only for contradictory contacts. */
-static void test_what_repeats_others_shares_their_load(void) {
+TEST(contact_forces, what_repeats_others_shares_their_load) {
     uint64_t seed = 222;
     unsigned seen[2][2] = {{0}};
     for (unsigned round = 0; round < 4U * ROUNDS; round++) {
@@ -258,7 +256,7 @@ static void test_what_repeats_others_shares_their_load(void) {
 }
 
 /* A pinned and held coordinate has zero acceleration, but its unconstrained acceleration must be a number. */
-static void test_no_number_stays_none_where_it_is_pinned(void) {
+TEST(contact_forces, no_number_stays_none_where_it_is_pinned) {
     uint64_t seed = 223;
     for (unsigned round = 0; round < ROUNDS / 8; round++) {
         wh_contact_work w;
@@ -283,7 +281,7 @@ static void test_no_number_stays_none_where_it_is_pinned(void) {
 
 /* Each contact in the set reaches its target; holds and neighbouring stops reach zero, stops by pushing only. A pinned contact
  * that comes to zero is there exactly. Impulses add to the earlier ones; the books get the work at the mean speed. */
-static void test_impulses_lead_to_their_targets(void) {
+TEST(contact_forces, impulses_lead_to_their_targets) {
     uint64_t seed = 224;
     unsigned given = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -367,12 +365,4 @@ static void test_impulses_lead_to_their_targets(void) {
         given += giving != 0;
     }
     TEST_ASSERT_TRUE(given > ROUNDS / 8);
-}
-
-void suite_contact_forces(void) {
-    RUN_TEST(test_a_load_is_what_a_dense_solve_says);
-    RUN_TEST(test_forces_keep_what_is_kept);
-    RUN_TEST(test_what_repeats_others_shares_their_load);
-    RUN_TEST(test_no_number_stays_none_where_it_is_pinned);
-    RUN_TEST(test_impulses_lead_to_their_targets);
 }

@@ -2,9 +2,7 @@
  * resting, touching, hit along. Numbers lie just on either side of each limit. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_impact(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
@@ -27,7 +25,7 @@ static bool is_stop(unsigned k) { return bench_now.contact[k].kind == WH_STOP; }
 /* --- one stop ------------------------------------------------------------------------------------------------ */
 
 /* A press within its terms' round-off does not count, except for a lone stop, which takes it as it is. */
-static void test_who_is_pressed(void) {
+TEST(contact_impact, who_is_pressed) {
     uint64_t seed = 301;
     unsigned pressed = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -57,7 +55,7 @@ static void test_who_is_pressed(void) {
 }
 
 /* A flight shorter than its share of the step does not count. Without a press a stop rests only at rate zero, if that is known. */
-static void test_who_rests(void) {
+TEST(contact_impact, who_rests) {
     uint64_t seed = 302;
     unsigned resting = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -95,7 +93,7 @@ static void test_who_rests(void) {
 /* --- several ------------------------------------------------------------------------------------------------- */
 
 /* Resting stops with restitution whose force is zero relative to the accelerations and the other forces. */
-static void test_who_merely_touches(void) {
+TEST(contact_impact, who_merely_touches) {
     uint64_t seed = 303;
     unsigned loose = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -128,7 +126,7 @@ static void test_who_merely_touches(void) {
 }
 
 /* Closing free stops with a gap within the motion of the step's finest share. */
-static void test_who_is_hit_in_the_same_moment(void) {
+TEST(contact_impact, who_is_hit_in_the_same_moment) {
     uint64_t seed = 304;
     unsigned tied = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -165,7 +163,7 @@ static void test_who_is_hit_in_the_same_moment(void) {
 }
 
 /* Free stops in touch that a hit made close, or close more than twice as fast. */
-static void test_to_whom_an_impact_is_passed_on(void) {
+TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     uint64_t seed = 305;
     unsigned passed = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -198,7 +196,7 @@ static void test_to_whom_an_impact_is_passed_on(void) {
 }
 
 /* Free stops without restitution, in touch and at rest relative to the hit's effect on them. */
-static void test_who_is_beside_an_impact(void) {
+TEST(contact_impact, who_is_beside_an_impact) {
     uint64_t seed = 306;
     unsigned beside = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -242,7 +240,7 @@ static void test_who_is_beside_an_impact(void) {
     TEST_ASSERT_TRUE(beside > ROUNDS / 128);
 }
 
-static void test_a_restitution(void) {
+TEST(contact_impact, a_restitution) {
     uint64_t seed = 307;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;
@@ -265,7 +263,7 @@ static void test_a_restitution(void) {
 /* --- after too many events ------------------------------------------------------------------------------------ */
 
 /* A curved surface is met by a limited number of Newton steps; after the last evaluation nothing moves. */
-static void test_a_squeeze_ends(void) {
+TEST(contact_impact, a_squeeze_ends) {
     uint64_t seed = 308;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;
@@ -297,7 +295,7 @@ static void test_a_squeeze_ends(void) {
 }
 
 /* The body is beyond a surface that curves away. The first push overshoots, and the others bring it back to its original side. */
-static void test_what_is_pushed_too_far_comes_back(void) {
+TEST(contact_impact, what_is_pushed_too_far_comes_back) {
     uint64_t seed = 309;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -323,16 +321,4 @@ static void test_what_is_pushed_too_far_comes_back(void) {
         TEST_ASSERT_TRUE(WH_ABS(s.real[0] * side - radius) <= 2 * WH_CONTACT_FAR * radius);
         TEST_ASSERT_TRUE(bench_now.looks - looks <= WH_PUSH_LOOKS);
     }
-}
-
-void suite_contact_impact(void) {
-    RUN_TEST(test_who_is_pressed);
-    RUN_TEST(test_who_rests);
-    RUN_TEST(test_who_merely_touches);
-    RUN_TEST(test_who_is_hit_in_the_same_moment);
-    RUN_TEST(test_to_whom_an_impact_is_passed_on);
-    RUN_TEST(test_who_is_beside_an_impact);
-    RUN_TEST(test_a_restitution);
-    RUN_TEST(test_a_squeeze_ends);
-    RUN_TEST(test_what_is_pushed_too_far_comes_back);
 }

@@ -1,9 +1,7 @@
 /* test_contact_margins.c: the margins of the search in core/contact/contact_locate.h, its path, and the contact named for NaN. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_margins(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
@@ -36,7 +34,7 @@ static wh_real others_of(const wh_contact_work *w, unsigned k) {
     return others;
 }
 
-static void test_a_force_is_beyond_its_limit_by_more_than_rounding(void) {
+TEST(contact_margins, a_force_is_beyond_its_limit_by_more_than_rounding) {
     uint64_t seed = 181;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -91,7 +89,7 @@ static wh_real sum_of(const wh_contact_work *w) {
     return all;
 }
 
-static void test_margins_are_those_of_their_kinds(void) {
+TEST(contact_margins, margins_are_those_of_their_kinds) {
     uint64_t seed = 182;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
@@ -151,7 +149,7 @@ static bool law_is_number(const wh_contact_work *w, unsigned k) {
 
 /* Among several contacts, some of them NaN, signals are checked first, then laws if any contact acts, then margins. The first
  * NaN of each is reported, and an earlier report stays. */
-static void test_the_first_that_is_no_number_is_told(void) {
+TEST(contact_margins, the_first_that_is_no_number_is_told) {
     uint64_t seed = 183;
     unsigned told[BENCH_FORCED] = {0};
     for (unsigned round = 0; round < 4U * ROUNDS; round++) {
@@ -203,7 +201,7 @@ static void test_the_first_that_is_no_number_is_told(void) {
 }
 
 /* Calm: all margins zero or above, and no NaN. Nothing after the last contact is read. */
-static void test_calm_is_told(void) {
+TEST(contact_margins, calm_is_told) {
     uint64_t seed = 184;
     for (unsigned round = 0; round < ROUNDS / 2; round++) {
         wh_contact_work w;
@@ -238,7 +236,7 @@ static double cubic(double s, double from, double slope0, double to, double slop
     return point[0];
 }
 
-static void test_the_way_is_a_cubic_through_both_ends(void) {
+TEST(contact_margins, the_way_is_a_cubic_through_both_ends) {
     uint64_t seed = 185;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -289,12 +287,4 @@ static void test_the_way_is_a_cubic_through_both_ends(void) {
             }
         }
     }
-}
-
-void suite_contact_margins(void) {
-    RUN_TEST(test_a_force_is_beyond_its_limit_by_more_than_rounding);
-    RUN_TEST(test_margins_are_those_of_their_kinds);
-    RUN_TEST(test_the_first_that_is_no_number_is_told);
-    RUN_TEST(test_calm_is_told);
-    RUN_TEST(test_the_way_is_a_cubic_through_both_ends);
 }

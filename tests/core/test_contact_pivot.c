@@ -1,9 +1,7 @@
 /* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, in parts and whole, against a trial of all cases. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_pivot(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 60 };
 
@@ -34,7 +32,7 @@ static wh_real draw_rough(uint64_t *seed) {
 }
 
 /* One contact with its limit, less, more, and more by round-off or just above. */
-static void test_one_contact_takes_what_it_can(void) {
+TEST(contact_pivot, one_contact_takes_what_it_can) {
     uint64_t seed = 121;
     unsigned gave = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -76,7 +74,7 @@ static void test_one_contact_takes_what_it_can(void) {
 }
 
 /* A contact at a limit keeps its place. One that leaves a limit goes to the list's end and is tested again for contradiction. */
-static void test_who_leaves_a_limit_is_eliminated_last(void) {
+TEST(contact_pivot, who_leaves_a_limit_is_eliminated_last) {
     uint64_t seed = 122;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_pivot p = {.contradicted = draw_one_of(&seed, 16U)};
@@ -108,7 +106,7 @@ static void test_who_leaves_a_limit_is_eliminated_last(void) {
 }
 
 /* Among contacts beyond a limit, or pulled on at one, the lowest number is chosen, wherever it stands. */
-static void test_the_least_number_that_is_wrong_is_told(void) {
+TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
     uint64_t seed = 123;
     unsigned none = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -210,7 +208,7 @@ static bool solves(unsigned number, const uint8_t *member, unsigned count, const
 }
 
 /* Accelerations are those of any case that solves it, and so are forces if no rows are dependent. */
-static void test_no_case_solves_it_otherwise(void) {
+TEST(contact_pivot, no_case_solves_it_otherwise) {
     uint64_t seed = 124;
     unsigned solved = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -254,7 +252,7 @@ static void test_no_case_solves_it_otherwise(void) {
 }
 
 /* A forced cycle, as nothing here counts as small. It ends after 4 n + 1 rounds; the last round's release is counted. */
-static void test_what_does_not_end_is_ended(void) {
+TEST(contact_pivot, what_does_not_end_is_ended) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {
         wh_contact_work w;
@@ -278,12 +276,4 @@ static void test_what_does_not_end_is_ended(void) {
         TEST_ASSERT_TRUE(w.capped);
         TEST_ASSERT_TRUE(bench_near(lambda[0], 2 * bench_now.first[0]));
     }
-}
-
-void suite_contact_pivot(void) {
-    RUN_TEST(test_one_contact_takes_what_it_can);
-    RUN_TEST(test_who_leaves_a_limit_is_eliminated_last);
-    RUN_TEST(test_the_least_number_that_is_wrong_is_told);
-    RUN_TEST(test_no_case_solves_it_otherwise);
-    RUN_TEST(test_what_does_not_end_is_ended);
 }

@@ -1,9 +1,7 @@
 /* test_contact_places.c: the functions of core/contact/contact_project.h one by one, against dense solves in the mass metric. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_places(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
@@ -23,7 +21,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     }
 }
 
-static void test_a_coordinate_moves_and_no_other(void) {
+TEST(contact_places, a_coordinate_moves_and_no_other) {
     uint64_t seed = 141;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;
@@ -47,7 +45,7 @@ static void test_a_coordinate_moves_and_no_other(void) {
 }
 
 /* A product of as many bits as a 64-bit integer holds; a plain sum loses the last ones. */
-static void test_no_bit_of_a_product_is_lost(void) {
+TEST(contact_places, no_bit_of_a_product_is_lost) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -65,7 +63,7 @@ static void test_no_bit_of_a_product_is_lost(void) {
 }
 
 /* J times the motion, of lines and angles at any distance. It is exact for two far turns that differ by the same factor. */
-static void test_a_straight_way_is_summed_without_rounding(void) {
+TEST(contact_places, a_straight_way_is_summed_without_rounding) {
     uint64_t seed = 143;
     const uint64_t most = WH_DOUBLE ? 0x3fffffff : 0x7ffff;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -134,7 +132,7 @@ static wh_real drift_of(const wh_contact_work *w, unsigned k, const wh_contact_s
     return c->direction > 0 ? moved : bench_now.first[k] - w->held[c->first_set];
 }
 
-static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
+TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
     uint64_t seed = 144;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -200,7 +198,7 @@ static void test_who_is_off_who_slips_and_who_breaks_loose(void) {
 }
 
 /* Far: an error above the gap terms' share, for a line its place, for an angle one radian. */
-static void test_how_far_a_stop_is_passed(void) {
+TEST(contact_places, how_far_a_stop_is_passed) {
     uint64_t seed = 145;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -229,7 +227,7 @@ static void test_how_far_a_stop_is_passed(void) {
 }
 
 /* The step's end is written into the state completely, nothing after it is touched, and it reads back the same. */
-static void test_a_step_is_written_down_and_read_back(void) {
+TEST(contact_places, a_step_is_written_down_and_read_back) {
     uint64_t seed = 146;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;
@@ -270,13 +268,4 @@ static void test_a_step_is_written_down_and_read_back(void) {
             TEST_ASSERT_TRUE(held[k] == (k < of->held ? w.held[k] : BENCH_SENTINEL));
         }
     }
-}
-
-void suite_contact_places(void) {
-    RUN_TEST(test_a_coordinate_moves_and_no_other);
-    RUN_TEST(test_no_bit_of_a_product_is_lost);
-    RUN_TEST(test_a_straight_way_is_summed_without_rounding);
-    RUN_TEST(test_who_is_off_who_slips_and_who_breaks_loose);
-    RUN_TEST(test_how_far_a_stop_is_passed);
-    RUN_TEST(test_a_step_is_written_down_and_read_back);
 }

@@ -2,9 +2,7 @@
  * reference is a dense solve in the mass metric. Limits are met exactly, and the books get the energy. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_project(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
@@ -79,7 +77,7 @@ static void go_back(const uint8_t *member, unsigned count, const wh_real *off, w
 
 /* Pinned contacts go straight back. The others move together along the least-mass path, and constraints keep them with the
  * pinned ones. The result is coarse if the error exceeds its share of the motion. */
-static void test_places_are_put_right_by_the_least_way(void) {
+TEST(contact_project, places_are_put_right_by_the_least_way) {
     uint64_t seed = 161;
     unsigned coarse = 0;
     unsigned moves = 0;
@@ -159,7 +157,7 @@ static void test_places_are_put_right_by_the_least_way(void) {
 }
 
 /* The first contact with a NaN place is reported; the others are corrected without it. */
-static void test_a_place_that_is_no_number_is_told(void) {
+TEST(contact_project, a_place_that_is_no_number_is_told) {
     uint64_t seed = 162;
     unsigned told = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -214,7 +212,7 @@ static void test_a_place_that_is_no_number_is_told(void) {
 }
 
 /* Rates along constraints become zero, exactly so for one coordinate. The books get the impulses and their mean-speed work. */
-static void test_rates_are_taken_away_by_the_least(void) {
+TEST(contact_project, rates_are_taken_away_by_the_least) {
     uint64_t seed = 163;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -267,7 +265,7 @@ static void test_rates_are_taken_away_by_the_least(void) {
 
 /* A stop and a friction on one of two coupled bodies, the stop passed a little, or far. Friction then does not hold its body. A
  * corrected place is checked again, at most twice. */
-static void test_what_slipped_is_put_back(void) {
+TEST(contact_project, what_slipped_is_put_back) {
     uint64_t seed = 164;
     unsigned far = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -343,7 +341,7 @@ static void test_what_slipped_is_put_back(void) {
 }
 
 /* A stop with a curved surface is corrected along its row, and once more if the distance was large, but never a third time. */
-static void test_what_is_bent_is_put_back_twice(void) {
+TEST(contact_project, what_is_bent_is_put_back_twice) {
     uint64_t seed = 165;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -386,12 +384,4 @@ static void test_what_is_bent_is_put_back_twice(void) {
         /* it need not be curved along its motion */
         TEST_ASSERT_EQUAL_UINT(!slow ? 1U : x[0] != WH_R(0.0) ? 3U : 2U, bench_now.looks - looks);
     }
-}
-
-void suite_contact_project(void) {
-    RUN_TEST(test_places_are_put_right_by_the_least_way);
-    RUN_TEST(test_a_place_that_is_no_number_is_told);
-    RUN_TEST(test_rates_are_taken_away_by_the_least);
-    RUN_TEST(test_what_slipped_is_put_back);
-    RUN_TEST(test_what_is_bent_is_put_back_twice);
 }

@@ -7,9 +7,7 @@
 
 #include "core/hash.h"
 
-#include "unity.h"
-
-void suite_contact_random(void);
+#include "tests/suites.h"
 
 enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
@@ -205,7 +203,7 @@ static bool run(wh_real *end, uint64_t *overruns) {
     return good;
 }
 
-static void test_what_must_hold_does(void) {
+TEST(contact_random, what_must_hold_does) {
     uint64_t seed = 2;
     unsigned wrong = 0;
     uint64_t events = 0;
@@ -221,7 +219,7 @@ static void test_what_must_hold_does(void) {
     TEST_ASSERT_TRUE_MESSAGE(events >= MECHANISMS / 2, "too little happens");
 }
 
-static void test_the_other_way_round_is_the_same(void) {
+TEST(contact_random, the_other_way_round_is_the_same) {
     uint64_t seed = 3;
     unsigned wrong = 0;
     for (unsigned i = 0; i < MECHANISMS; i++) {
@@ -261,7 +259,7 @@ static uint64_t trace(uint64_t *hashes) {
     return hand_state.contacts->events;
 }
 
-static void test_a_calm_steps_short_way_ends_where_the_long_one_does(void) {
+TEST(contact_random, a_calm_steps_short_way_ends_where_the_long_one_does) {
     uint64_t seed = 5;
     unsigned wrong = 0;
     uint64_t events = 0;
@@ -279,10 +277,4 @@ static void test_a_calm_steps_short_way_ends_where_the_long_one_does(void) {
     }
     TEST_ASSERT_EQUAL_UINT(0, wrong);
     TEST_ASSERT_TRUE(events > 0 && events < (uint64_t)MECHANISMS * STEPS / 4U);
-}
-
-void suite_contact_random(void) {
-    RUN_TEST(test_what_must_hold_does);
-    RUN_TEST(test_the_other_way_round_is_the_same);
-    RUN_TEST(test_a_calm_steps_short_way_ends_where_the_long_one_does);
 }

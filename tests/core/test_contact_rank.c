@@ -2,9 +2,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_rank(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 200 };
 
@@ -66,7 +64,7 @@ static bool repeats(const wh_contact_work *w, unsigned k) {
 }
 
 /* A row's remainder is orthogonal to the other remainders, and as long as its distance from them. */
-static void test_rows_are_made_independent(void) {
+TEST(contact_rank, rows_are_made_independent) {
     uint64_t seed = 31;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w = {.capped = false};
@@ -101,7 +99,7 @@ static void test_rows_are_made_independent(void) {
 
 /* From one place to another: no loss without a change or with a small one. A row that has become dependent is lost, and so is
  * the first that points back. A redundant hold cannot be lost. */
-static void test_the_first_that_is_lost_is_told(void) {
+TEST(contact_rank, the_first_that_is_lost_is_told) {
     uint64_t seed = 37;
     unsigned lost = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -129,7 +127,7 @@ static void test_the_first_that_is_lost_is_told(void) {
 }
 
 /* A lone hold must point right back; the second of two loses its remainder after a right angle. */
-static void test_how_far_a_row_may_turn(void) {
+TEST(contact_rank, how_far_a_row_may_turn) {
     static const struct {
         unsigned count;
         wh_real row[2][2];
@@ -158,10 +156,4 @@ static void test_how_far_a_row_may_turn(void) {
         rows_of(&w, &after);
         TEST_ASSERT_EQUAL_UINT(rows[i].lost, wh_contact_fallen(&hand_now.system, &before, &after));
     }
-}
-
-void suite_contact_rank(void) {
-    RUN_TEST(test_rows_are_made_independent);
-    RUN_TEST(test_the_first_that_is_lost_is_told);
-    RUN_TEST(test_how_far_a_row_may_turn);
 }

@@ -4,9 +4,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_revise(void);
+#include "tests/suites.h"
 
 typedef struct revised {
     bool stop_moved, hold_moved, keeps;
@@ -82,7 +80,7 @@ static void expect_places(const revised *r) {
     expect_near(passed && !held && r->stop_pin < 0 ? PLACE + WH_R(0.5) * r->gap : PLACE, s.real[1]);
 }
 
-static void test_each_way_to_be_moved(void) {
+TEST(contact_revise, each_way_to_be_moved) {
     static const int pins[] = {1, -1, -1, -1};
     static const int8_t directions[] = {0, 0, 1, -1};
     uint64_t seed = 2321;
@@ -108,5 +106,3 @@ static void test_each_way_to_be_moved(void) {
         expect_places(&r);
     }
 }
-
-void suite_contact_revise(void) { RUN_TEST(test_each_way_to_be_moved); }

@@ -2,9 +2,7 @@
  * of every kind, earliest first, and the number of evaluations. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_search(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 1500 : 30 };
 
@@ -105,7 +103,7 @@ static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, u
 
 /* Stops, holds' conditions and crossings, each with its time (after the end: no event), several at once; some begin at zero with an
  * immediate event. The first is found, just past it, with all simultaneous ones. */
-static void test_the_first_of_several_is_found(void) {
+TEST(contact_search, the_first_of_several_is_found) {
     uint64_t seed = 201;
     tally sum = {0, 0, 0, 0};
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -155,7 +153,7 @@ static void test_the_first_of_several_is_found(void) {
 }
 
 /* A contact beyond zero has its event at once, with all such ones and no others; a sliding one begins at rest. */
-static void test_what_is_beyond_already_comes_at_once(void) {
+TEST(contact_search, what_is_beyond_already_comes_at_once) {
     uint64_t seed = 202;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -185,7 +183,7 @@ static void test_what_is_beyond_already_comes_at_once(void) {
 }
 
 /* A friction that slides against a force rests at v/a. It begins with a rate, or at zero in a mode that it is about to leave. */
-static void test_sliding_ends_where_the_rate_does(void) {
+TEST(contact_search, sliding_ends_where_the_rate_does) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -221,7 +219,7 @@ static void test_sliding_ends_where_the_rate_does(void) {
 }
 
 /* A contact that slides from rest and is bent back. Its rate is zero at the start, which is no event, and at the end. */
-static void test_who_slides_from_rest_comes_back_to_it(void) {
+TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -260,7 +258,7 @@ static void test_who_slides_from_rest_comes_back_to_it(void) {
 }
 
 /* A sticking friction breaks loose at its limit, and so does a pulled stop. A load at its limit at the start exceeds it then. */
-static void test_a_load_meets_its_limit(void) {
+TEST(contact_search, a_load_meets_its_limit) {
     uint64_t seed = 205;
     tally sum = {0, 0, 0, 0};
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -295,12 +293,4 @@ static void test_a_load_meets_its_limit(void) {
         TEST_ASSERT_EQUAL_UINT(1U, events);
     }
     told(&sum, 1410, 955, 25);
-}
-
-void suite_contact_search(void) {
-    RUN_TEST(test_the_first_of_several_is_found);
-    RUN_TEST(test_what_is_beyond_already_comes_at_once);
-    RUN_TEST(test_sliding_ends_where_the_rate_does);
-    RUN_TEST(test_who_slides_from_rest_comes_back_to_it);
-    RUN_TEST(test_a_load_meets_its_limit);
 }

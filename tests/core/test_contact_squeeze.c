@@ -7,9 +7,7 @@
 #include "draw.h"
 #include "exact.h"
 
-#include "unity.h"
-
-void suite_contact_squeeze(void);
+#include "tests/suites.h"
 
 enum { MECHANISMS = __STDC_HOSTED__ ? 4000 : 100 };
 
@@ -70,7 +68,7 @@ static bool near(double value, double wanted) {
     return off <= CLOSE && -off <= CLOSE;
 }
 
-static void test_the_least_that_lets_nobody_pass(void) {
+TEST(contact_squeeze, the_least_that_lets_nobody_pass) {
     EXACT_NEEDS_DOUBLE();
     uint64_t seed = 21;
     unsigned wrong = 0;
@@ -106,7 +104,7 @@ static void test_the_least_that_lets_nobody_pass(void) {
 }
 
 /* Two stops are passed. The first pushes a body onto the other, which is hit without a push, by a slide along the first. */
-static void test_who_is_met_without_a_push_is_hit(void) {
+TEST(contact_squeeze, who_is_met_without_a_push_is_hit) {
     for (int slope = -3; slope <= 3; slope++) {
         for (int beyond = 1; beyond <= 3; beyond++) {
             wh_contact_work w;
@@ -132,9 +130,4 @@ static void test_who_is_met_without_a_push_is_hit(void) {
             TEST_ASSERT_TRUE(near((double)s.real[3], (double)speed + (double)row[1] * push));
         }
     }
-}
-
-void suite_contact_squeeze(void) {
-    RUN_TEST(test_the_least_that_lets_nobody_pass);
-    RUN_TEST(test_who_is_met_without_a_push_is_hit);
 }

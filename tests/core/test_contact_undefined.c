@@ -2,9 +2,7 @@
  * refused with the contact's number and the last good state. Otherwise it is no error. */
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_contact_undefined(void);
+#include "tests/suites.h"
 
 typedef enum lost_place { FIRST_SIGNAL, SECOND_SIGNAL, FIRST_LAW, SECOND_LAW } lost_place;
 enum { PLACES = SECOND_LAW + 1 };
@@ -94,7 +92,7 @@ static bool answers(unsigned k, lost_place place, unsigned steps, wh_real nothin
                     : status == WH_OK;
 }
 
-static void test_what_a_step_builds_on_must_be_a_number(void) {
+TEST(contact_undefined, what_a_step_builds_on_must_be_a_number) {
     unsigned wrong = 0;
     unsigned asked = 0;
     for (unsigned number = 0; number < 64 * 16; number++) {
@@ -117,7 +115,7 @@ static void test_what_a_step_builds_on_must_be_a_number(void) {
     TEST_ASSERT_TRUE(asked > 100);
 }
 
-static void test_the_first_of_several_is_named(void) {
+TEST(contact_undefined, the_first_of_several_is_named) {
     for (unsigned steps = 0; steps < 4; steps += 3) {
         for (unsigned k = 0; k + 1 < COUNT; k++) {
             TEST_ASSERT_TRUE(build(0, false, false, true)); /* three stops */
@@ -132,7 +130,7 @@ static void test_the_first_of_several_is_named(void) {
 }
 
 /* A restitution counts at a hit of its stop, at a run's start and later. */
-static void test_a_restitution_counts_at_an_impact(void) {
+TEST(contact_undefined, a_restitution_counts_at_an_impact) {
     for (unsigned k = 0; k < COUNT; k++) {
         for (unsigned later = 0; later < 2; later++) {
             hand_build(1, WH_R(2.0), WH_R(0.0), WH_R(1.0));
@@ -151,7 +149,7 @@ static void test_a_restitution_counts_at_an_impact(void) {
 }
 
 /* A crossing that assigns an invalid value is refused with the component. */
-static void test_what_is_assigned_must_be_a_number(void) {
+TEST(contact_undefined, what_is_assigned_must_be_a_number) {
     for (unsigned way = 0; way < 3; way++) {
         for (unsigned others = 0; others < COUNT; others++) {
             hand_build(1, WH_R(2.0), WH_R(0.0), WH_R(1.0));
@@ -170,11 +168,4 @@ static void test_what_is_assigned_must_be_a_number(void) {
             TEST_ASSERT_TRUE(hand_state.fault >= 0);
         }
     }
-}
-
-void suite_contact_undefined(void) {
-    RUN_TEST(test_what_a_step_builds_on_must_be_a_number);
-    RUN_TEST(test_the_first_of_several_is_named);
-    RUN_TEST(test_a_restitution_counts_at_an_impact);
-    RUN_TEST(test_what_is_assigned_must_be_a_number);
 }

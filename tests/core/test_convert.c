@@ -2,15 +2,13 @@
  * a board's own (boards/shared/convert.c). By the definition, in integers. */
 #include "core/real.h"
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
 #endif
 #define RANDOM_NUMBERS (WH_TEST_SMALL ? 2000U : 200000U)
 #define KEPT_BITS 24U
-
-void suite_convert(void);
 
 static uint32_t bits_of(float real) {
     const union {
@@ -70,7 +68,7 @@ static void check(uint64_t number) {
     }
 }
 
-static void test_around_powers_of_two(void) {
+TEST(convert, around_powers_of_two) {
     for (unsigned e = 0; e < 64U; e++) {
         for (uint64_t d = 0; d < 4U; d++) {
             check((UINT64_C(1) << e) + d);
@@ -82,7 +80,7 @@ static void test_around_powers_of_two(void) {
 }
 
 /* The middle between two floats, and its neighbours. */
-static void test_ties(void) {
+TEST(convert, ties) {
     for (unsigned shift = 1; shift <= 40U; shift++) {
         for (uint64_t kept = (UINT64_C(1) << 23) + 5U; kept < (UINT64_C(1) << 23) + 9U; kept++) {
             const uint64_t middle = (kept << shift) + (UINT64_C(1) << (shift - 1U));
@@ -96,7 +94,7 @@ static void test_ties(void) {
     }
 }
 
-static void test_numbers_of_any_length(void) {
+TEST(convert, numbers_of_any_length) {
     uint64_t seed = UINT64_C(0x9E3779B97F4A7C15);
     for (unsigned i = 0; i < RANDOM_NUMBERS; i++) {
         seed ^= seed << 13;
@@ -104,10 +102,4 @@ static void test_numbers_of_any_length(void) {
         seed ^= seed << 17; /* Marsaglia, Xorshift RNGs, 2003 */
         check(seed >> (i % 64U));
     }
-}
-
-void suite_convert(void) {
-    RUN_TEST(test_around_powers_of_two);
-    RUN_TEST(test_ties);
-    RUN_TEST(test_numbers_of_any_length);
 }

@@ -2,12 +2,10 @@
 #include "core/exchange.h"
 
 #include "draw.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 static uint8_t bytes[WH_READINGS_BYTES + 8U];
 static uint64_t seed;
-
-void suite_exchange(void);
 
 static uint32_t draw_word(void) { return (uint32_t)(draw_bits(&seed) << 16 ^ draw_bits(&seed)); }
 
@@ -26,7 +24,7 @@ static wh_orders orders_in;
 static wh_orders orders_out;
 static bool get_orders(unsigned length) { return wh_orders_get(&orders_out, bytes, length); }
 
-static void test_orders(void) {
+TEST(exchange, orders) {
     seed = 1;
     for (unsigned outputs = 0; outputs <= WH_SIGNALS_MAX; outputs++) {
         orders_in = (wh_orders){.until_ticks = draw_word(),
@@ -60,7 +58,7 @@ static wh_readings readings_in;
 static wh_readings readings_out;
 static bool get_readings(unsigned length) { return wh_readings_get(&readings_out, bytes, length); }
 
-static void test_readings(void) {
+TEST(exchange, readings) {
     seed = 2;
     for (unsigned round = 0; round < 40; round++) {
         readings_in = (wh_readings){.flags = (uint8_t)draw_word(),
@@ -102,7 +100,7 @@ static void test_readings(void) {
 static wh_reset reset_out;
 
 /* Any number of remembered bytes, also zero, and an existing cause. */
-static void test_reset(void) {
+TEST(exchange, reset) {
     seed = 3;
     for (unsigned count = 0; count <= WH_REMEMBER_MAX; count++) {
         wh_reset reset = {.cause = count % 2U ? WH_RESET_WATCHDOG : WH_RESET_OTHER, .count = count};
@@ -138,7 +136,7 @@ static bool get_hello(unsigned length) {
     return wh_hello_get(&hello_out, signals_out, bytes, length);
 }
 
-static void test_hello(void) {
+TEST(exchange, hello) {
     const wh_hello hello = {"rig", "mps2", 1000000U, 25000000U, 0xFFB3B4C0U, signals, 4};
     const unsigned length = wh_hello_put(&hello, bytes, sizeof bytes);
     TEST_ASSERT_EQUAL_UINT(WH_HELLO_BYTES(4U, 3U + 4U + 4U + 1U + 10U + 1U + 5U + 3U + 5U + 1U),
@@ -168,7 +166,7 @@ static void test_hello(void) {
 }
 
 /* Random bytes: no count beyond its room, no string beyond the bytes. */
-static void test_noise(void) {
+TEST(exchange, noise) {
     seed = 4;
     for (unsigned round = 0; round < 3000; round++) {
         const unsigned length = draw_one_of(&seed, WH_READINGS_BYTES + 1U);
@@ -186,12 +184,4 @@ static void test_noise(void) {
             TEST_ASSERT_TRUE(hello_out.signals <= WH_SIGNALS_MAX);
         }
     }
-}
-
-void suite_exchange(void) {
-    RUN_TEST(test_orders);
-    RUN_TEST(test_readings);
-    RUN_TEST(test_reset);
-    RUN_TEST(test_hello);
-    RUN_TEST(test_noise);
 }

@@ -4,14 +4,12 @@
 #include "core/angle.h"
 #include "core/fixed_scene.h"
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
 #endif
 #define CASES (WH_TEST_SMALL ? 2000L : 400000L)
-
-void suite_fixed(void);
 
 static uint64_t drawn = UINT64_C(88172645463325252);
 
@@ -40,7 +38,7 @@ static int64_t floor_shift(int64_t x, int by) {
     return (x - (rest < 0 ? rest + unit : rest)) / unit;
 }
 
-static void test_products(void) {
+TEST(fixed, products) {
     for (long i = 0; i < CASES; i++) {
         const int32_t a = draw_number();
         const int32_t b = draw_number();
@@ -52,7 +50,7 @@ static void test_products(void) {
     }
 }
 
-static void test_short_products(void) {
+TEST(fixed, short_products) {
     for (long i = 0; i < CASES; i++) {
         const int16_t a = (int16_t)draw_number();
         const int16_t b = (int16_t)draw_number();
@@ -63,7 +61,7 @@ static void test_short_products(void) {
     }
 }
 
-static void test_rounding(void) {
+TEST(fixed, rounding) {
     for (long i = 0; i < CASES; i++) {
         const int32_t a = draw_number() / 2;
         const int32_t b = draw_number();
@@ -80,7 +78,7 @@ static void test_rounding(void) {
 }
 
 /* Sums modulo 2^32, signs, sizes, shifts beyond all digits, and a product's upper digits. */
-static void test_small_operations(void) {
+TEST(fixed, small_operations) {
     for (long i = 0; i < CASES; i++) {
         const int32_t a = draw_number();
         const int32_t b = draw_number();
@@ -114,7 +112,7 @@ static void check_reciprocal(uint32_t d) {
                              "a reciprocal is off");
 }
 
-static void test_reciprocals(void) {
+TEST(fixed, reciprocals) {
     check_reciprocal(UINT32_C(0x80000000));
     check_reciprocal(UINT32_MAX);
     for (uint32_t i = 0; i < 128; i++) { /* both ends of each cell */
@@ -126,7 +124,7 @@ static void test_reciprocals(void) {
     }
 }
 
-static void test_zeros(void) {
+TEST(fixed, zeros) {
     for (int i = 0; i < 32; i++) {
         TEST_ASSERT_EQUAL_INT(31 - i, wh_fixed_zeros(UINT32_C(1) << i));
         TEST_ASSERT_EQUAL_INT(31 - i, wh_fixed_zeros((UINT32_C(2) << i) - 1U));
@@ -161,7 +159,7 @@ static void check_sine(uint32_t phase) {
     TEST_ASSERT_TRUE(WH_ABS((wh_real)c * WH_R(0x1p-30) - cosine) < most);
 }
 
-static void test_sines(void) {
+TEST(fixed, sines) {
     int32_t s;
     int32_t c;
     for (uint32_t i = 0; i < 4; i++) { /* quarter turns are exact */
@@ -178,7 +176,7 @@ static void test_sines(void) {
     }
 }
 
-static void test_limits(void) {
+TEST(fixed, limits) {
     uint32_t held = 0;
     for (long i = 0; i < CASES; i++) {
         const int32_t a = draw_number() / 2;
@@ -229,7 +227,7 @@ static void must_not_run(wh_fixed_state *state) {
     TEST_ASSERT_TRUE(state->steps == steps && state->saturated == saturated && state->real == NULL);
 }
 
-static void test_states_that_were_not_started(void) {
+TEST(fixed, states_that_were_not_started) {
     uint64_t memory[4];
     int32_t start_real[1];
     wh_fixed_state state = {.steps = 0};
@@ -248,7 +246,7 @@ static void test_states_that_were_not_started(void) {
     must_not_run(&state);
 }
 
-static void test_scenes(void) {
+TEST(fixed, scenes) {
     uint64_t memory[2];
     wh_fixed_state state;
     TEST_ASSERT_EQUAL_INT(16, (int)WH_FIXED_BYTES(1, 2));
@@ -274,7 +272,7 @@ static void test_scenes(void) {
     TEST_ASSERT_EQUAL_INT32((INT32_C(1) << 24) + 1, state.real[0]);
 }
 
-static void test_edges(void) {
+TEST(fixed, edges) {
     uint64_t memory[2];
     wh_fixed_state state;
     (void)wh_fixed_start(&scene, &state, memory, sizeof memory);
@@ -337,18 +335,4 @@ static void test_edges(void) {
         TEST_ASSERT_EQUAL_INT32(x, wh_fixed_of(&format, wh_fixed_to(&format, x), &held));
         TEST_ASSERT_EQUAL_UINT32(0, held);
     }
-}
-
-void suite_fixed(void) {
-    RUN_TEST(test_products);
-    RUN_TEST(test_short_products);
-    RUN_TEST(test_rounding);
-    RUN_TEST(test_small_operations);
-    RUN_TEST(test_reciprocals);
-    RUN_TEST(test_zeros);
-    RUN_TEST(test_sines);
-    RUN_TEST(test_limits);
-    RUN_TEST(test_scenes);
-    RUN_TEST(test_states_that_were_not_started);
-    RUN_TEST(test_edges);
 }

@@ -2,7 +2,7 @@
 #include "core/frame.h"
 
 #include "draw.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 /* An AVR has room for one block of the code and a part of a second, the others for two and a part. */
 #if defined(__AVR__)
@@ -18,8 +18,6 @@ static uint8_t room[LINE_BYTES];
 static wh_frame_reader reader;
 static wh_frame got;
 static uint64_t seed;
-
-void suite_frame(void);
 
 /* Payloads: random bytes, many zeros, none, long ones without zeros. */
 static void fill(unsigned length, unsigned kind) {
@@ -59,7 +57,7 @@ static void expect_same(unsigned length, uint16_t sequence) {
 }
 
 /* The standard check value of this CRC. */
-static void test_crc(void) {
+TEST(frame, crc) {
     const uint8_t digits[9] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926U, wh_frame_crc(0, digits, 9));
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926U, wh_frame_crc(wh_frame_crc(0, digits, 4), digits + 4, 5));
@@ -67,7 +65,7 @@ static void test_crc(void) {
 }
 
 /* Every length and kind: whole, without a zero inside, and within the header's size bound. */
-static void test_round_trip(void) {
+TEST(frame, round_trip) {
     seed = 1;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length++) {
         fill(length, length % 3U);
@@ -85,7 +83,7 @@ static void test_round_trip(void) {
 }
 
 /* With one byte too little nothing is claimed, and nothing is written beyond the buffer. */
-static void test_no_room(void) {
+TEST(frame, no_room) {
     seed = 2;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length += 13) {
         fill(length, length % 3U);
@@ -104,7 +102,7 @@ static void test_no_room(void) {
 }
 
 /* Every single bit flip, and bursts of up to 32 bits, are detected, also if the frame's end moves. The next frame is read. */
-static void test_flips(void) {
+TEST(frame, flips) {
     seed = 3;
     for (unsigned length = 0; length < 64; length += 9) {
         fill(length, length % 3U);
@@ -122,7 +120,7 @@ static void test_flips(void) {
 }
 
 /* Frames with missing bytes are rejected. A missing zero may lose the next one too; the one after that is read. */
-static void test_truncations(void) {
+TEST(frame, truncations) {
     seed = 4;
     for (unsigned round = 0; round < 300; round++) {
         const unsigned length = (unsigned)(draw_bits(&seed) % (PAYLOAD_BYTES / 2U));
@@ -144,7 +142,7 @@ static void test_truncations(void) {
 }
 
 /* Noise contains no frame (one in 2^32 would pass), overflows nothing, and the first frame after a zero is read. */
-static void test_noise(void) {
+TEST(frame, noise) {
     seed = 5;
     for (unsigned size = 1; size <= 64; size *= 4) {
         wh_frame_reader_start(&reader, room, size);
@@ -172,7 +170,7 @@ static void test_noise(void) {
 }
 
 /* A frame of another version is returned with its version. */
-static void test_version(void) {
+TEST(frame, version) {
     uint8_t raw[WH_FRAME_FIXED_BYTES + 2U] = {1, WH_FRAME_VERSION + 1U, 3, 1, 1, 1, 1, 1, 1};
     const uint32_t crc = wh_frame_crc(0, raw + 1, 8);
     unsigned at = 9;
@@ -190,7 +188,7 @@ static void test_version(void) {
     TEST_ASSERT_EQUAL_UINT(0, got.length);
 }
 
-static void test_numbers(void) {
+TEST(frame, numbers) {
     static const float numbers[] = {0.0f, -0.0f, 1.5f, -3.0e-40f, 3.0e38f};
     uint8_t bytes[64];
     wh_bytes out = {.to = bytes, .room = sizeof bytes};
@@ -216,15 +214,4 @@ static void test_numbers(void) {
     wh_bytes little = {.to = bytes, .room = 3};
     wh_bytes_put(&little, 1, 4);
     TEST_ASSERT_TRUE(little.over && little.at == 0);
-}
-
-void suite_frame(void) {
-    RUN_TEST(test_crc);
-    RUN_TEST(test_round_trip);
-    RUN_TEST(test_no_room);
-    RUN_TEST(test_flips);
-    RUN_TEST(test_truncations);
-    RUN_TEST(test_noise);
-    RUN_TEST(test_version);
-    RUN_TEST(test_numbers);
 }

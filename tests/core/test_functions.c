@@ -1,8 +1,7 @@
 /* test_functions.c: the core's functions: edges, exact results, order, symmetry, and equal bits on every machine.
  * tests/host/test_function_accuracy.c, test_double_functions.c and make functions-exhaustive measure the errors. */
 #include "edges.h"
-
-void suite_functions(void);
+#include "tests/suites.h"
 
 #define PI WH_R(3.14159265358979323846)
 /* --- edges, after C11's Annex F -------------------------------------------------------------------------- */
@@ -14,7 +13,7 @@ typedef struct edge_of_two {
     wh_real wanted;
 } edge_of_two;
 
-static void test_edges(void) {
+TEST(functions, edges) {
     static const edge of_exp[] = {
         {ZERO, ONE},         {-ZERO, ONE},          {SMALLEST, ONE},
         {-SMALLEST, ONE},    {-NORMAL, ONE},        {ONE, WH_R(2.71828182845904523536)},
@@ -59,7 +58,7 @@ static void test_edges(void) {
     EXPECT_EDGES(wh_atan, of_atan, true);
 }
 
-static void test_edges_of_atan2(void) {
+TEST(functions, edges_of_atan2) {
     static const edge_of_two edges[] = {/* y, x; the upper half */
                                         {ZERO, ZERO, ZERO},
                                         {ZERO, -ZERO, PI},
@@ -93,7 +92,7 @@ static void test_edges_of_atan2(void) {
     }
 }
 
-static void test_edges_of_power(void) {
+TEST(functions, edges_of_power) {
     static const edge_of_two edges[] = {
         {ZERO, THREE, ZERO},
         {-ZERO, THREE, -ZERO},
@@ -151,7 +150,7 @@ static void test_edges_of_power(void) {
     }
 }
 
-static void test_exact_powers_of_two(void) {
+TEST(functions, exact_powers_of_two) {
     wh_real wanted = SMALLEST;
     for (int n = LEAST_POWER; n <= MOST_POWER; n++) {
         const wh_real power = (wh_real)n;
@@ -169,7 +168,7 @@ static void test_exact_powers_of_two(void) {
     }
 }
 
-static void test_exact_powers(void) {
+TEST(functions, exact_powers) {
     const wh_real limit = wh_pow(TWO, (wh_real)DIGITS);
     const wh_real quarter = WH_R(0.25);
     for (int base = 2; base <= 40; base++) {
@@ -189,7 +188,7 @@ static void test_exact_powers(void) {
     }
 }
 
-static void test_never_falls(void) {
+TEST(functions, never_falls) {
     wh_real last[6] = {-INFINITE, -INFINITE, -INFINITE, -INFINITE, -INFINITE, -INFINITE};
     wh_real last_cosine = INFINITE;
     for (int i = 1; i <= 4000; i++) {
@@ -206,7 +205,7 @@ static void test_never_falls(void) {
     }
 }
 
-static void test_symmetry(void) {
+TEST(functions, symmetry) {
     scattered_state = 5;
     for (int i = 0; i < 1000; i++) {
         const wh_real x = part();
@@ -222,7 +221,7 @@ static void test_symmetry(void) {
 }
 
 /* Inverse pairs, to the round-off of the intermediate. */
-static void test_inverses(void) {
+TEST(functions, inverses) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 6;
     for (int i = 0; i < 1000; i++) {
@@ -248,7 +247,7 @@ static uint64_t mixed_of_all(uint64_t hash, wh_real x, wh_real y) {
     return mixed(hash, wh_pow(x, y));
 }
 
-static void test_same_bits_everywhere(void) {
+TEST(functions, same_bits_everywhere) {
     scattered_state = 7;
     uint64_t hash = WH_HASH_START;
     for (int i = 0; i < 1500; i++) {
@@ -263,16 +262,4 @@ static void test_same_bits_everywhere(void) {
     }
     TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x4de95b45dd636336) : UINT64_C(0x631ccc03b4a2e5b8),
                             hash);
-}
-
-void suite_functions(void) {
-    RUN_TEST(test_edges);
-    RUN_TEST(test_edges_of_atan2);
-    RUN_TEST(test_edges_of_power);
-    RUN_TEST(test_exact_powers_of_two);
-    RUN_TEST(test_exact_powers);
-    RUN_TEST(test_never_falls);
-    RUN_TEST(test_symmetry);
-    RUN_TEST(test_inverses);
-    RUN_TEST(test_same_bits_everywhere);
 }

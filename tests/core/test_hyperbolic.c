@@ -1,9 +1,8 @@
 /* test_hyperbolic.c: the core's hyperbolic functions: edges, order, symmetry, identities, and equal bits on every machine. */
 #include "edges.h"
+#include "tests/suites.h"
 
-void suite_hyperbolic(void);
-
-static void test_hyperbolic_edges(void) {
+TEST(hyperbolic, hyperbolic_edges) {
     static const edge of_sinh[] = {{ZERO, ZERO},          {SMALLEST, SMALLEST},
                                    {NORMAL, NORMAL},      {ONE, WH_R(1.1752011936438014569)},
                                    {LARGEST, INFINITE},   {INFINITE, INFINITE},
@@ -29,7 +28,7 @@ static void test_hyperbolic_edges(void) {
 }
 
 /* Boundaries between two ways of computing: neighbours, a few thousand on either side. */
-static void test_hyperbolic_never_fall(void) {
+TEST(hyperbolic, hyperbolic_never_fall) {
     static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
     const wh_real next = ONE + wh_pow(TWO, (wh_real)(1 - DIGITS));
     for (unsigned k = 0; k < sizeof from / sizeof from[0]; k++) {
@@ -47,7 +46,7 @@ static void test_hyperbolic_never_fall(void) {
 }
 
 /* cosh + sinh is e^x, cosh - sinh e^-x, sinh/cosh tanh: to the round-off. */
-static void test_hyperbolic_identities(void) {
+TEST(hyperbolic, hyperbolic_identities) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 8;
     for (int i = 0; i < 1000; i++) {
@@ -60,7 +59,7 @@ static void test_hyperbolic_identities(void) {
     }
 }
 
-static void test_hyperbolic_symmetry(void) {
+TEST(hyperbolic, hyperbolic_symmetry) {
     scattered_state = 5;
     for (int i = 0; i < 1000; i++) {
         const wh_real x = part();
@@ -76,7 +75,7 @@ static uint64_t mixed_of_hyperbolic(uint64_t hash, wh_real x) {
     return mixed(mixed(mixed(hash, wh_sinh(x)), wh_cosh(x)), wh_tanh(x));
 }
 
-static void test_same_bits_of_hyperbolic(void) {
+TEST(hyperbolic, same_bits_of_hyperbolic) {
     scattered_state = 9;
     uint64_t hash = WH_HASH_START;
     for (int i = 0; i < 1500; i++) {
@@ -87,12 +86,4 @@ static void test_same_bits_of_hyperbolic(void) {
     }
     TEST_ASSERT_EQUAL_HEX64(WH_DOUBLE ? UINT64_C(0x46e5312fb321686a) : UINT64_C(0x255e8fa7b3dd3550),
                             hash);
-}
-
-void suite_hyperbolic(void) {
-    RUN_TEST(test_hyperbolic_edges);
-    RUN_TEST(test_hyperbolic_never_fall);
-    RUN_TEST(test_hyperbolic_identities);
-    RUN_TEST(test_hyperbolic_symmetry);
-    RUN_TEST(test_same_bits_of_hyperbolic);
 }

@@ -3,9 +3,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_lcp(void);
+#include "tests/suites.h"
 
 enum { PROBLEMS = __STDC_HOSTED__ ? 20000 : 500, CONTACTS = 3 };
 
@@ -117,15 +115,8 @@ static void check(bool holds, bool forces) {
     TEST_ASSERT_EQUAL_UINT(0, capped);
 }
 
-static void test_forces_meet_their_conditions(void) { check(false, true); }
-static void test_forces_beside_holds_do(void) { check(true, true); }
+TEST(lcp, forces_meet_their_conditions) { check(false, true); }
+TEST(lcp, forces_beside_holds_do) { check(true, true); }
 /* Stops at the same place may bounce differently: their targets contradict each other. */
-static void test_impulses_meet_their_conditions(void) { check(false, false); }
-static void test_impulses_beside_holds_do(void) { check(true, false); }
-
-void suite_lcp(void) {
-    RUN_TEST(test_forces_meet_their_conditions);
-    RUN_TEST(test_forces_beside_holds_do);
-    RUN_TEST(test_impulses_meet_their_conditions);
-    RUN_TEST(test_impulses_beside_holds_do);
-}
+TEST(lcp, impulses_meet_their_conditions) { check(false, false); }
+TEST(lcp, impulses_beside_holds_do) { check(true, false); }

@@ -2,9 +2,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_ledger(void);
+#include "tests/suites.h"
 
 static wh_real error_of(unsigned account) {
     wh_real level[WH_ACCOUNTS_MAX];
@@ -13,7 +11,7 @@ static wh_real error_of(unsigned account) {
 
 /* A body of 1 kg falls 1 m and comes to rest: gravity gave m g h and m g t, and the stop took both. Rest begins up to g
  * (step/8)^2/8 = 2e-8 m above the stop: in energy 2e-7 J. */
-static void test_books_of_the_ball(void) {
+TEST(ledger, books_of_the_ball) {
     hand_build_ball(WH_R(0.5));
     hand_start(true);
     hand_steps(2000);
@@ -27,7 +25,7 @@ static void test_books_of_the_ball(void) {
 }
 
 /* The thrown block loses 1/2 J and 1 N s, all to friction. */
-static void test_books_of_the_thrown_block(void) {
+TEST(ledger, books_of_the_thrown_block) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(2.0));
     hand_now.start[1] = WH_R(1.0);
@@ -40,7 +38,7 @@ static void test_books_of_the_thrown_block(void) {
 }
 
 /* The coupled impact: loss (1 - e^2) v^2 / (2 (M^-1)_00), impulse on the first coordinate. The crossing has its own entry. */
-static void test_books_of_impacts_and_settings(void) {
+TEST(ledger, books_of_impacts_and_settings) {
     hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
     hand_now.start[0] = WH_R(0.0015);
@@ -64,7 +62,7 @@ static void test_books_of_impacts_and_settings(void) {
     TEST_ASSERT_TRUE(hand_near(hand_state.ledger[entry + 1], WH_R(-1.5), 1e-15, 2e-7));
 }
 
-static void test_books_do_not_touch_the_run(void) {
+TEST(ledger, books_do_not_touch_the_run) {
     uint64_t hash[2];
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));
@@ -113,7 +111,7 @@ static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
 
 /* The spring becomes stiffer, then softer: each change adds (k2 - k1) x^2/2, entered in the next step; the balance stays 0 until
  * then. */
-static void test_books_of_a_spring_that_is_changed(void) {
+TEST(ledger, books_of_a_spring_that_is_changed) {
     static uint64_t memory[WH_STATE_WORDS(0, 2, 1) + WH_LEDGER_WORDS(2, 3)];
     static const wh_real start[2] = {WH_R(0.5), WH_R(1.0)};
     static const wh_real rates[4] = {WH_R(4.0), WH_R(25.0), WH_R(1.0), WH_R(9.0)}; /* N/m */
@@ -199,7 +197,7 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
 
 /* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t, from the shaft's turns, not its phase. Each input has its
  * own entry: the first by its effect on the energy, the second by the remainder. */
-static void test_books_name_angles_with_their_turns(void) {
+TEST(ledger, books_name_angles_with_their_turns) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
     static const wh_real start_input[2] = {WH_R(0.0), WH_R(0.0)};
@@ -246,7 +244,7 @@ static void test_books_name_angles_with_their_turns(void) {
 }
 
 /* An angle is set, turns included, or moved exactly after many turns. An input changed just before has its own entry. */
-static void test_corrected_angles_are_booked(void) {
+TEST(ledger, corrected_angles_are_booked) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
     static const wh_real start_input[2] = {WH_R(0.25), WH_R(0.0)};
@@ -293,14 +291,4 @@ static void test_corrected_angles_are_booked(void) {
         TEST_ASSERT_TRUE(wh_scene_set_angle(&scene, &state, 1, WH_R(1.0)) == WH_E_ARGUMENT);
         TEST_ASSERT_TRUE(wh_scene_set_real(&scene, &state, 1, WH_R(1.0)) == WH_E_ARGUMENT);
     }
-}
-
-void suite_ledger(void) {
-    RUN_TEST(test_corrected_angles_are_booked);
-    RUN_TEST(test_books_of_the_ball);
-    RUN_TEST(test_books_of_the_thrown_block);
-    RUN_TEST(test_books_of_impacts_and_settings);
-    RUN_TEST(test_books_do_not_touch_the_run);
-    RUN_TEST(test_books_of_a_spring_that_is_changed);
-    RUN_TEST(test_books_name_angles_with_their_turns);
 }

@@ -3,9 +3,7 @@
 #include "draw.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_locate(void);
+#include "tests/suites.h"
 
 enum { CASES = __STDC_HOSTED__ ? 3000 : 200 };
 
@@ -47,7 +45,7 @@ static unsigned add_crossing(wh_real at, int direction) {
 }
 
 /* One crossing that reverses and halves the rate: located in time, then the other motion. */
-static void test_a_crossing_is_found_where_it_is(void) {
+TEST(locate, a_crossing_is_found_where_it_is) {
     uint64_t seed = 411;
     wh_real worst = WH_R(0.0);
     for (unsigned i = 0; i < CASES; i++) {
@@ -72,7 +70,7 @@ static void test_a_crossing_is_found_where_it_is(void) {
 }
 
 /* The number of evaluations is a bracketing search's, far below halving, its fallback. The others are the step's own. */
-static void test_a_crossing_is_found_with_few_looks(void) {
+TEST(locate, a_crossing_is_found_with_few_looks) {
     uint64_t seed = 412;
     unsigned all = 0;
     unsigned most = 0;
@@ -91,7 +89,7 @@ static void test_a_crossing_is_found_with_few_looks(void) {
 }
 
 /* Flat or steep crossings do not exhaust the evaluations before the accuracy is reached. */
-static void test_flat_and_steep_crossings_are_found(void) {
+TEST(locate, flat_and_steep_crossings_are_found) {
     uint64_t seed = 415;
     for (unsigned i = 0; i < CASES; i++) {
         const path p = random_path(&seed);
@@ -109,7 +107,7 @@ static void test_flat_and_steep_crossings_are_found(void) {
 }
 
 /* Two crossings and one against its direction, declared in any order: each is located in time, the earliest first. */
-static void test_crossings_of_one_step_come_in_their_order(void) {
+TEST(locate, crossings_of_one_step_come_in_their_order) {
     uint64_t seed = 413;
     for (unsigned i = 0; i < CASES; i++) {
         const path p = random_path(&seed);
@@ -146,7 +144,7 @@ static void test_crossings_of_one_step_come_in_their_order(void) {
 }
 
 /* A stop in the way of the same motion, and one beyond it: the body bounces with v + a t and is where it must be. */
-static void test_a_stop_is_hit_where_it_is(void) {
+TEST(locate, a_stop_is_hit_where_it_is) {
     uint64_t seed = 414;
     for (unsigned i = 0; i < CASES; i++) {
         const path p = random_path(&seed);
@@ -179,12 +177,4 @@ static void test_a_stop_is_hit_where_it_is(void) {
                              -STEP_S * (WH_DOUBLE ? WH_R(1e-13) : WH_R(1e-5)));
         }
     }
-}
-
-void suite_locate(void) {
-    RUN_TEST(test_a_crossing_is_found_where_it_is);
-    RUN_TEST(test_a_crossing_is_found_with_few_looks);
-    RUN_TEST(test_flat_and_steep_crossings_are_found);
-    RUN_TEST(test_crossings_of_one_step_come_in_their_order);
-    RUN_TEST(test_a_stop_is_hit_where_it_is);
 }

@@ -7,9 +7,7 @@
 #include "core/rig/polar.h"
 #include "core/rig/rig.h"
 
-#include "unity.h"
-
-void suite_lockin(void);
+#include "tests/suites.h"
 
 #define PERIOD_TICKS UINT32_C(2000) /* an AVR's unsigned has 16 bits */
 #define TURN_TICKS UINT32_C(181818) /* 330 rpm */
@@ -164,7 +162,7 @@ static void check_all(const made_up *made, unsigned wanted) {
 static const made_up plain = {
     .late_ticks = 77, .order = 1, .mean_N = WH_R(80.0), .amplitude_N = WH_R(60.0)};
 
-static void test_known_phase_and_amplitude_are_found(void) {
+TEST(lockin, known_phase_and_amplitude_are_found) {
     static const wh_real degrees[] = {WH_R(0.0), WH_R(30.0), WH_R(-30.0), WH_R(90.0), WH_R(170.0)};
     settings();
     for (unsigned i = 0; i < 5U * 4U; i++) {
@@ -184,7 +182,7 @@ static void test_known_phase_and_amplitude_are_found(void) {
 }
 
 /* A mark 5 degrees before the sensor: the angles count from there. */
-static void test_angle_of_the_mark_counts(void) {
+TEST(lockin, angle_of_the_mark_counts) {
     settings();
     made_up made = plain;
     made.phase_rad = WH_R(30.0) * DEG;
@@ -194,7 +192,7 @@ static void test_angle_of_the_mark_counts(void) {
     check_all(&made, 6);
 }
 
-static void test_other_orders_are_rejected(void) {
+TEST(lockin, other_orders_are_rejected) {
     settings();
     for (unsigned order = 0; order <= 5; order++) {
         if (order == 1) {
@@ -214,7 +212,7 @@ static void test_other_orders_are_rejected(void) {
     }
 }
 
-static void test_timer_may_wrap_within_a_turn(void) {
+TEST(lockin, timer_may_wrap_within_a_turn) {
     static wh_lockin_turn before[4];
     settings();
     made_up made = plain;
@@ -234,7 +232,7 @@ static void test_timer_may_wrap_within_a_turn(void) {
 }
 
 /* Lost marks of sensor 1: two turns between marks are skipped. Of sensor 2: only the load there changes. */
-static void test_lost_marks_spoil_no_other_turn(void) {
+TEST(lockin, lost_marks_spoil_no_other_turn) {
     settings();
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         made_up made = plain;
@@ -252,7 +250,7 @@ static void test_lost_marks_spoil_no_other_turn(void) {
 }
 
 /* After a gap the current turn does not count, the next does. */
-static void test_a_gap_costs_one_turn(void) {
+TEST(lockin, a_gap_costs_one_turn) {
     settings();
     run(&plain, 3);
     const uint32_t skipped = lockin.skipped;
@@ -267,7 +265,7 @@ static void test_a_gap_costs_one_turn(void) {
 }
 
 /* Two missing samples are bridged, three leave the turn without a result. */
-static void test_missing_samples(void) {
+TEST(lockin, missing_samples) {
     settings();
     for (unsigned missing = 1; missing <= 5; missing++) {
         made_up made = plain;
@@ -291,7 +289,7 @@ static void test_missing_samples(void) {
 }
 
 /* Outliers are left out and counted. Of a turn's 91 samples, eight outliers are a gap; nine, a tenth of the rest, are too many. */
-static void test_outliers_are_left_out(void) {
+TEST(lockin, outliers_are_left_out) {
     static const unsigned counts[] = {1, 8, 9, 14};
     settings();
     for (unsigned k = 0; k < sizeof counts / sizeof counts[0]; k++) {
@@ -317,7 +315,7 @@ static void test_outliers_are_left_out(void) {
 }
 
 /* The load changes for good at some turn, within a few samples. They are outliers once, a gap, then the new expectation. */
-static void test_what_stays_is_expected(void) {
+TEST(lockin, what_stays_is_expected) {
     settings();
     made_up made = plain;
     made.bumpy_turn = 5;
@@ -331,7 +329,7 @@ static void test_what_stays_is_expected(void) {
 }
 
 /* Nine equal samples in a row cannot come from a turning rotor. */
-static void test_a_frozen_load_does_not_count(void) {
+TEST(lockin, a_frozen_load_does_not_count) {
     settings();
     for (unsigned held = 6; held <= 12; held += 3) {
         made_up made = plain;
@@ -348,7 +346,7 @@ static void test_a_frozen_load_does_not_count(void) {
     }
 }
 
-static void test_a_speed_that_changes_does_not_count(void) {
+TEST(lockin, a_speed_that_changes_does_not_count) {
     settings();
     made_up made = plain;
     made.slower_turn = 5;
@@ -358,7 +356,7 @@ static void test_a_speed_that_changes_does_not_count(void) {
     }
 }
 
-static void test_samples_out_of_order_are_refused(void) {
+TEST(lockin, samples_out_of_order_are_refused) {
     settings();
     wh_lockin_start(&rotor, &lockin);
     wh_load load = {.ticks = 5000, .force_N = WH_R(1.0), .status = WH_LOAD_OK};
@@ -376,7 +374,7 @@ static void test_samples_out_of_order_are_refused(void) {
 }
 
 /* A mark that never comes: the newest samples wait, and none is stored outside the buffer. */
-static void test_samples_stay_in_their_room(void) {
+TEST(lockin, samples_stay_in_their_room) {
     settings();
     wh_lockin_start(&rotor, &lockin);
     wh_lockin_mark(&lockin, 0, 0, 0);
@@ -396,7 +394,7 @@ static void test_samples_stay_in_their_room(void) {
 
 /* It begins at the mark and ends a turn on. An inertia off by up to 40 % is found from the split alone, for any direction
  * of gravity, except on the diagonal that the split does not show. */
-static void test_the_inertia_is_found_from_the_split(void) {
+TEST(lockin, the_inertia_is_found_from_the_split) {
     static const wh_real gravities[] = {WH_R(0.0), WH_R(90.0), WH_R(180.0), WH_R(-90.0)};
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(360.0)};
     for (unsigned k = 0; k < 4U * 3U * 2U; k++) {
@@ -440,7 +438,7 @@ static void test_the_inertia_is_found_from_the_split(void) {
 }
 
 /* Without gravity in the arms' plane there is no swing, and the split does not depend on the inertia. */
-static void test_level_arms_turn_evenly(void) {
+TEST(lockin, level_arms_turn_evenly) {
     settings();
     wh_turn_angle angle;
     wh_turn_angle_start(&rotor, &angle);
@@ -455,7 +453,7 @@ static void test_level_arms_turn_evenly(void) {
     }
 }
 
-static void test_polar_all_around(void) {
+TEST(lockin, polar_all_around) {
     for (int degrees = -179; degrees <= 179; degrees++) {
         const wh_real angle = (wh_real)degrees * DEG;
         wh_real sine;
@@ -474,23 +472,4 @@ static void test_polar_all_around(void) {
     wh_polar(WH_R(0.0), WH_R(0.0), &radius, &angle);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)radius);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)angle);
-}
-
-void suite_lockin(void) {
-    RUN_TEST(test_known_phase_and_amplitude_are_found);
-    RUN_TEST(test_angle_of_the_mark_counts);
-    RUN_TEST(test_other_orders_are_rejected);
-    RUN_TEST(test_timer_may_wrap_within_a_turn);
-    RUN_TEST(test_lost_marks_spoil_no_other_turn);
-    RUN_TEST(test_a_gap_costs_one_turn);
-    RUN_TEST(test_missing_samples);
-    RUN_TEST(test_outliers_are_left_out);
-    RUN_TEST(test_what_stays_is_expected);
-    RUN_TEST(test_a_frozen_load_does_not_count);
-    RUN_TEST(test_a_speed_that_changes_does_not_count);
-    RUN_TEST(test_samples_out_of_order_are_refused);
-    RUN_TEST(test_samples_stay_in_their_room);
-    RUN_TEST(test_the_inertia_is_found_from_the_split);
-    RUN_TEST(test_level_arms_turn_evenly);
-    RUN_TEST(test_polar_all_around);
 }

@@ -4,9 +4,7 @@
 #include "core/rig/rig.h"
 #include "draw.h"
 
-#include "unity.h"
-
-void suite_lockin_late(void);
+#include "tests/suites.h"
 
 #define PERIOD_TICKS UINT32_C(2000)
 #define TURN_TICKS UINT32_C(181818) /* 330 rpm */
@@ -120,7 +118,7 @@ static void begin(uint64_t from) {
 }
 
 /* Samples that come late, single, in groups, or after the turn: each turn is equal to the bit. */
-static void test_late_samples_change_nothing(void) {
+TEST(lockin_late, late_samples_change_nothing) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
     begin(1);
@@ -141,7 +139,7 @@ static void test_late_samples_change_nothing(void) {
 }
 
 /* After a reset at any point the results are as from the start, except for the first turn's length check and its effects. */
-static void test_what_was_forgotten_changes_nothing(void) {
+TEST(lockin_late, what_was_forgotten_changes_nothing) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
     begin(2);
@@ -166,7 +164,7 @@ static void test_what_was_forgotten_changes_nothing(void) {
 }
 
 /* A turn that begins, ends or is split at or near a sample is as right as any other. */
-static void test_marks_may_fall_on_samples(void) {
+TEST(lockin_late, marks_may_fall_on_samples) {
     static wh_lockin_turn found[TURNS];
     begin(3);
     for (int32_t beside = -3; beside <= 3; beside++) {
@@ -193,10 +191,4 @@ static void test_marks_may_fall_on_samples(void) {
             }
         }
     }
-}
-
-void suite_lockin_late(void) {
-    RUN_TEST(test_marks_may_fall_on_samples);
-    RUN_TEST(test_late_samples_change_nothing);
-    RUN_TEST(test_what_was_forgotten_changes_nothing);
 }

@@ -3,9 +3,7 @@
 #include "core/ledger.h"
 #include "core/scene.h"
 
-#include "unity.h"
-
-void suite_memory(void);
+#include "tests/suites.h"
 
 #define ROOM (WH_MEMORY_BYTES(3, 40, WH_CONTACTS_LIMIT) + 2U * sizeof(uint64_t))
 #define FILLED 0xa5U
@@ -156,11 +154,9 @@ static void the_last_byte(const wh_scene *scene, size_t need) {
     must_refuse(scene, NULL, need, WH_E_MEMORY);
 }
 
-static void test_one_byte_less_than_the_macro_says_is_refused(void) { every_shape(the_last_byte); }
+TEST(memory, one_byte_less_than_the_macro_says_is_refused) { every_shape(the_last_byte); }
 
-static void test_memory_is_taken_where_it_is_aligned_and_nowhere_else(void) {
-    every_shape(every_place);
-}
+TEST(memory, memory_is_taken_where_it_is_aligned_and_nowhere_else) { every_shape(every_place); }
 
 static void the_words(const wh_scene *scene, size_t need) {
     const size_t books = scene->ledger == NULL
@@ -171,9 +167,9 @@ static void the_words(const wh_scene *scene, size_t need) {
     TEST_ASSERT_TRUE(enough * sizeof(uint64_t) >= need);
 }
 
-static void test_the_words_counted_by_hand_are_enough(void) { every_shape(the_words); }
+TEST(memory, the_words_counted_by_hand_are_enough) { every_shape(the_words); }
 
-static void test_nothing_and_too_much_are_refused(void) {
+TEST(memory, nothing_and_too_much_are_refused) {
     const wh_scene scene = shape(1, 2, 1, WH_CONTACTS_LIMIT);
     wh_scene many = scene;
     many.contacts = WH_CONTACTS_LIMIT + 1;
@@ -183,11 +179,4 @@ static void test_nothing_and_too_much_are_refused(void) {
     TEST_ASSERT_TRUE(wh_scene_start(&scene, NULL, words, sizeof words) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_start(NULL, NULL, NULL, 0) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(is_filled(0, 0));
-}
-
-void suite_memory(void) {
-    RUN_TEST(test_one_byte_less_than_the_macro_says_is_refused);
-    RUN_TEST(test_memory_is_taken_where_it_is_aligned_and_nowhere_else);
-    RUN_TEST(test_the_words_counted_by_hand_are_enough);
-    RUN_TEST(test_nothing_and_too_much_are_refused);
 }

@@ -1,7 +1,7 @@
 /* test_noise.c: noise by seed and index: equal integers everywhere, and the promised distribution. WH_TEST_SMALL: fewer draws. */
 #include "core/noise.h"
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
@@ -12,11 +12,9 @@
 #define FOUR_SIGMA (WH_TEST_SMALL ? 0.0625 : 0.015625)
 #define ONE 65536 /* a standard deviation */
 
-void suite_noise(void);
-
 /* From a Python program with arbitrary integers, whose splitmix64 gives the published first outputs of
  * seed 1234567 (6457827717110365317, 3203168211198807973). */
-static void test_fixed_values(void) {
+TEST(noise, fixed_values) {
     static const struct {
         uint64_t index;
         uint32_t seed;
@@ -39,7 +37,7 @@ static void test_fixed_values(void) {
 }
 
 /* Moments 0, 1 and (fourth) 3, as for a Gaussian, to 0.1 %. The estimates' errors by a Gaussian's moments: 1, sqrt 2, sqrt 96. */
-static void test_moments(void) {
+TEST(noise, moments) {
     for (uint32_t seed = 1; seed <= 4; seed++) {
         int64_t sum = 0;
         int64_t squares = 0;
@@ -63,7 +61,7 @@ static void test_moments(void) {
 
 /* The shares beyond one to four standard deviations are a Gaussian's. Bounds: four standard errors of a count, sqrt(p (1 -
  * p)/(16 DRAWS)). They separate 0.0027 from the 0.0020 of a sum of twelve. */
-static void test_tails(void) {
+TEST(noise, tails) {
     enum { SEEDS = 16 };
     static const double part[] = {0.31731, 0.045500, 0.0026998, 6.33e-5};
     static const double root[] = {0.46543, 0.20840, 0.051889, 0.0079585}; /* sqrt(p (1 - p)) */
@@ -90,7 +88,7 @@ static double correlation(uint32_t a, uint32_t b, unsigned lag) {
     return (double)sum / DRAWS / ((double)ONE * ONE);
 }
 
-static void test_independence(void) {
+TEST(noise, independence) {
     static const uint32_t seeds[][2] = {{0, 1}, {1, 2}, {1, 0x80000001U}, {7, 70}};
     for (unsigned i = 0; i < sizeof seeds / sizeof seeds[0]; i++) {
         for (unsigned lag = 0; lag < 3; lag++) {
@@ -100,11 +98,4 @@ static void test_independence(void) {
             TEST_ASSERT_TRUE(with_itself > -FOUR_SIGMA && with_itself < FOUR_SIGMA);
         }
     }
-}
-
-void suite_noise(void) {
-    RUN_TEST(test_fixed_values);
-    RUN_TEST(test_independence);
-    RUN_TEST(test_moments);
-    RUN_TEST(test_tails);
 }

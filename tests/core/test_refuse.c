@@ -2,13 +2,11 @@
  * 1e15 or more, or not a number, are invalid. The first that is so large by itself is blamed, or else the last. */
 #include "core/step/matrix_step.h"
 #include "tests/core/draw.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
 #endif
-
-void suite_refuse(void);
 
 enum { MOST = 12, NONE = -1 };
 
@@ -67,7 +65,7 @@ static wh_status by_registers(const wh_real *v, unsigned n, unsigned first, wh_s
                            n > 6 ? v[6] : last, last);
 }
 
-static void test_the_first_absurd_one_is_blamed(void) {
+TEST(refuse, the_first_absurd_one_is_blamed) {
     uint64_t seed = 26;
     unsigned refused = 0;
     for (unsigned i = 0; i < (WH_TEST_SMALL ? 2000U : 200000U); i++) {
@@ -94,12 +92,7 @@ static void test_the_first_absurd_one_is_blamed(void) {
     TEST_ASSERT_TRUE(refused > 500);
 }
 
-static void test_nothing_is_believable(void) {
+TEST(refuse, nothing_is_believable) {
     TEST_ASSERT_TRUE(wh_all_believable(NULL, 0));
     TEST_ASSERT_TRUE(wh_matrix_believable(NULL, 0));
-}
-
-void suite_refuse(void) {
-    RUN_TEST(test_the_first_absurd_one_is_blamed);
-    RUN_TEST(test_nothing_is_believable);
 }

@@ -3,9 +3,7 @@
 #include "core/rig/rig.h"
 #include "core/root.h"
 
-#include "unity.h"
-
-void suite_rig(void);
+#include "tests/suites.h"
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define QUARTER UINT32_C(45455) /* ticks of a quarter turn at 330 rpm */
@@ -25,7 +23,7 @@ static void spin(wh_speed *speed, uint32_t *ticks, unsigned turns) {
     }
 }
 
-static void test_speed_across_the_timers_wrap(void) {
+TEST(rig, speed_across_the_timers_wrap) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     uint32_t ticks = UINT32_MAX - 9U * QUARTER;
@@ -42,7 +40,7 @@ static void test_speed_across_the_timers_wrap(void) {
 }
 
 /* Fast through the bottom, slow over the top: the whole turn's mean must not change. */
-static void test_speed_of_a_turn_has_no_ripple(void) {
+TEST(rig, speed_of_a_turn_has_no_ripple) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     uint32_t ticks = 0;
@@ -55,7 +53,7 @@ static void test_speed_of_a_turn_has_no_ripple(void) {
     TEST_ASSERT_TRUE(rpm(speed.interval_radps) > 350.0f);
 }
 
-static void test_one_lost_pulse_is_counted_and_bridged(void) {
+TEST(rig, one_lost_pulse_is_counted_and_bridged) {
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         wh_speed speed;
         wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -71,7 +69,7 @@ static void test_one_lost_pulse_is_counted_and_bridged(void) {
 }
 
 /* A whole turn without pulses looks like a fifth of the speed: it must not count as one. */
-static void test_a_gap_keeps_the_speed_and_counts(void) {
+TEST(rig, a_gap_keeps_the_speed_and_counts) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     uint32_t ticks = 0;
@@ -90,7 +88,7 @@ static void test_a_gap_keeps_the_speed_and_counts(void) {
 
 /* Three lost pulses in a row: the same sensor fires after two turns, which at an even speed is just half of one turn's speed.
  * With any ripple, it must not count as one turn. */
-static void test_three_lost_running_are_a_gap(void) {
+TEST(rig, three_lost_running_are_a_gap) {
     for (unsigned late = 0; late < 2; late++) {
         wh_speed speed;
         wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -105,7 +103,7 @@ static void test_three_lost_running_are_a_gap(void) {
     }
 }
 
-static void test_impossible_pulses_are_rejected(void) {
+TEST(rig, impossible_pulses_are_rejected) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     uint32_t ticks = 0;
@@ -131,7 +129,7 @@ static unsigned steps_to_target(wh_drive *drive) {
     return steps;
 }
 
-static void test_ramp_keeps_its_rate_and_arrives(void) {
+TEST(rig, ramp_keeps_its_rate_and_arrives) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     wh_drive drive;
     wh_drive_start(&drive, WH_R(20.0), WH_R(0.3));
@@ -152,7 +150,7 @@ static void test_ramp_keeps_its_rate_and_arrives(void) {
     TEST_ASSERT_TRUE(drive.setpoint_radps > config->gentle_radps - WH_R(2.1));
 }
 
-static void test_loop_leaves_no_steady_error(void) {
+TEST(rig, loop_leaves_no_steady_error) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     wh_drive drive;
     wh_drive_start(&drive, WH_R(0.0), WH_R(0.0));
@@ -166,7 +164,7 @@ static void test_loop_leaves_no_steady_error(void) {
 }
 
 /* A rotor blocked for a minute must not find a minute of integral on release, with any supply. */
-static void test_integral_does_not_wind_up(void) {
+TEST(rig, integral_does_not_wind_up) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -196,7 +194,7 @@ static void test_integral_does_not_wind_up(void) {
 }
 
 /* A supply that breaks down and returns takes the integral down, and not up again. */
-static void test_the_integral_comes_back(void) {
+TEST(rig, the_integral_comes_back) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real out_V[] = {WH_R(-1.0), WH_R(25.0), WH_R(1e6)};
     for (unsigned i = 0; i < 3; i++) {
@@ -216,7 +214,7 @@ static void test_the_integral_comes_back(void) {
                      WH_R(12.0));
 }
 
-static void test_voltage_stays_in_range(void) {
+TEST(rig, voltage_stays_in_range) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     wh_drive drive;
     wh_drive_start(&drive, WH_R(0.0), WH_R(70.0));
@@ -228,7 +226,7 @@ static void test_voltage_stays_in_range(void) {
 }
 
 /* Without a known turn nothing is overdue, after any time. */
-static void test_only_a_known_turn_can_be_overdue(void) {
+TEST(rig, only_a_known_turn_can_be_overdue) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, UINT32_MAX));
@@ -242,7 +240,7 @@ static void test_only_a_known_turn_can_be_overdue(void) {
 }
 
 /* The converter's status of a sample, and its value at full scale. */
-static void test_the_cells_counts_are_newtons(void) {
+TEST(rig, the_cells_counts_are_newtons) {
     const wh_cell_config cell = {.newton_per_count = WH_R(-0.01),
                                  .offset_N = WH_R(2.0),
                                  .delay_ticks = 300,
@@ -261,20 +259,4 @@ static void test_the_cells_counts_are_newtons(void) {
         TEST_ASSERT_TRUE(wh_cell_load(&cell, 0, 7, status).status == status);
         TEST_ASSERT_NOT_NULL(wh_load_text(status));
     }
-}
-
-void suite_rig(void) {
-    RUN_TEST(test_speed_across_the_timers_wrap);
-    RUN_TEST(test_speed_of_a_turn_has_no_ripple);
-    RUN_TEST(test_one_lost_pulse_is_counted_and_bridged);
-    RUN_TEST(test_a_gap_keeps_the_speed_and_counts);
-    RUN_TEST(test_three_lost_running_are_a_gap);
-    RUN_TEST(test_impossible_pulses_are_rejected);
-    RUN_TEST(test_ramp_keeps_its_rate_and_arrives);
-    RUN_TEST(test_loop_leaves_no_steady_error);
-    RUN_TEST(test_integral_does_not_wind_up);
-    RUN_TEST(test_the_integral_comes_back);
-    RUN_TEST(test_voltage_stays_in_range);
-    RUN_TEST(test_only_a_known_turn_can_be_overdue);
-    RUN_TEST(test_the_cells_counts_are_newtons);
 }

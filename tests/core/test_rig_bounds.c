@@ -5,9 +5,7 @@
 #include "draw.h"
 #include "even_rig.h"
 
-#include "unity.h"
-
-void suite_rig_bounds(void);
+#include "tests/suites.h"
 
 static even_rig even;
 static uint64_t seed;
@@ -25,7 +23,7 @@ static void arm(bool trusted) {
 }
 
 /* Waiting marks, as many as there is room for: a step takes one, the last one only in a step without a pulse. */
-static void test_a_single_mark_waits_for_a_step_without_a_pulse(void) {
+TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
     static even_rig twin;
     even_reach(&even, WH_PHASE_SETTLE);
     while (even.rig.pulses.waits || even.rig.pulses.marks > 0) {
@@ -66,7 +64,7 @@ static int halves_since(const wh_lockin *before) {
 /* A controller late by up to three steps, with or without samples meanwhile. A step without a sample works on four half nodes
  * of a turn's sums. With one sample it is three (two while a mark is unsure and gravity is fed). With more samples, or if the
  * observer caught up two steps, it is one. After a pulse or a mark it is zero. */
-static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
+TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     static wh_lockin before;
     unsigned times[5] = {0};
     for (unsigned fed = 0; fed < 2U; fed++) {
@@ -115,7 +113,7 @@ static void test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for(void) {
 }
 
 /* A set-point that needs gravity fed forward, and an observer that is never valid: the ramp takes its full time and trips. */
-static void test_a_ramp_takes_no_longer_than_it_may(void) {
+TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);
         even.config.run.ramp_max_s = WH_R(6.0) + WH_R(2.0) * (wh_real)i;
@@ -131,7 +129,7 @@ static void test_a_ramp_takes_no_longer_than_it_may(void) {
 }
 
 /* Pulses of a hanging, shivering rotor: after the tare no turn has begun with them. */
-static void test_what_was_seen_at_rest_begins_no_turn(void) {
+TEST(rig_bounds, what_was_seen_at_rest_begins_no_turn) {
     seed = 4;
     for (unsigned i = 0; i < 60U; i++) {
         even_begin(&even, WH_RIG_NOMINAL_RPM, &(even_failure){.in = EVEN_NEVER});
@@ -148,7 +146,7 @@ static void test_what_was_seen_at_rest_begins_no_turn(void) {
 }
 
 /* The largest scatter that counts as still is allowed, and the next number above is not; the same for the mean's error. */
-static void test_limits_of_the_tare_are_allowed(void) {
+TEST(rig_bounds, limits_of_the_tare_are_allowed) {
     seed = 3;
     for (unsigned i = 0; i < 200U; i++) {
         const uint32_t spare = UINT32_C(1) << (1U + draw_one_of(&seed, 7)); /* divides exactly */
@@ -173,7 +171,7 @@ static void test_limits_of_the_tare_are_allowed(void) {
 }
 
 /* Numbers below the phases' are states, all others phases. */
-static void test_a_stage_is_a_state_or_a_phase(void) {
+TEST(rig_bounds, a_stage_is_a_state_or_a_phase) {
     for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
         const bool state = stage < WH_RIG_STAGE_OF_PHASE;
         const char *words = state ? wh_rig_state_text((wh_rig_state)stage)
@@ -188,13 +186,4 @@ static void test_a_stage_is_a_state_or_a_phase(void) {
             TEST_ASSERT_TRUE(wh_rig_stage_text(wh_rig_stage(&rig)) == words);
         }
     }
-}
-
-void suite_rig_bounds(void) {
-    RUN_TEST(test_a_single_mark_waits_for_a_step_without_a_pulse);
-    RUN_TEST(test_a_step_works_on_as_much_of_a_turn_as_there_is_time_for);
-    RUN_TEST(test_a_ramp_takes_no_longer_than_it_may);
-    RUN_TEST(test_what_was_seen_at_rest_begins_no_turn);
-    RUN_TEST(test_limits_of_the_tare_are_allowed);
-    RUN_TEST(test_a_stage_is_a_state_or_a_phase);
 }

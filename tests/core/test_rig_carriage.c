@@ -5,9 +5,7 @@
 #include "core/rig/rig.h"
 #include "core/root.h"
 
-#include "unity.h"
-
-void suite_rig_carriage(void);
+#include "tests/suites.h"
 
 #define STEPS 720U
 #define TURNS 16U
@@ -76,7 +74,7 @@ static void mount(wh_real ratio) {
     rotor = config.measure.rotor;
 }
 
-static void test_angle_on_a_carriage(void) {
+TEST(rig_carriage, angle_on_a_carriage) {
     static const wh_real ratios[] = {WH_R(0.05), WH_R(0.2), WH_R(0.33333333), WH_R(0.6)};
     static const wh_real speeds[] = {WH_R(18.0), WH_R(34.557519), WH_R(38.0)};
     wh_turn_angle angle;
@@ -104,7 +102,7 @@ static void test_angle_on_a_carriage(void) {
 }
 
 /* A carriage too heavy to move is a fixed mount; a rotor without masses makes no wave. */
-static void test_no_wave(void) {
+TEST(rig_carriage, no_wave) {
     wh_turn_angle angle;
     mount(WH_R(0.0));
     integrate(WH_R(34.557519));
@@ -117,7 +115,7 @@ static void test_no_wave(void) {
     TEST_ASSERT_TRUE(angle.twice_rad == WH_R(0.0));
 }
 
-static void test_mount(void) {
+TEST(rig_carriage, mount) {
     const wh_carriage carriage = {.disc_m = WH_RIG_DISC_RADIUS_M, .ratio = WH_R(0.33333333)};
     wh_rig_config config = wh_rig_standard;
     wh_carriage_mount(&config, &carriage);
@@ -142,7 +140,7 @@ static void test_mount(void) {
                      config.measure.result.mount_factor == WH_R(1.0));
 }
 
-static void test_swing(void) {
+TEST(rig_carriage, swing) {
     static const wh_real radii[] = {WH_R(0.05), WH_R(0.1), WH_R(0.1651)};
     static const wh_real ratios[] = {WH_R(0.1), WH_R(0.33333333), WH_R(1.0)};
     for (unsigned r = 0; r < sizeof radii / sizeof radii[0]; r++) {
@@ -166,11 +164,4 @@ static void test_swing(void) {
             TEST_ASSERT_TRUE(wh_carriage_displacement_m(&config, &carriage, &none) == WH_R(0.0));
         }
     }
-}
-
-void suite_rig_carriage(void) {
-    RUN_TEST(test_angle_on_a_carriage);
-    RUN_TEST(test_no_wave);
-    RUN_TEST(test_mount);
-    RUN_TEST(test_swing);
 }

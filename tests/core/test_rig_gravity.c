@@ -8,9 +8,7 @@
 #include "draw.h"
 #include "fed_rotor.h"
 
-#include "unity.h"
-
-void suite_rig_gravity(void);
+#include "tests/suites.h"
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
@@ -32,7 +30,7 @@ static wh_real sine_of(wh_real rad) {
 /* --- its voltage -------------------------------------------------------------------------------------- */
 
 /* S g sin(theta - gamma) over the stall torque, with the lead, limited, after an even fade-in. */
-static void test_it_says_gravitys_voltage(void) {
+TEST(rig_gravity, it_says_gravitys_voltage) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
         fed_rotor_standard(&fed, 1);
@@ -59,7 +57,7 @@ static void test_it_says_gravitys_voltage(void) {
 }
 
 /* Zero at once if the observer is invalid, then faded in from zero; never NaN. */
-static void test_it_says_nothing_without_an_angle(void) {
+TEST(rig_gravity, it_says_nothing_without_an_angle) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     fed_rotor_standard(&fed, 1);
     TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
@@ -111,7 +109,7 @@ static void begin(fed_by by) {
 
 /* Ripple falls from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170. At 100 the rotor alone would not pass the top;
  * a motor that cannot brake harder than when shorted leaves a ripple, less with more friction. */
-static void test_the_ripple_goes(void) {
+TEST(rig_gravity, the_ripple_goes) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
     check_between(WH_R(0.045), WH_R(0.055), fed_rotor_ripple(&fed));
@@ -135,7 +133,7 @@ static void test_the_ripple_goes(void) {
 }
 
 /* The lead is the voltage's: without it, or with twice as much, a tenth of a radian's part remains. */
-static void test_the_lead_is_right(void) {
+TEST(rig_gravity, the_lead_is_right) {
     for (uint32_t lead = 0; lead <= 6000U; lead += 6000U) {
         begin(FED_BY_OBSERVER);
         fed.feeding.lead_ticks = lead;
@@ -144,7 +142,7 @@ static void test_the_lead_is_right(void) {
     }
 }
 
-static void test_another_weight_leaves_its_part(void) {
+TEST(rig_gravity, another_weight_leaves_its_part) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
         fed.kind.weight_Nm *= i % 2U == 0 ? WH_R(1.3) : WH_R(0.7);
@@ -156,7 +154,7 @@ static void test_another_weight_leaves_its_part(void) {
 }
 
 /* Sensors 3 degrees off, together or opposite: at most a twentieth remains. */
-static void test_sensors_may_stand_wrong(void) {
+TEST(rig_gravity, sensors_may_stand_wrong) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
         fed.kind.mark_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
@@ -169,7 +167,7 @@ static void test_sensors_may_stand_wrong(void) {
 }
 
 /* The wrong sign doubles the ripple only: the mean and the shaft's limit hold. */
-static void test_the_wrong_sign_is_survived(void) {
+TEST(rig_gravity, the_wrong_sign_is_survived) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
         if (i % 2U == 0) {
@@ -186,7 +184,7 @@ static void test_the_wrong_sign_is_survived(void) {
 }
 
 /* Missing marks: the voltage vanishes at once, the ripple returns, and vanishes when the marks are back. */
-static void test_lost_marks_take_it_away(void) {
+TEST(rig_gravity, lost_marks_take_it_away) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
     fed.lose_marks = 4;
@@ -203,7 +201,7 @@ static void test_lost_marks_take_it_away(void) {
 /* --- its effect on the measurement ----------------------------------------------------------------------- */
 
 /* Gravity's remainder, of either sign, follows from the split alone at the given inertia, and is reset when the feed ends. */
-static void test_what_is_left_is_found_from_the_split(void) {
+TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
@@ -246,7 +244,7 @@ static void test_what_is_left_is_found_from_the_split(void) {
 }
 
 /* The turn of the change does not count. A motor that cannot brake leaves drive voltage minus gravity's torque, at any speed. */
-static void test_the_lockin_is_told(void) {
+TEST(rig_gravity, the_lockin_is_told) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_lockin_start(rotor, &lockin);
@@ -287,7 +285,7 @@ static double second_of_pulse(double k) {
 }
 
 /* A motor that cannot brake leaves a torque twice a turn. Inertia and slope answer: J theta'' + c theta' = -W cos 2 theta. */
-static void test_the_answer_to_a_pulse(void) {
+TEST(rig_gravity, the_answer_to_a_pulse) {
     uint64_t seed = 77;
     for (unsigned i = 0; i < 60U; i++) {
         wh_rotor_config rotor = wh_rig_standard.measure.rotor;
@@ -324,18 +322,4 @@ static void test_the_answer_to_a_pulse(void) {
         TEST_ASSERT_FLOAT_WITHIN((float)most, (float)(size * turning / sum), (float)off[0]);
         TEST_ASSERT_FLOAT_WITHIN((float)most, (float)(-size * slope / sum), (float)off[1]);
     }
-}
-
-void suite_rig_gravity(void) {
-    RUN_TEST(test_it_says_gravitys_voltage);
-    RUN_TEST(test_it_says_nothing_without_an_angle);
-    RUN_TEST(test_the_ripple_goes);
-    RUN_TEST(test_the_lead_is_right);
-    RUN_TEST(test_another_weight_leaves_its_part);
-    RUN_TEST(test_sensors_may_stand_wrong);
-    RUN_TEST(test_the_wrong_sign_is_survived);
-    RUN_TEST(test_lost_marks_take_it_away);
-    RUN_TEST(test_what_is_left_is_found_from_the_split);
-    RUN_TEST(test_the_lockin_is_told);
-    RUN_TEST(test_the_answer_to_a_pulse);
 }

@@ -3,9 +3,7 @@
 #include "core/rig/rig.h"
 #include "core/root.h"
 
-#include "unity.h"
-
-void suite_rig_guard(void);
+#include "tests/suites.h"
 
 #define RPM WH_RIG_RADPS_PER_RPM
 
@@ -13,7 +11,7 @@ static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
 /* docs/rig.md: reversed bending at the bearing, 1 in from the arm, notch factor 2, safety 2, against
  * the corrected endurance limit of steel with 440 MPa tensile strength. */
-static void test_speed_limit_follows_from_the_shaft(void) {
+TEST(rig_guard, speed_limit_follows_from_the_shaft) {
     const wh_real pi = WH_R(3.14159265);
     const wh_real endurance_Pa = WH_R(220e6) * WH_R(0.899) * WH_R(0.753);
     const wh_real d_m = WH_R(0.25) * WH_R(0.0254);
@@ -29,7 +27,7 @@ static void test_speed_limit_follows_from_the_shaft(void) {
     TEST_ASSERT_TRUE(WH_RIG_NOMINAL_RPM * RPM < wh_rig_standard.guard.target_max_radps);
 }
 
-static void test_guard_refuses_set_points(void) {
+TEST(rig_guard, guard_refuses_set_points) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     TEST_ASSERT_TRUE(wh_guard_allows(config, WH_R(330.0) * RPM, false));
     TEST_ASSERT_TRUE(wh_guard_allows(config, config->target_min_radps, false));
@@ -54,7 +52,7 @@ static wh_trip trip_at(wh_real turn_rpm, unsigned fast) {
     return guard.trip;
 }
 
-static void test_over_speed_trips(void) {
+TEST(rig_guard, over_speed_trips) {
     TEST_ASSERT_TRUE(trip_at(WH_R(399.0), 1) ==
                      WH_TRIP_NONE); /* a single interval may be a disturbance */
     TEST_ASSERT_TRUE(trip_at(wh_rig_standard.guard.limit_radps / RPM, 0) ==
@@ -64,7 +62,7 @@ static void test_over_speed_trips(void) {
 }
 
 /* A turn that is too fast trips as soon as no known pulse contradicts it, and so do two fast intervals in a row. */
-static void test_over_speed_trips_when_it_is_sure(void) {
+TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     for (unsigned i = 0; i < 96U; i++) {
         const bool known = i % 2U == 1U;
@@ -89,7 +87,7 @@ static void test_over_speed_trips_when_it_is_sure(void) {
 }
 
 /* Two climbing marks and an interval beyond the bound are a runaway; less is not. */
-static void test_what_climbs_and_is_fast_trips(void) {
+TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
@@ -122,7 +120,7 @@ static void test_what_climbs_and_is_fast_trips(void) {
 }
 
 /* A rotor without drive that is led around at the bottom and falls from the top has the speed of its energy there. */
-static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
+TEST(rig_guard, the_bound_is_what_gravity_makes_of_a_speed) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
         4.0 * (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;
@@ -141,7 +139,7 @@ static void test_the_bound_is_what_gravity_makes_of_a_speed(void) {
         1e-3f, most, (float)wh_guard_bound_radps(config, (wh_real)__builtin_nanf(""), true));
 }
 
-static void test_lost_pulses_and_silence_trip(void) {
+TEST(rig_guard, lost_pulses_and_silence_trip) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real silence_s = WH_R(0.5);
     wh_guard guard;
@@ -179,7 +177,7 @@ static void test_lost_pulses_and_silence_trip(void) {
 }
 
 /* A rotor without a pulse for 1.5 s is at rest, and stays so until a pulse comes, also after the timer's wrap. */
-static void test_rest_is_remembered(void) {
+TEST(rig_guard, rest_is_remembered) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     wh_guard guard;
     wh_guard_start(&guard, UINT32_MAX - 1000U);
@@ -195,7 +193,7 @@ static void test_rest_is_remembered(void) {
     TEST_ASSERT_TRUE(guard.quiet);
 }
 
-static void test_the_supplys_range(void) {
+TEST(rig_guard, the_supplys_range) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     TEST_ASSERT_TRUE(wh_guard_supply(config, WH_R(12.0)) && wh_guard_supply(config, WH_R(36.0)));
     TEST_ASSERT_FALSE(wh_guard_supply(config, WH_R(10.0)));
@@ -220,7 +218,7 @@ static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
     return guard.trip;
 }
 
-static void test_a_stuck_load_cell_trips(void) {
+TEST(rig_guard, a_stuck_load_cell_trips) {
     const unsigned enough = (unsigned)(20U * wh_rig_standard.guard.stuck_pulses + 1U);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), false, 1000) ==
                      WH_TRIP_NONE); /* at rest it may stand still */
@@ -231,7 +229,7 @@ static void test_a_stuck_load_cell_trips(void) {
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
 
-static void test_an_overloaded_or_disconnected_load_cell_trips(void) {
+TEST(rig_guard, an_overloaded_or_disconnected_load_cell_trips) {
     const wh_speed speed = {.taken = 7};
     for (wh_load_status status = WH_LOAD_OK; status < WH_LOAD_STATUSES; status++) {
         wh_guard guard;
@@ -247,7 +245,7 @@ static void test_an_overloaded_or_disconnected_load_cell_trips(void) {
 }
 
 /* load_silence_max_s: ten periods of 2 ms, across the timer's wrap; a repeated sample does not count. */
-static void test_a_silent_load_cell_trips(void) {
+TEST(rig_guard, a_silent_load_cell_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;
     const wh_speed speed = {.taken = 7};
@@ -265,19 +263,4 @@ static void test_a_silent_load_cell_trips(void) {
         TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last + 19900U));
         TEST_ASSERT_FALSE(wh_guard_load_comes(config, &guard, last + 20100U));
     }
-}
-
-void suite_rig_guard(void) {
-    RUN_TEST(test_speed_limit_follows_from_the_shaft);
-    RUN_TEST(test_guard_refuses_set_points);
-    RUN_TEST(test_over_speed_trips);
-    RUN_TEST(test_over_speed_trips_when_it_is_sure);
-    RUN_TEST(test_what_climbs_and_is_fast_trips);
-    RUN_TEST(test_lost_pulses_and_silence_trip);
-    RUN_TEST(test_the_bound_is_what_gravity_makes_of_a_speed);
-    RUN_TEST(test_rest_is_remembered);
-    RUN_TEST(test_the_supplys_range);
-    RUN_TEST(test_a_stuck_load_cell_trips);
-    RUN_TEST(test_an_overloaded_or_disconnected_load_cell_trips);
-    RUN_TEST(test_a_silent_load_cell_trips);
 }

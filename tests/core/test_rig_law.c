@@ -5,14 +5,12 @@
 #include "core/rig/rig.h"
 
 #include "tests/scattered.h"
-#include "unity.h"
-
-void suite_rig_law(void);
+#include "tests/suites.h"
 
 #define TURN_TICKS 181818U /* 330 rpm */
 
 /* Two pulses lost in a row: no interval speed, and the turn's speed stays until there is a new one. */
-static void test_a_gap_has_no_speed_of_its_own(void) {
+TEST(rig_law, a_gap_has_no_speed_of_its_own) {
     wh_speed speed;
     wh_speed_start(&speed, wh_rig_standard.impossible_radps);
     uint32_t ticks = 500;
@@ -28,7 +26,7 @@ static void test_a_gap_has_no_speed_of_its_own(void) {
 }
 
 /* Silence counts from the last pulse on either side of the timer's wrap. A stamp later than the step's own time is ignored. */
-static void test_silence_goes_on_over_the_wrap(void) {
+TEST(rig_law, silence_goes_on_over_the_wrap) {
     scattered_state = UINT64_C(0x5eed0017);
     for (unsigned i = 0; i < 1000U; i++) {
         const uint32_t then = (uint32_t)(scattered() >> 20) % 4000000U - 2000000U;
@@ -43,7 +41,7 @@ static void test_silence_goes_on_over_the_wrap(void) {
 }
 
 /* A voltage frozen by missing pulses exceeds a supply that sags meanwhile. */
-static void test_no_more_volts_than_the_supply_has(void) {
+TEST(rig_law, no_more_volts_than_the_supply_has) {
     scattered_state = UINT64_C(0x5eed0006);
     for (unsigned i = 0; i < 200U; i++) {
         static wh_rig rig;
@@ -71,7 +69,7 @@ static double limited(double value, double most) {
     return value < 0.0 ? 0.0 : value > most ? most : value;
 }
 
-static void test_the_drive_keeps_its_law(void) {
+TEST(rig_law, the_drive_keeps_its_law) {
     scattered_state = UINT64_C(0x5eed0011);
     const wh_drive_config *law = &wh_rig_standard.run.drive;
     unsigned held = 0;
@@ -108,11 +106,4 @@ static void test_the_drive_keeps_its_law(void) {
         TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
     }
     TEST_ASSERT_GREATER_THAN_UINT(500, held);
-}
-
-void suite_rig_law(void) {
-    RUN_TEST(test_a_gap_has_no_speed_of_its_own);
-    RUN_TEST(test_silence_goes_on_over_the_wrap);
-    RUN_TEST(test_no_more_volts_than_the_supply_has);
-    RUN_TEST(test_the_drive_keeps_its_law);
 }

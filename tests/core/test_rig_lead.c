@@ -5,9 +5,7 @@
 #include "draw.h"
 #include "even_rig.h"
 #include "rotor.h"
-#include "unity.h"
-
-void suite_rig_lead(void);
+#include "tests/suites.h"
 
 static wh_rig rig;
 static wh_rig_config config;
@@ -71,7 +69,7 @@ static void leads_to(wh_real target_radps) {
     TEST_ASSERT_TRUE(wh_rig_post(&rig, WH_EVENT_SET, target_radps));
 }
 
-static void test_a_rotor_that_cannot_follow_is_not_too_fast(void) {
+TEST(rig_lead, a_rotor_that_cannot_follow_is_not_too_fast) {
     uint64_t seed = 11;
     unsigned left_behind = 0;
     for (unsigned trial = 0; trial < 40U; trial++) {
@@ -91,7 +89,7 @@ static void test_a_rotor_that_cannot_follow_is_not_too_fast(void) {
     TEST_ASSERT_TRUE(left_behind >= 4U);
 }
 
-static void test_one_that_spin_up_took_too_far_is_not_either(void) {
+TEST(rig_lead, one_that_spin_up_took_too_far_is_not_either) {
     uint64_t seed = 12;
     for (unsigned trial = 0; trial < draw_cases(40); trial++) {
         draw_rotor(&seed);
@@ -107,7 +105,7 @@ static void test_one_that_spin_up_took_too_far_is_not_either(void) {
 }
 
 /* The bounds of docs/rig.md for a rotor that is led to slow down, and follows or does not. */
-static void test_a_runaway_on_the_way_down_is_seen(void) {
+TEST(rig_lead, a_runaway_on_the_way_down_is_seen) {
     uint64_t seed = 13;
     for (unsigned trial = 0; trial < draw_cases(60); trial++) {
         draw_rotor(&seed);
@@ -128,7 +126,7 @@ static void test_a_runaway_on_the_way_down_is_seen(void) {
 }
 
 /* The bound does not rise with the rotor's speed: a rotor driven to no more than 390 rpm is detected too. */
-static void test_a_slow_runaway_on_the_way_down_is_seen(void) {
+TEST(rig_lead, a_slow_runaway_on_the_way_down_is_seen) {
     uint64_t seed = 14;
     for (unsigned trial = 0; trial < 20U; trial++) {
         draw_rotor(&seed);
@@ -142,11 +140,4 @@ static void test_a_slow_runaway_on_the_way_down_is_seen(void) {
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
         TEST_ASSERT_TRUE(fastest_radps < WH_R(350.0) * EVEN_RPM);
     }
-}
-
-void suite_rig_lead(void) {
-    RUN_TEST(test_a_slow_runaway_on_the_way_down_is_seen);
-    RUN_TEST(test_a_rotor_that_cannot_follow_is_not_too_fast);
-    RUN_TEST(test_one_that_spin_up_took_too_far_is_not_either);
-    RUN_TEST(test_a_runaway_on_the_way_down_is_seen);
 }

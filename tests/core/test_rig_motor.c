@@ -7,9 +7,7 @@
 #include "draw.h"
 #include "even_rig.h"
 #include "rotor.h"
-#include "unity.h"
-
-void suite_rig_motor(void);
+#include "tests/suites.h"
 
 #define COUNTS_PER_N WH_R(147.0)
 #define RPM WH_RIG_RADPS_PER_RPM
@@ -114,7 +112,7 @@ static void draw_motor(void) {
 
 /* No motor trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model
  * less well, and the result may be doubtful. */
-static void test_any_motor_with_its_settings(void) {
+TEST(rig_motor, any_motor_with_its_settings) {
     seed = 61;
     unsigned good = 0;
     unsigned refused = 0;
@@ -143,7 +141,7 @@ static void test_any_motor_with_its_settings(void) {
 }
 
 /* A divider that reads 0.7 to 1.3 times the supply, or a setting as wrong: a result, or a trip that names the cause. */
-static void test_wrong_settings_are_named(void) {
+TEST(rig_motor, wrong_settings_are_named) {
     seed = 62;
     unsigned named = 0;
     unsigned done = 0;
@@ -172,7 +170,7 @@ static void test_wrong_settings_are_named(void) {
 }
 
 /* A reversed motor, or swapped sensors, for any motor. */
-static void test_a_wrong_order_is_named(void) {
+TEST(rig_motor, a_wrong_order_is_named) {
     seed = 63;
     for (unsigned i = 0; i < draw_cases(60); i++) {
         draw_motor();
@@ -191,7 +189,7 @@ static void test_a_wrong_order_is_named(void) {
 }
 
 /* A coasting rotor's speed, also the last turn's, is known while pulses alternate. A sensor that fires twice shows a swing. */
-static void test_the_speed_of_a_rotor_that_coasts(void) {
+TEST(rig_motor, the_speed_of_a_rotor_that_coasts) {
     seed = 65;
     unsigned known_steps = 0;
     unsigned unknown_steps = 0;
@@ -230,7 +228,7 @@ static void test_the_speed_of_a_rotor_that_coasts(void) {
     TEST_ASSERT_TRUE(known_steps > 1000U && unknown_steps > 100U);
 }
 
-static void test_settings_that_cannot_go_together(void) {
+TEST(rig_motor, settings_that_cannot_go_together) {
     seed = 64;
     unsigned against = 0;
     for (unsigned i = 0; i < 300U; i++) {
@@ -272,7 +270,7 @@ static void test_settings_that_cannot_go_together(void) {
 }
 
 /* The order of settings does not matter, and a setting given its default keeps it. */
-static void test_any_order_of_settings(void) {
+TEST(rig_motor, any_order_of_settings) {
     enum { GIVEN = 8 };
     static const wh_conf_id ids[GIVEN] = {
         WH_CONF_no_load_speed, WH_CONF_rated_voltage, WH_CONF_stall_torque, WH_CONF_damping,
@@ -313,13 +311,4 @@ static void test_any_order_of_settings(void) {
         }
     }
     TEST_ASSERT_TRUE(compared >= cases / 4U);
-}
-
-void suite_rig_motor(void) {
-    RUN_TEST(test_any_motor_with_its_settings);
-    RUN_TEST(test_wrong_settings_are_named);
-    RUN_TEST(test_a_wrong_order_is_named);
-    RUN_TEST(test_the_speed_of_a_rotor_that_coasts);
-    RUN_TEST(test_settings_that_cannot_go_together);
-    RUN_TEST(test_any_order_of_settings);
 }

@@ -7,9 +7,7 @@
 #include "draw.h"
 #include "even_rig.h"
 
-#include "unity.h"
-
-void suite_rig_observed(void);
+#include "tests/suites.h"
 
 static even_rig even;
 static uint64_t seed;
@@ -27,7 +25,7 @@ static void arm(void) {
 }
 
 /* While the loop is closed each accepted pulse is passed once, as captured, within two steps, and nothing else is. */
-static void test_each_pulse_is_told_once(void) {
+TEST(rig_observed, each_pulse_is_told_once) {
     for (unsigned k = 0; k < 3U; k++) {
         static const wh_real targets_rpm[] = {WH_R(330.0), WH_R(200.0), WH_R(270.0)};
         arm();
@@ -53,7 +51,7 @@ static void test_each_pulse_is_told_once(void) {
     }
 }
 
-static void test_each_run_begins_with_an_observer_that_knows_nothing(void) {
+TEST(rig_observed, each_run_begins_with_an_observer_that_knows_nothing) {
     seed = 1;
     for (unsigned i = 0; i < 8U; i++) {
         arm();
@@ -69,7 +67,7 @@ static void test_each_run_begins_with_an_observer_that_knows_nothing(void) {
     }
 }
 
-static void test_a_result_says_the_voltage(void) {
+TEST(rig_observed, a_result_says_the_voltage) {
     for (unsigned i = 0; i < 4U; i++) {
         even_arm(&even);
         const wh_real target_rpm = WH_R(200.0) + WH_R(45.0) * (wh_real)i;
@@ -87,7 +85,7 @@ static void test_a_result_says_the_voltage(void) {
 }
 
 /* A pulse is enough work for a control step: the current turn's work waits for the next one. */
-static void test_a_step_with_a_pulse_works_on_no_turn(void) {
+TEST(rig_observed, a_step_with_a_pulse_works_on_no_turn) {
     unsigned pulses = 0;
     unsigned works = 0;
     even_reach(&even, WH_PHASE_SETTLE);
@@ -108,7 +106,7 @@ static void test_a_step_with_a_pulse_works_on_no_turn(void) {
 }
 
 /* Without gravity's feed-forward the observer takes no time. */
-static void test_unfed_nothing_is_observed(void) {
+TEST(rig_observed, unfed_nothing_is_observed) {
     arm();
     even.config.feeds = WH_COMPENSATION_NEVER;
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
@@ -120,7 +118,7 @@ static void test_unfed_nothing_is_observed(void) {
 }
 
 /* When a new set-point ends the feed-forward, the measurement's reference changes in the same step, and when it returns. */
-static void test_the_reference_knows_who_is_fed(void) {
+TEST(rig_observed, the_reference_knows_who_is_fed) {
     arm();
     even.config.feeds = WH_COMPENSATION_SLOW;
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM) == WH_ALLOWED);
@@ -147,7 +145,7 @@ static void test_the_reference_knows_who_is_fed(void) {
 }
 
 /* Pulses of nonexistent sensors, in any phase, are counted only. */
-static void test_a_sensor_that_is_none(void) {
+TEST(rig_observed, a_sensor_that_is_none) {
     static even_rig twin;
     seed = 77;
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -173,7 +171,7 @@ static void test_a_sensor_that_is_none(void) {
 }
 
 /* Pending marks wait in order, up to the buffer's size. */
-static void test_marks_come_in_their_order(void) {
+TEST(rig_observed, marks_come_in_their_order) {
     wh_pulses pulses;
     wh_mark mark;
     seed = 4;
@@ -198,15 +196,4 @@ static void test_marks_come_in_their_order(void) {
         TEST_ASSERT_TRUE(i < 2U || marks == running);
         TEST_ASSERT_TRUE(i < 2U || before == ticks);
     }
-}
-
-void suite_rig_observed(void) {
-    RUN_TEST(test_unfed_nothing_is_observed);
-    RUN_TEST(test_the_reference_knows_who_is_fed);
-    RUN_TEST(test_a_sensor_that_is_none);
-    RUN_TEST(test_marks_come_in_their_order);
-    RUN_TEST(test_a_step_with_a_pulse_works_on_no_turn);
-    RUN_TEST(test_each_pulse_is_told_once);
-    RUN_TEST(test_each_run_begins_with_an_observer_that_knows_nothing);
-    RUN_TEST(test_a_result_says_the_voltage);
 }

@@ -6,9 +6,7 @@
 #include "draw.h"
 #include "fed_rotor.h"
 
-#include "unity.h"
-
-void suite_rig_observer(void);
+#include "tests/suites.h"
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
@@ -30,7 +28,7 @@ static void check_below(wh_real bound, wh_real value) { TEST_ASSERT_TRUE(value <
 /* --- the nominal rotor ------------------------------------------------------------------------------ */
 
 /* The made-up rotor equals the scene, integrated by another method. */
-static void test_the_rotor_is_the_scenes(void) {
+TEST(rig_observer, the_rotor_is_the_scenes) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
     TEST_ASSERT_TRUE(wh_scene_start(&rig_fixed, &state, memory, sizeof memory) == WH_OK);
@@ -55,7 +53,7 @@ static void test_the_rotor_is_the_scenes(void) {
 }
 
 /* The angle is right to 0.02 degrees at any speed, freely swinging (by up to 18 %) or fed forward; speed and friction too. */
-static void test_the_rotor_it_knows_is_followed(void) {
+TEST(rig_observer, the_rotor_it_knows_is_followed) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {
         fed_rotor_standard(&fed, 7);
@@ -76,7 +74,7 @@ static void test_the_rotor_it_knows_is_followed(void) {
 }
 
 /* Jittering marks move the angle by less than twice their error, and hardly less than their error. */
-static void test_jitter_is_not_amplified(void) {
+TEST(rig_observer, jitter_is_not_amplified) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {
         fed_rotor_standard(&fed, 11);
@@ -91,7 +89,7 @@ static void test_jitter_is_not_amplified(void) {
     }
 }
 
-static void test_without_corrections_it_is_lost(void) {
+TEST(rig_observer, without_corrections_it_is_lost) {
     fed_rotor_standard(&fed, 7);
     fed.kind.friction_Nm = WH_R(0.02);
     for (unsigned i = 0; i < 2; i++) {
@@ -108,7 +106,7 @@ static void test_without_corrections_it_is_lost(void) {
 /* Half to six times the inertia, gravity 30 % off, up to 0.2 N m of friction, sensors up to 3 degrees off, and jitter. The
  * stage brakes or freewheels, known or unknown. Speeds are 80 to 400 rpm, below 170 with gravity's voltage after a start at 150
  * or more. Of a hundred, nine are followed to 17 degrees only; no wrong angle is called valid for long. */
-static void test_drawn_rotors_are_followed(void) {
+TEST(rig_observer, drawn_rotors_are_followed) {
     uint64_t seed = UINT64_C(0x5eed0b5e);
     unsigned fine = 0;
     uint32_t lies = 0;
@@ -150,7 +148,7 @@ static void test_drawn_rotors_are_followed(void) {
 
 /* Valid from three marks after the start at the second mark. A lost mark of either sensor is bridged. After more than a turn
  * without marks it is invalid, and valid again two turns later. */
-static void test_marks_make_it_valid(void) {
+TEST(rig_observer, marks_make_it_valid) {
     begin(3, WH_R(330.0));
     unsigned marks = 0;
     while (!fed.observer.valid && marks < 20U) {
@@ -178,7 +176,7 @@ static void test_marks_make_it_valid(void) {
 }
 
 /* A mark at another angle: invalid at once, and valid again within 2 s. */
-static void test_a_false_mark_is_noticed(void) {
+TEST(rig_observer, a_false_mark_is_noticed) {
     begin(3, WH_R(330.0));
     for (unsigned i = 0; i < 20; i++) {
         fed_rotor_run(&fed, WH_R(330.0), WH_R(2.0) + WH_R(0.0371) * (wh_real)i);
@@ -197,7 +195,7 @@ static void test_a_false_mark_is_noticed(void) {
 }
 
 /* Two marks start it: from the second, at the mean speed since the first, wherever within a step they came. */
-static void test_two_marks_set_it_out(void) {
+TEST(rig_observer, two_marks_set_it_out) {
     static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
     for (unsigned i = 0; i < 8; i++) {
         const unsigned first = i % 2U;
@@ -227,7 +225,7 @@ static void test_two_marks_set_it_out(void) {
 }
 
 /* Without marks it is valid for slightly more than a turn, and not after the rotor stops. */
-static void test_a_missed_turn_is_noticed(void) {
+TEST(rig_observer, a_missed_turn_is_noticed) {
     for (unsigned i = 0; i < 2; i++) {
         begin(3, WH_R(250.0));
         fed_rotor_run(&fed, WH_R(250.0), WH_R(3.0));
@@ -250,7 +248,7 @@ static void test_a_missed_turn_is_noticed(void) {
 }
 
 /* Control steps that are no multiple of the scene's step: the remainder is not lost. */
-static void test_uneven_steps_lose_no_time(void) {
+TEST(rig_observer, uneven_steps_lose_no_time) {
     begin(3, WH_R(330.0));
     fed_rotor_hold(&fed, WH_R(330.0));
     uint32_t seen = 0;
@@ -272,7 +270,7 @@ static void test_uneven_steps_lose_no_time(void) {
 }
 
 /* A late call, long silence or a drive that is not a number restarts it, and it converges again. */
-static void test_it_begins_anew(void) {
+TEST(rig_observer, it_begins_anew) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     for (unsigned i = 0; i < 4; i++) {
         fed_rotor_standard(&fed, 5);
@@ -305,7 +303,7 @@ static void test_it_begins_anew(void) {
 }
 
 /* A shiver at a sensor, or a rotor that hardly moves, does not start it. */
-static void test_shivers_set_nothing_going(void) {
+TEST(rig_observer, shivers_set_nothing_going) {
     static const uint32_t apart[] = {1, 500, 5000, 60000, 1000000, 1490000, 1600000};
     for (unsigned i = 0; i < 7; i++) {
         begin(5, WH_R(100.0));
@@ -321,7 +319,7 @@ static void test_shivers_set_nothing_going(void) {
     }
 }
 
-static void test_the_wrap_changes_nothing(void) {
+TEST(rig_observer, the_wrap_changes_nothing) {
     wh_real speed[2];
     wh_phase phase[2];
     for (unsigned i = 0; i < 2; i++) {
@@ -337,7 +335,7 @@ static void test_the_wrap_changes_nothing(void) {
 }
 
 /* Scenes of another kind are refused; an observer without a scene is never valid. */
-static void test_other_scenes_are_refused(void) {
+TEST(rig_observer, other_scenes_are_refused) {
     fed_rotor_standard(&fed, 1);
     wh_scene other = rig_fixed;
     wh_scene without = rig_fixed;
@@ -352,21 +350,4 @@ static void test_other_scenes_are_refused(void) {
         TEST_ASSERT_TRUE(wh_observer_speed_radps(&fed.observer) == WH_R(0.0));
         TEST_ASSERT_TRUE(wh_observer_angle_rad(&fed.observer, 77) == WH_R(0.0));
     }
-}
-
-void suite_rig_observer(void) {
-    RUN_TEST(test_the_rotor_is_the_scenes);
-    RUN_TEST(test_the_rotor_it_knows_is_followed);
-    RUN_TEST(test_jitter_is_not_amplified);
-    RUN_TEST(test_without_corrections_it_is_lost);
-    RUN_TEST(test_drawn_rotors_are_followed);
-    RUN_TEST(test_marks_make_it_valid);
-    RUN_TEST(test_a_false_mark_is_noticed);
-    RUN_TEST(test_two_marks_set_it_out);
-    RUN_TEST(test_a_missed_turn_is_noticed);
-    RUN_TEST(test_uneven_steps_lose_no_time);
-    RUN_TEST(test_it_begins_anew);
-    RUN_TEST(test_shivers_set_nothing_going);
-    RUN_TEST(test_the_wrap_changes_nothing);
-    RUN_TEST(test_other_scenes_are_refused);
 }

@@ -6,9 +6,7 @@
 #include "draw.h"
 #include "rotor.h"
 
-#include "unity.h"
-
-void suite_rig_off(void);
+#include "tests/suites.h"
 
 #define RPM WH_RIG_RADPS_PER_RPM
 #define STEP_TICKS UINT32_C(2000)
@@ -198,7 +196,7 @@ static void go_to(place where) {
 #define OFF_ALL (OFF_BENCHES >= 360U) /* enough for some of each kind */
 
 /* Healthy rotors run out, braked and coasting, over the last turn's top and in swings about the bottom: no trip. */
-static void test_healthy_rotors_run_out(void) {
+TEST(rig_off, healthy_rotors_run_out) {
     unsigned brakes = 0;
     unsigned swings = 0;
     seed = 31;
@@ -222,7 +220,7 @@ static void test_healthy_rotors_run_out(void) {
 }
 
 /* One false pulse of either sensor while a rotor coasts: no trip, except for some rotors about to turn back at the top. */
-static void test_one_invented_pulse_is_no_drive(void) {
+TEST(rig_off, one_invented_pulse_is_no_drive) {
     unsigned benches = 0;
     unsigned trips = 0;
     seed = 34;
@@ -248,7 +246,7 @@ static void test_one_invented_pulse_is_no_drive(void) {
 }
 
 /* A hand may turn the rotor below 60 rpm, in jerks, and swing it. */
-static void test_a_hand_may_turn_the_rotor(void) {
+TEST(rig_off, a_hand_may_turn_the_rotor) {
     seed = 32;
     for (unsigned i = 0; i < draw_cases(OFF_BENCHES / 6U); i++) {
         draw_bench();
@@ -273,7 +271,7 @@ static void test_a_hand_may_turn_the_rotor(void) {
 
 /* Any stuck stage, from any off state. With the enable on, the rig switches it off within a second of the first turn that does
  * not slow down, and trips. With it off, three turns, each faster than the last, trip. */
-static void test_a_stage_that_drives_is_found(void) {
+TEST(rig_off, a_stage_that_drives_is_found) {
     unsigned shown[PLACES] = {0};
     unsigned told =
         0; /* with the enable on; a stage that ignores both, with one sensor, has none */
@@ -322,11 +320,4 @@ static void test_a_stage_that_drives_is_found(void) {
     }
     TEST_ASSERT_TRUE(!OFF_ALL || on_shown[2] > 0);
     TEST_ASSERT_TRUE(!OFF_ALL || told > 9U * untold);
-}
-
-void suite_rig_off(void) {
-    RUN_TEST(test_healthy_rotors_run_out);
-    RUN_TEST(test_one_invented_pulse_is_no_drive);
-    RUN_TEST(test_a_hand_may_turn_the_rotor);
-    RUN_TEST(test_a_stage_that_drives_is_found);
 }

@@ -9,9 +9,7 @@
 #include "core/root.h"
 #include "draw.h"
 
-#include "unity.h"
-
-void suite_rig_parts(void);
+#include "tests/suites.h"
 
 #define TURN WH_RIG_TWO_PI
 #define N WH_NORMAL_UNKNOWNS
@@ -25,7 +23,7 @@ static wh_real drawn_between(wh_real least, wh_real most) {
 /* --- angles ------------------------------------------------------------------------------------------- */
 
 /* Into -pi ... pi from less than a turn beyond, and 0 from further away. */
-static void test_free_angles(void) {
+TEST(rig_parts, free_angles) {
     seed = 1;
     for (unsigned i = 0; i < 2000U; i++) {
         const wh_real turns = draw_broken(&seed, -4, 4);
@@ -39,7 +37,7 @@ static void test_free_angles(void) {
     TEST_ASSERT_TRUE(wh_free_angle((wh_real)__builtin_nanf("")) == WH_R(0.0));
 }
 
-static void test_polar_of_every_size(void) {
+TEST(rig_parts, polar_of_every_size) {
     seed = 2;
     for (unsigned i = 0; i < 2000U; i++) {
         const wh_real angle = drawn_between(WH_R(-3.1), WH_R(3.1));
@@ -62,7 +60,7 @@ static void test_polar_of_every_size(void) {
 }
 
 /* The return value is the mark's deviation from the shape that it corrects, for any corrected parameter. */
-static void test_a_split_says_how_far_the_mark_was_off(void) {
+TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
         wh_rotor_config rotor = wh_rig_standard.measure.rotor;
@@ -88,7 +86,7 @@ static void test_a_split_says_how_far_the_mark_was_off(void) {
 /* --- least squares ------------------------------------------------------------------------------------- */
 
 /* (1 + sum w r r') x = guess + sum w r off for any number of rows, also zero: the solution satisfies it. */
-static void test_normal_equations_hold(void) {
+TEST(rig_parts, normal_equations_hold) {
     seed = 4;
     for (unsigned i = 0; i < 200U; i++) {
         static wh_real row[12][N];
@@ -130,7 +128,7 @@ static void test_normal_equations_hold(void) {
 }
 
 /* A deviation's square is its unknown for a right side of that unknown's unit vector. Weak and strong rows. */
-static void test_a_deviation_is_the_inverses_diagonal(void) {
+TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
     seed = 14;
     for (unsigned i = 0; i < 100U; i++) {
         const wh_real zero[N] = {WH_R(0.0)};
@@ -160,7 +158,7 @@ static void test_a_deviation_is_the_inverses_diagonal(void) {
 /* --- pulses -------------------------------------------------------------------------------------------- */
 
 /* With the motor off a rotor is no faster than over the last undriven interval, which begins at the switch-off or later. */
-static void test_the_last_interval_bounds_what_coasts(void) {
+TEST(rig_parts, the_last_interval_bounds_what_coasts) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
         const wh_real speed = drawn_between(WH_R(5.0), WH_R(40.0));
@@ -183,7 +181,7 @@ static void test_the_last_interval_bounds_what_coasts(void) {
     }
 }
 
-static void test_doubt_grows_by_two_and_shrinks_by_one(void) {
+TEST(rig_parts, doubt_grows_by_two_and_shrinks_by_one) {
     unsigned grown = 0;
     unsigned shrunk = 0;
     seed = 6;
@@ -217,7 +215,7 @@ static void test_doubt_grows_by_two_and_shrinks_by_one(void) {
 }
 
 /* Before the speed is known a pulse that comes too early is a suspect; others are not. */
-static void test_the_second_pulse_is_suspected_where_it_is_fast(void) {
+TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
     seed = 9;
     for (unsigned i = 0; i < 500U; i++) {
         const unsigned sensor = draw_one_of(&seed, 2);
@@ -241,7 +239,7 @@ static void test_the_second_pulse_is_suspected_where_it_is_fast(void) {
 /* --- turns --------------------------------------------------------------------------------------------- */
 
 /* A record's drift runs from its first counted turn to its last, with any turns left out. */
-static void test_first_and_last_turn_of_those_that_count(void) {
+TEST(rig_parts, first_and_last_turn_of_those_that_count) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_turn_angle angle;
@@ -274,7 +272,7 @@ static void test_first_and_last_turn_of_those_that_count(void) {
 /* --- verdicts ------------------------------------------------------------------------------------------- */
 
 /* Limits are inclusive, and the next number beyond is refused: each limit alone, all else nominal. */
-static void test_limits_of_a_verdict_are_allowed(void) {
+TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     wh_result_config config = wh_rig_standard.measure.result;
     config.amplitude_wrong = WH_R(0.25); /* so that products with 64 N are exact */
     config.amplitude_off = WH_R(0.0625);
@@ -324,7 +322,7 @@ static void test_limits_of_a_verdict_are_allowed(void) {
 }
 
 /* A swing's verdict from its last pass: at most a quarter strays, enough half swings, sensor 2 passed, a narrow interval. */
-static void test_verdict_of_a_swing(void) {
+TEST(rig_parts, verdict_of_a_swing) {
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     unsigned times[WH_SWING_WHYS] = {0};
     seed = 8;
@@ -364,18 +362,4 @@ static void test_verdict_of_a_swing(void) {
     TEST_ASSERT_TRUE(times[WH_SWING_MISFIT] > 50U && times[WH_SWING_FEW] > 50U);
     TEST_ASSERT_TRUE(times[WH_SWING_SIDES] > 50U && times[WH_SWING_WIDE] > 50U);
     TEST_ASSERT_TRUE(times[WH_SWING_FOUND] > 50U);
-}
-
-void suite_rig_parts(void) {
-    RUN_TEST(test_free_angles);
-    RUN_TEST(test_polar_of_every_size);
-    RUN_TEST(test_a_split_says_how_far_the_mark_was_off);
-    RUN_TEST(test_normal_equations_hold);
-    RUN_TEST(test_a_deviation_is_the_inverses_diagonal);
-    RUN_TEST(test_the_last_interval_bounds_what_coasts);
-    RUN_TEST(test_doubt_grows_by_two_and_shrinks_by_one);
-    RUN_TEST(test_the_second_pulse_is_suspected_where_it_is_fast);
-    RUN_TEST(test_first_and_last_turn_of_those_that_count);
-    RUN_TEST(test_limits_of_a_verdict_are_allowed);
-    RUN_TEST(test_verdict_of_a_swing);
 }

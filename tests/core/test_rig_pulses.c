@@ -4,9 +4,7 @@
 #include "draw.h"
 #include "even_rig.h"
 #include "rotor.h"
-#include "unity.h"
-
-void suite_rig_pulses(void);
+#include "tests/suites.h"
 
 #define RPM EVEN_RPM
 #define STEP_TICKS EVEN_STEP_TICKS
@@ -179,7 +177,7 @@ static void check_marks(const outcome *out, uint32_t off_ticks) {
     TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.speed.lost);
 }
 
-static void test_a_train_is_its_marks(void) {
+TEST(rig_pulses, a_train_is_its_marks) {
     seed = 1;
     for (unsigned i = 0; i < SPEEDS; i++) {
         for (wh_rig_phase phase = WH_PHASE_RAMP; phase <= WH_PHASE_RECORD; phase++) {
@@ -261,14 +259,14 @@ static void check_places(wh_rig_phase phase) {
     }
 }
 
-static void test_a_pulse_too_many_in_the_record(void) { check_places(WH_PHASE_RECORD); }
+TEST(rig_pulses, a_pulse_too_many_in_the_record) { check_places(WH_PHASE_RECORD); }
 
-static void test_a_pulse_too_many_while_it_settles(void) { check_places(WH_PHASE_SETTLE); }
+TEST(rig_pulses, a_pulse_too_many_while_it_settles) { check_places(WH_PHASE_SETTLE); }
 
-static void test_a_pulse_too_many_on_the_ramp(void) { check_places(WH_PHASE_RAMP); }
+TEST(rig_pulses, a_pulse_too_many_on_the_ramp) { check_places(WH_PHASE_RAMP); }
 
 /* Two false pulses, each between two true ones, with so many true ones between them: each is found. */
-static void test_two_pulses_too_many(void) {
+TEST(rig_pulses, two_pulses_too_many) {
     seed = 7;
     for (unsigned i = 0; i < draw_cases(240); i++) {
         make_train(speeds_rpm[draw_one_of(&seed, SPEEDS)]);
@@ -292,7 +290,7 @@ static void test_two_pulses_too_many(void) {
 /* --- missing pulses ------------------------------------------------------------------------------- */
 
 /* One is bridged, more are a gap: the position restarts, the speed stays. */
-static void test_lost_pulses(void) {
+TEST(rig_pulses, lost_pulses) {
     seed = 3;
     for (unsigned i = 0; i < SPEEDS; i++) {
         for (wh_rig_phase phase = WH_PHASE_RAMP; phase <= WH_PHASE_RECORD; phase++) {
@@ -316,7 +314,7 @@ static void test_lost_pulses(void) {
 /* --- stamps, bounces, storms ----------------------------------------------------------------------- */
 
 /* A pulse may be captured after the step's own reading of the timer, and the train crosses the timer's wrap. */
-static void test_stamps_from_the_future(void) {
+TEST(rig_pulses, stamps_from_the_future) {
     seed = 4;
     for (unsigned i = 0; i < SPEEDS; i++) {
         for (uint32_t early = 1; early <= 3; early += 2) {
@@ -334,7 +332,7 @@ static void test_stamps_from_the_future(void) {
 }
 
 /* A slot's edge fires repeatedly: counted and harmless; too many stop the rig. */
-static void test_bounces(void) {
+TEST(rig_pulses, bounces) {
     seed = 5;
     for (unsigned each = 1; each <= 4; each++) {
         for (unsigned i = 0; i < SPEEDS; i++) {
@@ -358,7 +356,7 @@ static void test_bounces(void) {
 }
 
 /* Random pulses of both sensors, some twenty times the normal rate. */
-static void test_a_storm_stops_the_rig(void) {
+TEST(rig_pulses, a_storm_stops_the_rig) {
     seed = 6;
     for (unsigned i = 0; i < SPEEDS; i++) {
         for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -376,16 +374,4 @@ static void test_a_storm_stops_the_rig(void) {
                              rig.guard.trip == WH_TRIP_OVERSPEED);
         }
     }
-}
-
-void suite_rig_pulses(void) {
-    RUN_TEST(test_a_train_is_its_marks);
-    RUN_TEST(test_a_pulse_too_many_in_the_record);
-    RUN_TEST(test_a_pulse_too_many_while_it_settles);
-    RUN_TEST(test_a_pulse_too_many_on_the_ramp);
-    RUN_TEST(test_two_pulses_too_many);
-    RUN_TEST(test_lost_pulses);
-    RUN_TEST(test_stamps_from_the_future);
-    RUN_TEST(test_bounces);
-    RUN_TEST(test_a_storm_stops_the_rig);
 }

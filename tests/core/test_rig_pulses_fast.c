@@ -4,9 +4,7 @@
 #include "draw.h"
 #include "even_rig.h"
 #include "rotor.h"
-#include "unity.h"
-
-void suite_rig_pulses_fast(void);
+#include "tests/suites.h"
 
 #define STEP_TICKS EVEN_STEP_TICKS
 
@@ -46,7 +44,7 @@ static wh_real run_away(rotor_state *rotor) {
     return (wh_real)(rotor->ticks - begin) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-static void test_a_runaway_is_seen_at_any_place(void) {
+TEST(rig_pulses_fast, a_runaway_is_seen_at_any_place) {
     seed = 7;
     const rotor_kind kind = rotor_nominal();
     const wh_real drive =
@@ -67,7 +65,7 @@ static void test_a_runaway_is_seen_at_any_place(void) {
     }
 }
 
-static void test_a_runaway_from_rest_is_seen(void) {
+TEST(rig_pulses_fast, a_runaway_from_rest_is_seen) {
     seed = 8;
     for (int place = -2; place <= 2; place++) { /* hanging, within a few degrees of friction */
         rotor_state rotor = {.ticks = UINT32_MAX - 100000U,
@@ -94,7 +92,7 @@ static void go_on(const rotor_kind *kind, rotor_state *rotor, unsigned steps) {
 }
 
 /* A friction of up to 0.1 N m that vanishes anywhere lets the rotor climb, from 0.7 times the inertia on. The loop handles it. */
-static void test_a_load_that_goes_away_is_no_runaway(void) {
+TEST(rig_pulses_fast, a_load_that_goes_away_is_no_runaway) {
     seed = 9;
     for (unsigned trial = 0; trial < 60U; trial++) {
         rotor_kind kind = rotor_nominal();
@@ -113,10 +111,4 @@ static void test_a_load_that_goes_away_is_no_runaway(void) {
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
         TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SETTLE);
     }
-}
-
-void suite_rig_pulses_fast(void) {
-    RUN_TEST(test_a_load_that_goes_away_is_no_runaway);
-    RUN_TEST(test_a_runaway_is_seen_at_any_place);
-    RUN_TEST(test_a_runaway_from_rest_is_seen);
 }

@@ -2,9 +2,7 @@
 #include "core/rig/rig.h"
 
 #include "draw.h"
-#include "unity.h"
-
-void suite_rig_record(void);
+#include "tests/suites.h"
 
 static uint8_t bytes[WH_TRIP_RECORD_BYTES + 4U];
 static uint64_t seed;
@@ -32,7 +30,7 @@ static bool is_same(wh_real one, wh_real other) {
     return __builtin_memcmp(&one, &other, sizeof one) == 0;
 }
 
-static void test_there_and_back(void) {
+TEST(rig_record, there_and_back) {
     seed = 5;
     for (unsigned i = 0; i < 20U * TRIPS; i++) {
         const wh_trip_record record = draw_record(i);
@@ -58,7 +56,7 @@ static bool is_trip(unsigned number) {
     return is;
 }
 
-static void test_what_is_none(void) {
+TEST(rig_record, what_is_none) {
     const wh_trip_record record = {.trip = WH_TRIP_OVERSPEED, .phase = WH_PHASE_RECORD};
     wh_trip_record read;
     wh_trip_record_put(&record, bytes);
@@ -76,9 +74,4 @@ static void test_what_is_none(void) {
         TEST_ASSERT_TRUE(wh_trip_record_get(&read, bytes, WH_TRIP_RECORD_BYTES) ==
                          (phase < (unsigned)WH_PHASES));
     }
-}
-
-void suite_rig_record(void) {
-    RUN_TEST(test_there_and_back);
-    RUN_TEST(test_what_is_none);
 }

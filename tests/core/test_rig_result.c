@@ -6,9 +6,7 @@
 #include "core/root.h"
 
 #include "tests/scattered.h"
-#include "unity.h"
-
-void suite_rig_result(void);
+#include "tests/suites.h"
 
 #define DEG WH_R(0.017453292519943295)
 #define TURN_TICKS UINT32_C(181818)
@@ -76,7 +74,7 @@ static void conclude(const wh_result_config *config) {
 /* --- Student's factor ----------------------------------------------------------------------------- */
 
 /* Two-sided, 95 %: from the distribution's tables. */
-static void test_students_factor(void) {
+TEST(rig_result, students_factor) {
     static const struct {
         uint32_t freedom;
         wh_real factor;
@@ -93,7 +91,7 @@ static void test_students_factor(void) {
 /* --- the mean -------------------------------------------------------------------------------------- */
 
 /* Without floors, tolerances and jitter: Student's interval of the components along the mean and across it. */
-static void test_the_interval_is_students(void) {
+TEST(rig_result, the_interval_is_students) {
     scattered_state = UINT64_C(0x5eed0031);
     for (unsigned k = 0; k < 12; k++) {
         const unsigned turns = 3U + k;
@@ -147,7 +145,7 @@ static void test_the_interval_is_students(void) {
 }
 
 /* Floors alone: each as entered. The defaults are 0.5 % and 0.5 degrees. */
-static void test_floors_are_kept(void) {
+TEST(rig_result, floors_are_kept) {
     begin();
     for (unsigned i = 0; i < 10; i++) {
         const wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), i);
@@ -170,7 +168,7 @@ static void test_floors_are_kept(void) {
 }
 
 /* Jitter's standard deviation follows from the second differences of both sensors, but not across a turn that does not count. */
-static void test_jitter_is_found(void) {
+TEST(rig_result, jitter_is_found) {
     scattered_state = UINT64_C(0x5eed0032);
     begin();
     wh_real late_us = WH_R(60.0) * scatter();
@@ -214,7 +212,7 @@ static wh_why why_of(wh_real in_phase, wh_real quadrature, wh_lockin_turn like, 
     return measured.why;
 }
 
-static void test_every_reason_has_its_case(void) {
+TEST(rig_result, every_reason_has_its_case) {
     const wh_lockin_turn plain = {.samples = 0};
     const wh_real full_N = WH_R(42.146); /* S <w^2> at 330 rpm */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
@@ -322,7 +320,7 @@ static void test_every_reason_has_its_case(void) {
 }
 
 /* The remaining share of gravity is reported if gravity is fed forward and pulls, and is 0 otherwise. */
-static void test_what_is_left_of_gravity(void) {
+TEST(rig_result, what_is_left_of_gravity) {
     for (unsigned i = 0; i < 4U; i++) {
         begin();
         rotor.gravity_mps2 = i < 2U ? rotor.gravity_mps2 : WH_R(0.0);
@@ -341,7 +339,7 @@ static void test_what_is_left_of_gravity(void) {
 }
 
 /* A single turn has no scatter, and a zero load has no phase: no interval is reported, and none is NaN. */
-static void test_without_scatter_or_load_there_is_no_interval(void) {
+TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
     for (unsigned turns = 0; turns <= 3U; turns++) {
         for (unsigned loads = 0; loads < 2U; loads++) {
             begin();
@@ -361,7 +359,7 @@ static void test_without_scatter_or_load_there_is_no_interval(void) {
 }
 
 /* A carriage of three times the masses' weight takes a quarter of the force away. */
-static void test_the_mount_decides_what_is_expected(void) {
+TEST(rig_result, the_mount_decides_what_is_expected) {
     begin();
     wh_result_config config = bench;
     config.mount_factor = WH_R(0.75);
@@ -382,7 +380,7 @@ static bool same_text(const char *x, const char *y) {
     return *x == *y;
 }
 
-static void test_every_reason_has_words_of_its_own(void) {
+TEST(rig_result, every_reason_has_words_of_its_own) {
     for (int i = 0; i <= (int)WH_WHYS; i++) {
         for (int k = 0; k < i; k++) {
             TEST_ASSERT_FALSE(same_text(wh_why_text((wh_why)i), wh_why_text((wh_why)k)));
@@ -428,7 +426,7 @@ static wh_real between(wh_real least, wh_real most) {
 }
 
 /* Noise and hum of any size are no motion if the mean is known: up to 3 N and 5 N, 45 to 65 Hz. */
-static void test_noise_and_hum_are_no_motion(void) {
+TEST(rig_result, noise_and_hum_are_no_motion) {
     static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
     scattered_state = UINT64_C(0x5eed0033);
     for (unsigned k = 0; k < 2000; k++) {
@@ -445,7 +443,7 @@ static void test_noise_and_hum_are_no_motion(void) {
 }
 
 /* A drift of 0.4 N or a swing of 0.3 N, plus twice the noise, is motion: of a rotor (from 1 Hz) or a frame (to 8 Hz), with hum. */
-static void test_motion_is_seen_through_noise_and_hum(void) {
+TEST(rig_result, motion_is_seen_through_noise_and_hum) {
     scattered_state = UINT64_C(0x5eed0034);
     for (unsigned k = 0; k < 2000; k++) {
         const wh_real side = k % 4U < 2U ? WH_R(1.0) : WH_R(-1.0);
@@ -461,7 +459,7 @@ static void test_motion_is_seen_through_noise_and_hum(void) {
 }
 
 /* Noise that leaves the mean uncertain by 0.25 N is too much; few or no samples give no result. */
-static void test_a_tare_that_is_not_known(void) {
+TEST(rig_result, a_tare_that_is_not_known) {
     scattered_state = UINT64_C(0x5eed0036);
     wh_tare tare = {.count = 0};
     for (unsigned i = 0; i < 4U * WH_TARE_BLOCK; i++) {
@@ -472,19 +470,4 @@ static void test_a_tare_that_is_not_known(void) {
     TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     tare = tare_of(WH_R(8.0), WH_R(0.0), WH_R(50.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
     TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
-}
-
-void suite_rig_result(void) {
-    RUN_TEST(test_students_factor);
-    RUN_TEST(test_the_interval_is_students);
-    RUN_TEST(test_floors_are_kept);
-    RUN_TEST(test_jitter_is_found);
-    RUN_TEST(test_every_reason_has_its_case);
-    RUN_TEST(test_what_is_left_of_gravity);
-    RUN_TEST(test_without_scatter_or_load_there_is_no_interval);
-    RUN_TEST(test_the_mount_decides_what_is_expected);
-    RUN_TEST(test_every_reason_has_words_of_its_own);
-    RUN_TEST(test_noise_and_hum_are_no_motion);
-    RUN_TEST(test_motion_is_seen_through_noise_and_hum);
-    RUN_TEST(test_a_tare_that_is_not_known);
 }

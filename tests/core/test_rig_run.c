@@ -2,9 +2,7 @@
 #include "draw.h"
 #include "even_rig.h"
 
-#include "unity.h"
-
-void suite_rig_run(void);
+#include "tests/suites.h"
 
 static even_rig even;
 
@@ -38,7 +36,7 @@ static void check_measured(unsigned turns_wanted) {
 
 static void check_result(void) { check_measured(10); }
 
-static void test_a_faultless_run_finds_the_load(void) {
+TEST(rig_run, a_faultless_run_finds_the_load) {
     run(WH_R(330.0), (even_failure){.in = EVEN_NEVER});
     check_result();
     TEST_ASSERT_EQUAL_UINT32(0, even.rig.result.lost + even.rig.result.rejected);
@@ -48,7 +46,7 @@ static void test_a_faultless_run_finds_the_load(void) {
 
 /* From the middle of the record on, pulses of one or both sensors are lost: as many as the guard tolerates, but never two in a
  * row. A turn without a known start or end is left out. */
-static void test_lost_pulses_in_the_record_cost_their_turns(void) {
+TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
             even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U};
@@ -67,7 +65,7 @@ static void test_lost_pulses_in_the_record_cost_their_turns(void) {
 }
 
 /* Two in a row: the count of turns restarts, and the turns between are left out. */
-static void test_a_gap_in_the_record_costs_its_turns(void) {
+TEST(rig_run, a_gap_in_the_record_costs_its_turns) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose = {1, 1}});
     check_measured(8);
     TEST_ASSERT_EQUAL_UINT32(1, even.rig.result.force.left_out);
@@ -75,14 +73,14 @@ static void test_a_gap_in_the_record_costs_its_turns(void) {
     check_measured(7);
 }
 
-static void test_a_gap_before_the_record_is_bridged(void) {
+TEST(rig_run, a_gap_before_the_record_is_bridged) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_SETTLE, .after_ticks = 700000U, .lose = {1, 1}});
     check_result();
     TEST_ASSERT_EQUAL_UINT32(2, even.rig.result.lost);
 }
 
 /* A disturbance like a pulse, anywhere in a turn of the record: rejected or revoked. */
-static void test_a_pulse_too_many_spoils_no_result(void) {
+TEST(rig_run, a_pulse_too_many_spoils_no_result) {
     for (unsigned part = 0; part < 40U; part++) {
         even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U + part / 2U * 9000U};
         failing.adds[part % 2U] = true;
@@ -93,7 +91,7 @@ static void test_a_pulse_too_many_spoils_no_result(void) {
 }
 
 /* A shiver of the hanging rotor with its slot at sensor 1. */
-static void test_a_pulse_during_the_tare_is_forgotten(void) {
+TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
     for (uint32_t after = 0; after <= 490000U; after += 490000U) {
         run(WH_R(330.0),
             (even_failure){.in = WH_PHASE_TARE, .after_ticks = after, .adds = {true, false}});
@@ -102,7 +100,7 @@ static void test_a_pulse_during_the_tare_is_forgotten(void) {
 }
 
 /* Swapped cables or a reversed motor: the phase would be wrong. */
-static void test_sensors_in_the_wrong_order_trip(void) {
+TEST(rig_run, sensors_in_the_wrong_order_trip) {
     static const wh_real targets_rpm[] = {WH_R(170.0), WH_R(240.0), WH_R(330.0)};
     for (unsigned i = 0; i < 3; i++) {
         run(targets_rpm[i], (even_failure){.in = EVEN_NEVER, .swapped = true});
@@ -110,7 +108,7 @@ static void test_sensors_in_the_wrong_order_trip(void) {
     }
 }
 
-static void test_a_dead_sensor_trips(void) {
+TEST(rig_run, a_dead_sensor_trips) {
     for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
         for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
             even_failure failing = {.in = in};
@@ -122,7 +120,7 @@ static void test_a_dead_sensor_trips(void) {
 }
 
 /* A jammed rotor's load stands still too, but the cell has not failed. */
-static void test_a_jammed_rotor_trips_for_its_pulses(void) {
+TEST(rig_run, a_jammed_rotor_trips_for_its_pulses) {
     for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
         check_trip(WH_TRIP_PULSES);
@@ -139,7 +137,7 @@ static wh_real between(wh_real least, wh_real most) {
 
 /* Jitter of up to 150 us (standard deviation, uniform) is no motion: the run settles, records, and its intervals hold. The
  * phase's interval covers the middle of the delay too. */
-static void test_jitter_settles(void) {
+TEST(rig_run, jitter_settles) {
     seed = 61;
     for (unsigned i = 0; i < 60U; i++) {
         /* the made-up load is for 330 rpm */
@@ -165,7 +163,7 @@ static void test_jitter_settles(void) {
 }
 
 /* A speed that hunts by 1 rpm or more in 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle, with any jitter. */
-static void test_a_speed_that_hunts_or_drifts_does_not_settle(void) {
+TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
     unsigned unsettled = 0;
     seed = 62;
     for (unsigned i = 0; i < 40U; i++) {
@@ -189,7 +187,7 @@ static void test_a_speed_that_hunts_or_drifts_does_not_settle(void) {
 /* --- load cell ---------------------------------------------------------------------------------- */
 
 /* In any state that needs the cell the run ends within 10 periods and a step. */
-static void test_a_load_cell_that_falls_silent_trips(void) {
+TEST(rig_run, a_load_cell_that_falls_silent_trips) {
     for (wh_rig_phase in = WH_PHASE_TARE; in <= WH_PHASE_RAMP_DOWN; in++) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
         go_on_until(in);
@@ -207,7 +205,7 @@ static void test_a_load_cell_that_falls_silent_trips(void) {
 }
 
 /* One missing sample is bridged, more cost their turn. */
-static void test_samples_missing_in_the_record(void) {
+TEST(rig_run, samples_missing_in_the_record) {
     for (unsigned lost = 1; lost <= 9; lost += 4) {
         run(WH_R(330.0),
             (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose_samples = lost});
@@ -220,7 +218,7 @@ static void test_samples_missing_in_the_record(void) {
 }
 
 /* Samples that the converter flags: from a disconnected cell they stop the run, without new data they do not count. */
-static void test_the_converters_word_counts(void) {
+TEST(rig_run, the_converters_word_counts) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
         run(WH_R(330.0),
             (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .status = status});
@@ -234,7 +232,7 @@ static void test_the_converters_word_counts(void) {
 }
 
 /* A dead cell shows its converter's noise: half a turn must move it by far more. */
-static void test_a_dead_load_cell_trips(void) {
+TEST(rig_run, a_dead_load_cell_trips) {
     for (wh_rig_phase in = WH_PHASE_RAMP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* 0.3 N, either way */
         check_trip(WH_TRIP_LOAD_CELL);
@@ -244,7 +242,7 @@ static void test_a_dead_load_cell_trips(void) {
 /* --- set-points --------------------------------------------------------------------------------- */
 
 /* slow_radps is 200 rpm: the way down to it from 330, but from 180 no way up. */
-static void test_ramp_down_never_speeds_up(void) {
+TEST(rig_run, ramp_down_never_speeds_up) {
     static const wh_real targets_rpm[] = {WH_R(180.0), WH_R(330.0)};
     for (unsigned i = 0; i < 2; i++) {
         begin(targets_rpm[i], (even_failure){.in = EVEN_NEVER});
@@ -261,7 +259,7 @@ static void test_ramp_down_never_speeds_up(void) {
     }
 }
 
-static void test_a_refused_target_never_moves_the_motor(void) {
+TEST(rig_run, a_refused_target_never_moves_the_motor) {
     static const wh_real targets_rpm[] = {WH_R(0.0), WH_R(120.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {
         even_start(&even);
@@ -281,7 +279,7 @@ static void test_a_refused_target_never_moves_the_motor(void) {
 
 /* --- before the motor --------------------------------------------------------------------------- */
 
-static void test_a_rotor_that_does_not_start_trips(void) {
+TEST(rig_run, a_rotor_that_does_not_start_trips) {
     begin(WH_R(330.0), (even_failure){.in = WH_PHASE_SPIN_UP, .jams = true});
     go_on_until(WH_PHASE_SPIN_UP);
     TEST_ASSERT_TRUE(even.command.volts > WH_R(0.0));
@@ -294,7 +292,7 @@ static void test_a_rotor_that_does_not_start_trips(void) {
 
 /* Slow changes are not noise: a creeping load, or a pulse of the sensor away from the hanging rotor. Noise is no motion, even
  * at a hundred times the converter's. */
-static void test_a_moving_rig_gets_no_tare(void) {
+TEST(rig_run, a_moving_rig_gets_no_tare) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N in all */
     check_trip(WH_TRIP_MOVING);
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 8});
@@ -312,7 +310,7 @@ static void test_a_moving_rig_gets_no_tare(void) {
 }
 
 /* Healthy but wrong: the run is done, and the result is not good. */
-static void test_what_cannot_be_is_not_called_good(void) {
+TEST(rig_run, what_cannot_be_is_not_called_good) {
     begin(WH_R(330.0), (even_failure){.in = EVEN_NEVER});
     even.config.measure.cell.newton_per_count =
         -even.config.measure.cell.newton_per_count; /* the reversed cell */
@@ -345,27 +343,4 @@ static void test_what_cannot_be_is_not_called_good(void) {
     /* a cell that freezes for 0.1 s, and one that loses its tare */
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .creeps = 500});
     TEST_ASSERT_TRUE(even.rig.result.force.quality != WH_GOOD);
-}
-
-void suite_rig_run(void) {
-    RUN_TEST(test_a_faultless_run_finds_the_load);
-    RUN_TEST(test_lost_pulses_in_the_record_cost_their_turns);
-    RUN_TEST(test_a_gap_in_the_record_costs_its_turns);
-    RUN_TEST(test_a_gap_before_the_record_is_bridged);
-    RUN_TEST(test_a_pulse_too_many_spoils_no_result);
-    RUN_TEST(test_a_pulse_during_the_tare_is_forgotten);
-    RUN_TEST(test_sensors_in_the_wrong_order_trip);
-    RUN_TEST(test_a_dead_sensor_trips);
-    RUN_TEST(test_a_jammed_rotor_trips_for_its_pulses);
-    RUN_TEST(test_a_load_cell_that_falls_silent_trips);
-    RUN_TEST(test_samples_missing_in_the_record);
-    RUN_TEST(test_the_converters_word_counts);
-    RUN_TEST(test_a_dead_load_cell_trips);
-    RUN_TEST(test_ramp_down_never_speeds_up);
-    RUN_TEST(test_a_refused_target_never_moves_the_motor);
-    RUN_TEST(test_a_rotor_that_does_not_start_trips);
-    RUN_TEST(test_a_moving_rig_gets_no_tare);
-    RUN_TEST(test_jitter_settles);
-    RUN_TEST(test_a_speed_that_hunts_or_drifts_does_not_settle);
-    RUN_TEST(test_what_cannot_be_is_not_called_good);
 }

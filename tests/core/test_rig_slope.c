@@ -6,9 +6,7 @@
 #include "core/root.h"
 #include "draw.h"
 
-#include "unity.h"
-
-void suite_rig_slope(void);
+#include "tests/suites.h"
 
 #define STEPS 512U /* angle steps per turn */
 #define PERIOD_TICKS 2000U
@@ -208,7 +206,7 @@ static wh_real arrow_off(void) {
 
 /* Slopes of 0.2 to 1.6 times the configured one. The second order gives the integrated rotor's swing, to the third order of the
  * swing, which the angle within a turn omits. Good results are right, and a right slope raises no doubt. */
-static void test_the_load_tells_of_another_slope(void) {
+TEST(rig_slope, the_load_tells_of_another_slope) {
     unsigned good = 0;
     unsigned doubted = 0;
     unsigned would_lie = 0;
@@ -237,7 +235,7 @@ static void test_the_load_tells_of_another_slope(void) {
 }
 
 /* A delay and the cell's gain neither look like a slope nor hide one. */
-static void test_calibration_does_not_matter(void) {
+TEST(rig_slope, calibration_does_not_matter) {
     seed = 52;
     for (unsigned run = 0; run < 16U; run++) {
         plant p = draw_plant(run % 2U == 0 ? WH_R(1.0) : WH_R(0.5));
@@ -260,7 +258,7 @@ static void test_calibration_does_not_matter(void) {
 }
 
 /* Arms in a level plane do not swing, and there is nothing to compare. */
-static void test_a_level_plane_says_nothing(void) {
+TEST(rig_slope, a_level_plane_says_nothing) {
     seed = 53;
     for (unsigned run = 0; run < 4U; run++) {
         plant p = draw_plant(drawn_between(WH_R(0.3), WH_R(1.5)));
@@ -270,10 +268,4 @@ static void test_a_level_plane_says_nothing(void) {
         TEST_ASSERT_TRUE(measured.why == WH_WHY_NONE);
         TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)measured.swing_off_rad);
     }
-}
-
-void suite_rig_slope(void) {
-    RUN_TEST(test_the_load_tells_of_another_slope);
-    RUN_TEST(test_calibration_does_not_matter);
-    RUN_TEST(test_a_level_plane_says_nothing);
 }

@@ -1,9 +1,7 @@
 /* test_rig_standard.c: the standard rig's settings (reasons: docs/rig.md). A change needs an entry here and in CHANGELOG.md. */
 #include "core/rig/rig.h"
 
-#include "unity.h"
-
-void suite_rig_standard(void);
+#include "tests/suites.h"
 
 typedef struct setting {
     const char *name;
@@ -24,7 +22,7 @@ static void check(const setting *settings, unsigned count) {
 }
 #define CHECK(settings) check(settings, (unsigned)(sizeof(settings) / sizeof(settings)[0]))
 
-static void test_the_run(void) {
+TEST(rig_standard, the_run) {
     const wh_run_config *run = &wh_rig_standard.run;
     const setting settings[] = {
         {"control step, s", run->step_s, 0.002},
@@ -55,7 +53,7 @@ static void test_the_run(void) {
     TEST_ASSERT_TRUE(wh_rig_standard.feeds == WH_COMPENSATION_SLOW);
 }
 
-static void test_the_guard(void) {
+TEST(rig_standard, the_guard) {
     const wh_guard_config *guard = &wh_rig_standard.guard;
     const setting settings[] = {
         {"set-point at least, rpm", RPM(guard->target_min_radps), 170},
@@ -84,7 +82,7 @@ static void test_the_guard(void) {
     CHECK(settings);
 }
 
-static void test_the_measurement(void) {
+TEST(rig_standard, the_measurement) {
     const wh_measure_config *measure = &wh_rig_standard.measure;
     const wh_result_config *result = &measure->result;
     const wh_swing_config *swing = &wh_rig_standard.swing;
@@ -116,7 +114,7 @@ static void test_the_measurement(void) {
     CHECK(settings);
 }
 
-static void test_observer_and_feed(void) {
+TEST(rig_standard, observer_and_feed) {
     const wh_observer_config *observer = &wh_rig_standard.observer;
     const wh_compensation_config *feed = &wh_rig_standard.compensation;
     const setting settings[] = {
@@ -139,11 +137,4 @@ static void test_observer_and_feed(void) {
         {"fading in, s", feed->fade_s, 0.5},
         {"fed at most, of full voltage", feed->most, 0.3}};
     CHECK(settings);
-}
-
-void suite_rig_standard(void) {
-    RUN_TEST(test_the_run);
-    RUN_TEST(test_the_guard);
-    RUN_TEST(test_the_measurement);
-    RUN_TEST(test_observer_and_feed);
 }

@@ -2,9 +2,7 @@
 #include <stddef.h>
 
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_rig_states(void);
+#include "tests/suites.h"
 
 static even_rig even;
 static even_rig stood;
@@ -72,7 +70,7 @@ static wh_refusal refusal_of(char letter) {
                             : WH_REFUSED_NOT_RUNNING;
 }
 
-static void test_the_table_has_every_pair(void) {
+TEST(rig_states, the_table_has_every_pair) {
     TEST_ASSERT_EQUAL_UINT(WH_EVENTS, sizeof expected / sizeof expected[0]);
     for (unsigned i = 0; i < WH_EVENTS; i++) {
         for (unsigned state = 0; state < WH_RIG_STATES; state++) {
@@ -107,7 +105,7 @@ static void check_answer(const expectation *of, wh_rig_state state) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES || wh_run_drives(&even.rig.run));
 }
 
-static void test_every_event_in_every_state(void) {
+TEST(rig_states, every_event_in_every_state) {
     for (wh_rig_state state = WH_RIG_IDLE; state < WH_RIG_STATES; state++) {
         stand_in(state);
         stood = even;
@@ -135,7 +133,7 @@ static void check_refused(wh_refusal answer, wh_refusal why, wh_rig_state state)
     TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
 }
 
-static void test_what_arm_asks_for(void) {
+TEST(rig_states, what_arm_asks_for) {
     stand_in(WH_RIG_IDLE);
     stood = even;
     even.inputs.stop_pressed = true;
@@ -185,7 +183,7 @@ static void test_what_arm_asks_for(void) {
     TEST_ASSERT_TRUE(arm() == WH_ALLOWED && even.rig.state == WH_RIG_ARMED);
 }
 
-static void test_what_start_and_set_ask_for(void) {
+TEST(rig_states, what_start_and_set_ask_for) {
     const wh_real wrong_rpm[] = {WH_R(0.0),
                                  WH_R(-330.0),
                                  WH_R(1.0),
@@ -232,7 +230,7 @@ static void test_what_start_and_set_ask_for(void) {
 }
 
 /* Four orders a step; the fifth is refused at once. All get their answers, in order. */
-static void test_too_many_orders(void) {
+TEST(rig_states, too_many_orders) {
     stand_in(WH_RIG_IDLE);
     for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
         TEST_ASSERT_TRUE(wh_rig_post(&even.rig, i < 2U ? WH_EVENT_STOP : WH_EVENT_ARM, WH_R(0.0)));
@@ -246,7 +244,7 @@ static void test_too_many_orders(void) {
 }
 
 /* Events that the rig detects itself, and unknown ones, cannot be posted. */
-static void test_unknown_and_internal_events_are_refused(void) {
+TEST(rig_states, unknown_and_internal_events_are_refused) {
     for (wh_rig_state state = WH_RIG_IDLE; state < WH_RIG_STATES; state++) {
         stand_in(state);
         for (int event = (int)WH_EVENT_DONE; event < (int)WH_EVENTS + 3; event++) {
@@ -258,7 +256,7 @@ static void test_unknown_and_internal_events_are_refused(void) {
     }
 }
 
-static void test_armed_lasts_a_minute(void) {
+TEST(rig_states, armed_lasts_a_minute) {
     stand_in(WH_RIG_ARMED);
     even_steps(&even, 30000U);
     TEST_ASSERT_TRUE(even.rig.state == WH_RIG_ARMED);
@@ -269,7 +267,7 @@ static void test_armed_lasts_a_minute(void) {
 }
 
 /* A hand turns the rotor, slowly or fast: no trip, and no start. */
-static void test_armed_ends_when_the_rotor_turns(void) {
+TEST(rig_states, armed_ends_when_the_rotor_turns) {
     static const wh_real hands_rpm[] = {WH_R(20.0), WH_R(60.0), WH_R(100.0), WH_R(140.0)};
     for (unsigned i = 0; i < 4; i++) {
         stand_in(WH_RIG_ARMED);
@@ -289,15 +287,4 @@ static void test_armed_ends_when_the_rotor_turns(void) {
         even_rest(&even);
         TEST_ASSERT_TRUE(arm() == WH_ALLOWED);
     }
-}
-
-void suite_rig_states(void) {
-    RUN_TEST(test_the_table_has_every_pair);
-    RUN_TEST(test_every_event_in_every_state);
-    RUN_TEST(test_what_arm_asks_for);
-    RUN_TEST(test_what_start_and_set_ask_for);
-    RUN_TEST(test_too_many_orders);
-    RUN_TEST(test_unknown_and_internal_events_are_refused);
-    RUN_TEST(test_armed_lasts_a_minute);
-    RUN_TEST(test_armed_ends_when_the_rotor_turns);
 }

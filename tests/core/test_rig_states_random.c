@@ -4,9 +4,7 @@
 
 #include "draw.h"
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_rig_states_random(void);
+#include "tests/suites.h"
 
 static even_rig even;
 static uint32_t result_end_ticks;
@@ -14,7 +12,7 @@ static even_rig stood;
 static uint64_t seed;
 
 /* In any phase before the result: it settles at the new one, and the record restarts. */
-static void test_another_set_point_while_it_runs(void) {
+TEST(rig_states_random, another_set_point_while_it_runs) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
         even_steps(&even, 100); /* the earlier record is dropped */
@@ -38,7 +36,7 @@ static void test_another_set_point_while_it_runs(void) {
 }
 
 /* The next run counts from zero, not from the pulses that the last one lost or rejected before its loop was closed. */
-static void test_the_run_before_does_not_count(void) {
+TEST(rig_states_random, the_run_before_does_not_count) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
     even.rig.guard.lost_before = 2;
@@ -51,7 +49,7 @@ static void test_the_run_before_does_not_count(void) {
 }
 
 /* A record that leaves its speed band ends in a trip without a result, whether there was an earlier one or not. */
-static void test_a_record_that_is_left_brings_no_result(void) {
+TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
             even_start(&even);
@@ -74,7 +72,7 @@ static void test_a_record_that_is_left_brings_no_result(void) {
 }
 
 /* A rotor at rest has no speed to lead by. */
-static void test_rest_leaves_no_speed(void) {
+TEST(rig_states_random, rest_leaves_no_speed) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     even_rest(&even);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.run.off_radps);
@@ -210,7 +208,7 @@ static void check_result(const wh_rig *before) {
                                              (now - result_end_ticks) / WH_RIG_TICKS_PER_S);
 }
 
-static void test_what_holds_whatever_is_ordered(void) {
+TEST(rig_states_random, what_holds_whatever_is_ordered) {
     seed = 11;
     even_start(&even);
     even_rest(&even);
@@ -230,7 +228,7 @@ static void test_what_holds_whatever_is_ordered(void) {
 }
 
 /* Long sequences, in which runs get far. */
-static void test_what_holds_for_hours(void) {
+TEST(rig_states_random, what_holds_for_hours) {
     seed = 12;
     even_start(&even);
     unsigned results = 0;
@@ -260,13 +258,4 @@ static void test_what_holds_for_hours(void) {
         check_result(&before_step);
     }
     TEST_ASSERT_TRUE(results >= 3U && trips >= 3U);
-}
-
-void suite_rig_states_random(void) {
-    RUN_TEST(test_another_set_point_while_it_runs);
-    RUN_TEST(test_the_run_before_does_not_count);
-    RUN_TEST(test_a_record_that_is_left_brings_no_result);
-    RUN_TEST(test_rest_leaves_no_speed);
-    RUN_TEST(test_what_holds_whatever_is_ordered);
-    RUN_TEST(test_what_holds_for_hours);
 }

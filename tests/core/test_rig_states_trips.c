@@ -3,9 +3,7 @@
 #include <stddef.h>
 
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_rig_states_trips(void);
+#include "tests/suites.h"
 
 static even_rig even;
 static even_rig stood;
@@ -111,7 +109,7 @@ static void check_reset(wh_trip trip) {
 }
 
 /* In each phase of a run, and armed: off in the same step, latched, through a reset, until rest and the cause is gone. */
-static void test_trips_latch(void) {
+TEST(rig_states_trips, trips_latch) {
     for (unsigned i = 0; i < 3; i++) {
         for (wh_rig_phase phase = WH_PHASE_NONE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
             if (phase == WH_PHASE_NONE) {
@@ -134,7 +132,7 @@ static void test_trips_latch(void) {
     }
 }
 
-static void test_a_reset_without_a_trip_is_idle(void) {
+TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
     const wh_trip_record none = {.trip = WH_TRIP_NONE, .ticks = 7};
     even_start(&even);
     wh_rig_start(&even.config, &even.rig, even.inputs.now_ticks, &none);
@@ -144,7 +142,7 @@ static void test_a_reset_without_a_trip_is_idle(void) {
 }
 
 /* Implausible pulses cannot show rest: that trip waits only for its time. */
-static void test_a_trip_for_its_pulses_waits_longer(void) {
+TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
     even_begin(&even, WH_R(330.0), &failing);
@@ -161,7 +159,7 @@ static void test_a_trip_for_its_pulses_waits_longer(void) {
 }
 
 /* The wait is over, but `clear` is still refused while the rotor turns. */
-static void test_a_turning_rotor_is_not_cleared(void) {
+TEST(rig_states_trips, a_turning_rotor_is_not_cleared) {
     even_arm(&even);
     break_supply(true);
     even_step(&even);
@@ -188,7 +186,7 @@ static void stop(stop_way way) {
 }
 
 /* In every phase the motor is off in the same step until the rotor rests. Then `arm` is allowed unless stop is still pressed. */
-static void test_stop_is_at_once(void) {
+TEST(rig_states_trips, stop_is_at_once) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
         even_reach(&even, phase);
         stood = even;
@@ -228,7 +226,7 @@ static void test_stop_is_at_once(void) {
 }
 
 /* As configured: without a host a run goes on to its end. */
-static void test_a_run_may_outlive_its_host(void) {
+TEST(rig_states_trips, a_run_may_outlive_its_host) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         even_reach(&even, phase);
         even.config.host_loss_stops = false;
@@ -242,7 +240,7 @@ static void test_a_run_may_outlive_its_host(void) {
 /* --- the controller's start -------------------------------------------------------------------------- */
 
 /* The rotor still turns: no trip, `arm` is refused, and the rotor is watched. */
-static void test_a_reset_while_the_rotor_turns(void) {
+TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
     static const wh_real speeds_rpm[] = {WH_R(60.0), WH_R(170.0), WH_R(330.0), WH_R(390.0)};
     for (unsigned i = 0; i < 4; i++) {
         even_start(&even);
@@ -271,7 +269,7 @@ static void test_a_reset_while_the_rotor_turns(void) {
 /* --- a rotor turned by hand -------------------------------------------------------------------------- */
 
 /* Armed, a rotor may shiver: two pulses. The third is a hand that turns it. */
-static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
+TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
     for (unsigned i = 0; i < 8U; i++) { /* of either sensor */
         even_arm(&even);
         for (unsigned pulses = 1; pulses <= 3U; pulses++) {
@@ -283,7 +281,7 @@ static void test_armed_is_no_more_when_somebody_turns_the_rotor(void) {
 }
 
 /* After any rest a hand's pulses are not compared with earlier ones: the timer wraps after 72 minutes, half of which is future. */
-static void test_rest_may_last_any_time(void) {
+TEST(rig_states_trips, rest_may_last_any_time) {
     for (unsigned i = 0; i < 24U; i++) {
         even_start(&even);
         even_rest(&even);
@@ -310,16 +308,4 @@ static void test_rest_may_last_any_time(void) {
         TEST_ASSERT_EQUAL_UINT32(rejected, even.rig.pulses.rejected);
         TEST_ASSERT_FLOAT_WITHIN(0.1f, 60.0f, (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
     }
-}
-
-void suite_rig_states_trips(void) {
-    RUN_TEST(test_armed_is_no_more_when_somebody_turns_the_rotor);
-    RUN_TEST(test_rest_may_last_any_time);
-    RUN_TEST(test_trips_latch);
-    RUN_TEST(test_a_reset_without_a_trip_is_idle);
-    RUN_TEST(test_a_trip_for_its_pulses_waits_longer);
-    RUN_TEST(test_a_turning_rotor_is_not_cleared);
-    RUN_TEST(test_stop_is_at_once);
-    RUN_TEST(test_a_run_may_outlive_its_host);
-    RUN_TEST(test_a_reset_while_the_rotor_turns);
 }

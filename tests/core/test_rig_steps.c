@@ -2,8 +2,7 @@
 #include <stddef.h>
 
 #include "even_rig.h"
-#include "unity.h"
-void suite_rig_steps(void);
+#include "tests/suites.h"
 
 #define RPM EVEN_RPM
 #define STEP_TICKS EVEN_STEP_TICKS
@@ -105,7 +104,7 @@ static void check_words(words_of *words, int count) {
     }
 }
 
-static void test_every_state_and_reason_has_words_of_its_own(void) {
+TEST(rig_steps, every_state_and_reason_has_words_of_its_own) {
     check_words(life_text, (int)WH_RIG_STATES);
     check_words(phase_text, (int)WH_PHASES);
     check_words(event_text, (int)WH_EVENTS);
@@ -115,7 +114,7 @@ static void test_every_state_and_reason_has_words_of_its_own(void) {
 
 /* --- how long each phase lasts ------------------------------------------------------------------------- */
 
-static void test_the_tare_takes_its_samples(void) {
+TEST(rig_steps, the_tare_takes_its_samples) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SPIN_UP);
@@ -141,7 +140,7 @@ static void test_the_tare_takes_its_samples(void) {
     }
 }
 
-static void test_the_loop_takes_over_at_its_speed(void) {
+TEST(rig_steps, the_loop_takes_over_at_its_speed) {
     stand_in(WH_PHASE_SPIN_UP);
     rig.pulses.speed.lost = 3;
     TEST_ASSERT_EQUAL_UINT(100, stay(WH_R(149.9), 100));
@@ -163,7 +162,7 @@ static void test_the_loop_takes_over_at_its_speed(void) {
 }
 
 /* Starts at 9.6 V and rises 2 V a second to the rated voltage and the supply's. */
-static void test_spin_up_asks_for_more_and_more(void) {
+TEST(rig_steps, spin_up_asks_for_more_and_more) {
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
     for (unsigned i = 0; i < 3; i++) {
         stand_in(WH_PHASE_SPIN_UP);
@@ -178,7 +177,7 @@ static void test_spin_up_asks_for_more_and_more(void) {
 }
 
 /* 60 rpm a second: three seconds from 150 to 330. */
-static void test_the_ramp_takes_its_time(void) {
+TEST(rig_steps, the_ramp_takes_its_time) {
     stand_in(WH_PHASE_RAMP);
     rig.run.drive.setpoint_radps = WH_R(150.0) * RPM;
     const unsigned steps = stay(WH_R(330.0), 10000);
@@ -186,7 +185,7 @@ static void test_the_ramp_takes_its_time(void) {
     TEST_ASSERT_TRUE(steps >= 3U * STEPS_PER_S - 1U && steps <= 3U * STEPS_PER_S + 1U);
 }
 
-static void test_the_speed_settles_within_its_band(void) {
+TEST(rig_steps, the_speed_settles_within_its_band) {
     static const wh_real inside_rpm[] = {WH_R(330.0), WH_R(330.49), WH_R(329.51)};
     static const wh_real outside_rpm[] = {WH_R(330.51), WH_R(329.49)};
     for (unsigned i = 0; i < 3; i++) {
@@ -205,7 +204,7 @@ static void test_the_speed_settles_within_its_band(void) {
     }
 }
 
-static void test_the_speed_stays_while_it_is_recorded(void) {
+TEST(rig_steps, the_speed_stays_while_it_is_recorded) {
     static const wh_real rpm[] = {WH_R(331.99), WH_R(328.01), WH_R(332.01), WH_R(327.99)};
     for (unsigned i = 0; i < 4; i++) {
         stand_in(WH_PHASE_RECORD);
@@ -216,7 +215,7 @@ static void test_the_speed_stays_while_it_is_recorded(void) {
 }
 
 /* 1.5 s without a pulse are rest. The rig stops waiting after two minutes, or 20 s after a trip. */
-static void test_rest_is_waited_for(void) {
+TEST(rig_steps, rest_is_waited_for) {
     for (unsigned i = 0; i < 4; i++) {
         const bool trips = i % 2U == 1;
         const bool pulses = i >= 2U;
@@ -254,7 +253,7 @@ static void test_rest_is_waited_for(void) {
 }
 
 /* Times since then wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
-static void test_a_rig_at_rest_stays_so_when_the_timer_wraps(void) {
+TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
                              WH_TRIP_PULSES}; /* the second waits only for its time */
     for (unsigned i = 0; i < 2; i++) {
@@ -279,7 +278,7 @@ static void test_a_rig_at_rest_stays_so_when_the_timer_wraps(void) {
 }
 
 /* In any phase a late controller and over-speed end the run; with the motor off over-speed has another reason. */
-static void test_what_trips_in_which_phase(void) {
+TEST(rig_steps, what_trips_in_which_phase) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
         rig.rested = true; /* as before the fault */
@@ -304,7 +303,7 @@ static void test_what_trips_in_which_phase(void) {
 /* --- the record ------------------------------------------------------------------------------------------ */
 
 /* Turns of a known load, given to the run like a lock-in's results; the record ends after its time. */
-static void test_what_a_record_comes_to(void) {
+TEST(rig_steps, what_a_record_comes_to) {
     stand_in(WH_PHASE_SETTLE);
     rig.measure.tare.mean_N = WH_R(0.4);
     rig.pulses.speed.lost = 5;
@@ -353,7 +352,7 @@ static void test_what_a_record_comes_to(void) {
     TEST_ASSERT_TRUE(result->volts >= WH_R(0.0) && result->volts <= WH_RIG_RATED_V);
 }
 
-static void test_a_record_without_turns_trips(void) {
+TEST(rig_steps, a_record_without_turns_trips) {
     stand_in(WH_PHASE_RECORD);
     TEST_ASSERT_EQUAL_UINT(1009, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
@@ -365,7 +364,7 @@ static void test_a_record_without_turns_trips(void) {
 }
 
 /* The band includes its edge. */
-static void test_edges_belong_to_the_bands(void) {
+TEST(rig_steps, edges_belong_to_the_bands) {
     for (int side = -1; side <= 1; side += 2) {
         stand_in(WH_PHASE_SETTLE);
         config.run.settle_band_radps = WH_R(0.5);
@@ -376,20 +375,4 @@ static void test_edges_belong_to_the_bands(void) {
         TEST_ASSERT_EQUAL_UINT(8, stay((WH_R(32.0) + (wh_real)side) / RPM, 8));
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
     }
-}
-
-void suite_rig_steps(void) {
-    RUN_TEST(test_every_state_and_reason_has_words_of_its_own);
-    RUN_TEST(test_the_tare_takes_its_samples);
-    RUN_TEST(test_the_loop_takes_over_at_its_speed);
-    RUN_TEST(test_spin_up_asks_for_more_and_more);
-    RUN_TEST(test_the_ramp_takes_its_time);
-    RUN_TEST(test_the_speed_settles_within_its_band);
-    RUN_TEST(test_the_speed_stays_while_it_is_recorded);
-    RUN_TEST(test_rest_is_waited_for);
-    RUN_TEST(test_a_rig_at_rest_stays_so_when_the_timer_wraps);
-    RUN_TEST(test_what_trips_in_which_phase);
-    RUN_TEST(test_what_a_record_comes_to);
-    RUN_TEST(test_a_record_without_turns_trips);
-    RUN_TEST(test_edges_belong_to_the_bands);
 }

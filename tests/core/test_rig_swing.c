@@ -10,9 +10,7 @@
 #include "even_rig.h"
 #include "rotor.h"
 
-#include "unity.h"
-
-void suite_rig_swing(void);
+#include "tests/suites.h"
 
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
 #define STEP_TICKS UINT32_C(2000)
@@ -113,7 +111,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
 
 /* --- results ----------------------------------------------------------------------------------------------- */
 
-static void test_places_are_found_of_rotors_that_nobody_knows(void) {
+TEST(rig_swing, places_are_found_of_rotors_that_nobody_knows) {
     const wh_rig_config config = standard();
     const unsigned runs = 24;
     unsigned covered = 0;
@@ -140,7 +138,7 @@ static void test_places_are_found_of_rotors_that_nobody_knows(void) {
 }
 
 /* Pulses that scatter more than configured set their own variance, and the intervals are as wide as their number requires. */
-static void test_rough_pulses_have_wide_intervals(void) {
+TEST(rig_swing, rough_pulses_have_wide_intervals) {
     const wh_rig_config config = standard();
     unsigned covered = 0;
     unsigned told = 0;
@@ -159,7 +157,7 @@ static void test_rough_pulses_have_wide_intervals(void) {
 }
 
 /* A pass skips swings near the top while enough follow: there the times depend on the amplitude, and the guess is uncertain. */
-static void test_a_pass_begins_behind_swings_near_the_top(void) {
+TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     const wh_rig_config config = standard();
     unsigned near_top = 0;
     seed = 6;
@@ -185,7 +183,7 @@ static void test_a_pass_begins_behind_swings_near_the_top(void) {
 }
 
 /* A lost or false pulse is left out or invalidates the swing; it does not move a sensor. */
-static void test_pulses_that_are_none_move_no_sensor(void) {
+TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
     const wh_rig_config config = standard();
     unsigned found = 0;
     seed = 2;
@@ -205,7 +203,7 @@ static void test_pulses_that_are_none_move_no_sensor(void) {
 
 /* --- refusals ---------------------------------------------------------------------------------------------- */
 
-static void test_what_is_no_free_swing_is_refused_by_name(void) {
+TEST(rig_swing, what_is_no_free_swing_is_refused_by_name) {
     wh_rig_config config = standard();
     seed = 3;
     for (unsigned i = 0; i < 5U; i++) {
@@ -222,7 +220,7 @@ static void test_what_is_no_free_swing_is_refused_by_name(void) {
 }
 
 /* Random pulses of any sensor: no angle is found, and the work ends. */
-static void test_pulses_of_no_rotor_find_nothing(void) {
+TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
     const wh_rig_config config = standard();
     uint32_t works = 0;
     seed = 4;
@@ -246,7 +244,7 @@ static void test_pulses_of_no_rotor_find_nothing(void) {
     TEST_ASSERT_TRUE(works > 0);
 }
 
-static void test_words(void) {
+TEST(rig_swing, words) {
     for (int i = 0; i <= (int)WH_SWING_WHYS; i++) {
         TEST_ASSERT_TRUE(wh_swing_text((wh_swing_why)i)[0] != '\0');
     }
@@ -257,7 +255,7 @@ static void test_words(void) {
 static even_rig even;
 
 /* The run's end coasts if requested. A `stop` after it keeps the enable off, and the rotor swings on. */
-static void test_a_run_that_ends_in_a_swing_coasts(void) {
+TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
     for (unsigned swings = 0; swings < 2U; swings++) {
         even_arm(&even);
         even.config.stop_brakes = true;
@@ -280,7 +278,7 @@ static void test_a_run_that_ends_in_a_swing_coasts(void) {
 }
 
 /* A misplaced sensor makes a good result doubtful and changes nothing else. */
-static void test_a_good_result_is_doubtful_where_sensor_1_stands_off(void) {
+TEST(rig_swing, a_good_result_is_doubtful_where_sensor_1_stands_off) {
     const wh_rig_config config = standard();
     for (int deg10 = -30; deg10 <= 30; deg10++) {
         swing.result = (wh_swung){.why = WH_SWING_FOUND, .half_rad = {WH_R(0.25) * DEG}};
@@ -315,7 +313,7 @@ static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
 }
 
 /* Forwards and backwards through several turning points: the sensitivity to each cause. */
-static void test_derivatives_are_what_differences_show(void) {
+TEST(rig_swing, derivatives_are_what_differences_show) {
     const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
                                             WH_R(3e-3)};
     for (unsigned way = 0; way < 2U; way++) {
@@ -343,7 +341,7 @@ static void test_derivatives_are_what_differences_show(void) {
 }
 
 /* Without drag, energy falls by friction's work; steps backwards restore it. */
-static void test_steps_back_undo_steps(void) {
+TEST(rig_swing, steps_back_undo_steps) {
     const wh_real cause[WH_FREE_CAUSES] = {WH_R(0.0), WH_R(-11.0), WH_R(60.0), WH_R(5.0),
                                            WH_R(0.1)};
     wh_free_rotor rotor = go(cause, 500, WH_R(0.002));
@@ -356,7 +354,7 @@ static void test_steps_back_undo_steps(void) {
 }
 
 /* Error-free measurements give the unknowns and variances below the guess's. */
-static void test_the_regression_finds_what_was_measured(void) {
+TEST(rig_swing, the_regression_finds_what_was_measured) {
     wh_normal normal;
     wh_real truth[WH_NORMAL_UNKNOWNS];
     const wh_real guess[WH_NORMAL_UNKNOWNS] = {WH_R(0.0)};
@@ -382,19 +380,4 @@ static void test_the_regression_finds_what_was_measured(void) {
         /* of 30 rows of variance 1/3: 0.01/sqrt(10) */
         TEST_ASSERT_TRUE(deviation > WH_R(0.002) && deviation < WH_R(0.008));
     }
-}
-
-void suite_rig_swing(void) {
-    RUN_TEST(test_rough_pulses_have_wide_intervals);
-    RUN_TEST(test_places_are_found_of_rotors_that_nobody_knows);
-    RUN_TEST(test_a_pass_begins_behind_swings_near_the_top);
-    RUN_TEST(test_pulses_that_are_none_move_no_sensor);
-    RUN_TEST(test_what_is_no_free_swing_is_refused_by_name);
-    RUN_TEST(test_pulses_of_no_rotor_find_nothing);
-    RUN_TEST(test_words);
-    RUN_TEST(test_a_run_that_ends_in_a_swing_coasts);
-    RUN_TEST(test_a_good_result_is_doubtful_where_sensor_1_stands_off);
-    RUN_TEST(test_derivatives_are_what_differences_show);
-    RUN_TEST(test_steps_back_undo_steps);
-    RUN_TEST(test_the_regression_finds_what_was_measured);
 }

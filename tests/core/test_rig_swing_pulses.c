@@ -8,9 +8,7 @@
 #include "draw.h"
 #include "rotor.h"
 
-#include "unity.h"
-
-void suite_rig_swing_pulses(void);
+#include "tests/suites.h"
 
 static uint64_t seed;
 static wh_swing swing;
@@ -100,7 +98,7 @@ static void check_kept(const story *of) {
     }
 }
 
-static void test_what_is_kept_of_a_swing(void) {
+TEST(rig_swing_pulses, what_is_kept_of_a_swing) {
     static story told;
     seed = 1;
     for (unsigned i = 0; i < 300U; i++) {
@@ -111,7 +109,7 @@ static void test_what_is_kept_of_a_swing(void) {
 }
 
 /* A pulse lost while the rotor still turns looks like the first return. Later turns correct it: the stored swing is the same. */
-static void test_a_pulse_lost_while_it_turns_changes_nothing(void) {
+TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
     static story told;
     seed = 2;
     for (unsigned i = 0; i < 300U; i++) {
@@ -149,7 +147,7 @@ static wh_real swing_out(const rotor_kind *kind) {
 }
 
 /* The speed at the first return, gravity and friction over inertia: within the guess's uncertainty, the first two to some 10 %. */
-static void test_a_guess_is_as_near_as_it_says(void) {
+TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
     unsigned told = 0;
     unsigned near_it = 0;
     seed = 3;
@@ -196,7 +194,7 @@ static wh_real longer_by(wh_real k2) {
 }
 
 /* A first swing of any width almost to the top, then small ones: its time alone gives its width, by the pendulum's integral. */
-static void test_the_first_swings_width_is_told_by_its_time(void) {
+TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
         const wh_real near_top = drawn_between(WH_R(0.03), WH_R(0.2));
@@ -246,7 +244,7 @@ static unsigned may_follow(wh_swing_piece piece) {
 }
 
 /* A control step does one piece of the work, and at most three steps of the equation. */
-static void test_a_control_step_does_one_piece_of_the_work(void) {
+TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
     const wh_rig_config *config = &wh_rig_standard;
     unsigned times[WH_SWING_ENDS + 1] = {0};
     seed = 5;
@@ -286,7 +284,7 @@ static void test_a_control_step_does_one_piece_of_the_work(void) {
 /* --- turning back ----------------------------------------------------------------------------------------- */
 
 /* A step in which the rotor turns back or friction holds it, with its sensitivities, against small steps in either direction. */
-static void test_a_step_that_turns_back_is_many_small_ones(void) {
+TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),
                                           WH_R(1e-3)};
@@ -320,13 +318,4 @@ static void test_a_step_that_turns_back_is_many_small_ones(void) {
         }
     }
     TEST_ASSERT_TRUE(turned > 100U && held > 10U);
-}
-
-void suite_rig_swing_pulses(void) {
-    RUN_TEST(test_what_is_kept_of_a_swing);
-    RUN_TEST(test_a_pulse_lost_while_it_turns_changes_nothing);
-    RUN_TEST(test_a_guess_is_as_near_as_it_says);
-    RUN_TEST(test_the_first_swings_width_is_told_by_its_time);
-    RUN_TEST(test_a_control_step_does_one_piece_of_the_work);
-    RUN_TEST(test_a_step_that_turns_back_is_many_small_ones);
 }

@@ -4,9 +4,7 @@
 #include "core/rig/rig.h"
 #include "draw.h"
 
-#include "unity.h"
-
-void suite_rig_turn_angle(void);
+#include "tests/suites.h"
 
 #define LITTLE_RAD WH_R(0.004)
 
@@ -84,7 +82,7 @@ static void check_near(wh_real found, wh_real wanted, wh_real most) {
 
 /* The base's derivatives by sensor 2's mark and by the lag. The split gives the inertia or the remaining share of gravity.
  * Gravity acts along an axis, or some degrees off it. */
-static void test_derivatives_are_what_differences_show(void) {
+TEST(rig_turn_angle, derivatives_are_what_differences_show) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
         turn of = {.rotor = wh_rig_standard.measure.rotor, .fed = i % 2U == 1U};
@@ -116,7 +114,7 @@ static void test_derivatives_are_what_differences_show(void) {
 }
 
 /* A single call from zero is nearly converged: the measurements of a turn come before it. */
-static void test_a_shape_is_found_at_once(void) {
+TEST(rig_turn_angle, a_shape_is_found_at_once) {
     seed = 31;
     wh_real worst = WH_R(0.0);
     for (unsigned i = 0; i < 500U; i++) {
@@ -140,9 +138,4 @@ static void test_a_shape_is_found_at_once(void) {
         }
     }
     TEST_ASSERT_TRUE(worst < WH_R(2.5e-4));
-}
-
-void suite_rig_turn_angle(void) {
-    RUN_TEST(test_a_shape_is_found_at_once);
-    RUN_TEST(test_derivatives_are_what_differences_show);
 }

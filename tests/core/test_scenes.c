@@ -6,9 +6,7 @@
 #include "build/gen/scenes.h"
 #include "core/scene.h"
 
-#include "unity.h"
-
-void suite_scenes(void);
+#include "tests/suites.h"
 
 #define U WH_R(0x1p-24)
 
@@ -125,7 +123,7 @@ static wh_real apart_rad(wh_angle a, wh_angle b) {
     return WH_ABS(units / WH_PHASE_PER_RAD);
 }
 
-static void test_end_states(void) {
+TEST(scenes, end_states) {
     for (unsigned i = 0; i < sizeof end_states / sizeof end_states[0]; i++) {
         const end_state *end = &end_states[i];
         wh_real worst = WH_R(0.0);
@@ -146,7 +144,7 @@ static void test_end_states(void) {
 /* --- books ------------------------------------------------------------------------------------------ */
 
 /* m = 2, r = 0.3, M = 2: centre of mass X + r cos theta = 0.3 m, T = M theta. */
-static void test_books_of_the_epicyclic_gear(void) {
+TEST(scenes, books_of_the_epicyclic_gear) {
     wh_real off_centre = WH_R(0.0);
     wh_real off_work = WH_R(0.0);
     start(&epicyclic_from_rest);
@@ -188,7 +186,7 @@ static void expect_centre_of_mass(const wh_scene *scene, wh_real centre, wh_real
 /* To the end, 10 s (1 s on a slow board), chaotic or not. Double: the bound of every scene without outside forces. Float: X'
  * (below 8 m/s, 16 in set B) walks and is integrated. For set B over 24 torques from 1.5 to 2.35 N m the RMS drift is 5.3e-4
  * and the largest 1.2e-3, for either solver. */
-static void test_centre_of_mass_of_thomson_device(void) {
+TEST(scenes, centre_of_mass_of_thomson_device) {
     expect_centre_of_mass(&thomson_a, WH_R(0.6), WH_R(2e-4));
     expect_centre_of_mass(&thomson_b, WH_R(0.5), WH_R(1.2e-3));
     expect_centre_of_mass(&thomson_a_spin, WH_R(0.6), WH_R(2e-4));
@@ -207,7 +205,7 @@ static void expect_output(const wh_scene *scene, unsigned i, wh_real wanted, wh_
     TEST_ASSERT_TRUE_MESSAGE(WH_ABS(output[i] - wanted) <= roundings(size), scene->name);
 }
 
-static void test_outputs_of_the_epicyclic_gear(void) {
+TEST(scenes, outputs_of_the_epicyclic_gear) {
     const wh_scene *scene = &epicyclic_from_rest;
     start(scene);
     for (unsigned i = 1; i <= 20; i++) {
@@ -223,7 +221,7 @@ static void test_outputs_of_the_epicyclic_gear(void) {
     }
 }
 
-static void test_outputs_of_the_driven_hinge(void) {
+TEST(scenes, outputs_of_the_driven_hinge) {
     const wh_scene *scene = &driven_hinge_from_rest;
     start(scene);
     for (unsigned i = 1; i <= 20; i++) {
@@ -239,7 +237,7 @@ static void test_outputs_of_the_driven_hinge(void) {
     }
 }
 
-static void test_outputs_of_the_particle(void) {
+TEST(scenes, outputs_of_the_particle) {
     const wh_scene *scene = &spherical_flight;
     start(scene);
     for (unsigned i = 1; i <= 20; i++) {
@@ -272,7 +270,7 @@ static uint64_t hash_of_run(const wh_scene *scene, wh_real *seen) {
 }
 
 /* Between the runs the memory is filled with bytes that expose a missing initialization. */
-static void test_a_second_run_gives_the_same_bits(void) {
+TEST(scenes, a_second_run_gives_the_same_bits) {
     TEST_ASSERT_TRUE(wh_scene_count > 0);
     for (unsigned i = 0; i < wh_scene_count; i++) {
         const wh_scene *scene = wh_scenes[i];
@@ -289,7 +287,7 @@ static void test_a_second_run_gives_the_same_bits(void) {
     }
 }
 
-static void test_time_of_a_scene_ends_at_its_end(void) {
+TEST(scenes, time_of_a_scene_ends_at_its_end) {
     start(&epicyclic_from_rest);
     step_to(&epicyclic_from_rest, epicyclic_from_rest.steps);
     const wh_real time_s = wh_scene_time_s(&epicyclic_from_rest, &state);
@@ -297,7 +295,7 @@ static void test_time_of_a_scene_ends_at_its_end(void) {
 }
 
 /* Invalid motor inputs must not spoil a generated scene either. */
-static void test_a_refused_step_keeps_the_state(void) {
+TEST(scenes, a_refused_step_keeps_the_state) {
     const wh_scene *scene = &thomson_a;
     start(scene);
     step_to(scene, 1000);
@@ -312,16 +310,4 @@ static void test_a_refused_step_keeps_the_state(void) {
     start(scene);
     step_to(scene, 2000);
     TEST_ASSERT_TRUE(wh_scene_hash(scene, &state) == resumed);
-}
-
-void suite_scenes(void) {
-    RUN_TEST(test_end_states);
-    RUN_TEST(test_books_of_the_epicyclic_gear);
-    RUN_TEST(test_centre_of_mass_of_thomson_device);
-    RUN_TEST(test_outputs_of_the_epicyclic_gear);
-    RUN_TEST(test_outputs_of_the_driven_hinge);
-    RUN_TEST(test_outputs_of_the_particle);
-    RUN_TEST(test_a_second_run_gives_the_same_bits);
-    RUN_TEST(test_time_of_a_scene_ends_at_its_end);
-    RUN_TEST(test_a_refused_step_keeps_the_state);
 }

@@ -3,9 +3,7 @@
 
 #include "core/station/station.h"
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_selftest(void);
+#include "tests/suites.h"
 
 static even_rig even;
 static wh_station station;
@@ -30,7 +28,7 @@ static const char *ask(void) {
     return heard;
 }
 
-static void test_good(void) {
+TEST(selftest, good) {
     begin();
     TEST_ASSERT_EQUAL_STRING(
         "OK selftest=good arithmetic=good clock=good watchdog=good supply=good "
@@ -38,7 +36,7 @@ static void test_good(void) {
         ask());
 }
 
-static void test_each_part(void) {
+TEST(selftest, each_part) {
     static const char *const parts[] = {"clock", "watchdog", "supply", "cell",
                                         "cell",  "cell",     "stop",   "rotor"};
     for (unsigned mask = 0; mask < 256U; mask++) {
@@ -64,7 +62,7 @@ static void test_each_part(void) {
     }
 }
 
-static void test_the_swing(void) {
+TEST(selftest, the_swing) {
     begin();
     even.rig.swing.result = (wh_swung){.why = WH_SWING_FOUND};
     even.rig.swing.result.place_rad[0] = WH_R(-0.02);
@@ -78,15 +76,8 @@ static void test_the_swing(void) {
     TEST_ASSERT_NOT_NULL(strstr(ask(), " swing=none\r\n"));
 }
 
-static void test_only_in_idle(void) {
+TEST(selftest, only_in_idle) {
     begin();
     TEST_ASSERT_EQUAL_INT(WH_ALLOWED, even_order(&even, WH_EVENT_ARM, WH_R(0.0)));
     TEST_ASSERT_NOT_NULL(strstr(ask(), "ERR 107 "));
-}
-
-void suite_selftest(void) {
-    RUN_TEST(test_good);
-    RUN_TEST(test_each_part);
-    RUN_TEST(test_the_swing);
-    RUN_TEST(test_only_in_idle);
 }

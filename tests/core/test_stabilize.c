@@ -2,9 +2,7 @@
  * rates, in closed form. Drifts are made by changing the start's energy in the books. */
 #include "core/step/stabilize.h"
 
-#include "unity.h"
-
-void suite_stabilize(void);
+#include "tests/suites.h"
 
 #define DRAWN 200U
 
@@ -57,7 +55,7 @@ static wh_real drawn(uint32_t *seed) {
 }
 
 /* With carries the change has more digits than a rate. */
-static void test_a_part_of_the_drift_is_given_back(void) {
+TEST(stabilize, a_part_of_the_drift_is_given_back) {
     uint32_t seed = 20261128;
     for (unsigned i = 0; i < DRAWN; i++) {
         flight f;
@@ -78,7 +76,7 @@ static void test_a_part_of_the_drift_is_given_back(void) {
 }
 
 /* Earlier corrections do not change the drift. Of plain sums only the part that the rates took counts. */
-static void test_it_is_entered(void) {
+TEST(stabilize, it_is_entered) {
     uint32_t seed = 20261129;
     for (unsigned i = 0; i < DRAWN; i++) {
         flight f;
@@ -100,7 +98,7 @@ static void test_it_is_entered(void) {
 }
 
 /* Where a swing turns back, rates change by no larger share than at its fastest. A faster one sets the new measure. */
-static void test_the_fastest_so_far_is_the_measure(void) {
+TEST(stabilize, the_fastest_so_far_is_the_measure) {
     uint32_t seed = 20261130;
     for (unsigned i = 0; i < DRAWN; i++) {
         flight f;
@@ -127,7 +125,7 @@ static void test_the_fastest_so_far_is_the_measure(void) {
 }
 
 /* Rates change by at most 2^-20 of themselves, in either direction. */
-static void test_there_is_a_bound(void) {
+TEST(stabilize, there_is_a_bound) {
     for (unsigned i = 0; i < 4; i++) {
         flight f;
         const wh_real way = i % 2 == 0 ? WH_R(1.0) : WH_R(-1.0);
@@ -139,7 +137,7 @@ static void test_there_is_a_bound(void) {
 }
 
 /* Nothing changes before the first step, at rest, and with books that are NaN or oppose the rates. */
-static void test_where_nothing_is_to_be_given(void) {
+TEST(stabilize, where_nothing_is_to_be_given) {
     const wh_real none = WH_R(0.0) * (WH_ABSURD * WH_ABSURD * WH_ABSURD);
     const wh_real drift[] = {WH_R(0.1), WH_R(0.0), (none - none) / (none - none), WH_R(1e20),
                              WH_R(-1e20)};
@@ -156,12 +154,4 @@ static void test_where_nothing_is_to_be_given(void) {
         give_back(&f);
         TEST_ASSERT_TRUE(f.real[2] == rate && f.real[3] == rate);
     }
-}
-
-void suite_stabilize(void) {
-    RUN_TEST(test_a_part_of_the_drift_is_given_back);
-    RUN_TEST(test_it_is_entered);
-    RUN_TEST(test_the_fastest_so_far_is_the_measure);
-    RUN_TEST(test_there_is_a_bound);
-    RUN_TEST(test_where_nothing_is_to_be_given);
 }

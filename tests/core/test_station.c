@@ -6,9 +6,7 @@
 #include "core/text.h"
 #include "draw.h"
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_station(void);
+#include "tests/suites.h"
 
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 
@@ -64,7 +62,7 @@ static void check_begins(const char *with, const char *answer) {
 
 /* --- each command ------------------------------------------------------------------------------------ */
 
-static void test_help_knows_every_command(void) {
+TEST(station, help_knows_every_command) {
     begin();
     char list[WH_STATION_OUT_BYTES];
     strcpy(list, ask("help"));
@@ -85,7 +83,7 @@ static void test_help_knows_every_command(void) {
     TEST_ASSERT_EQUAL_STRING("OK program=rig board=here dialogue=1", ask("id"));
 }
 
-static void test_refusals_have_their_numbers(void) {
+TEST(station, refusals_have_their_numbers) {
     static const struct {
         const char *line;
         const char *answer;
@@ -137,7 +135,7 @@ static void test_refusals_have_their_numbers(void) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 300.5f * (float)EVEN_RPM, (float)even.rig.run.target_radps);
 }
 
-static void test_a_whole_run(void) {
+TEST(station, a_whole_run) {
     begin();
     check_begins("OK state=idle speed_rpm=0.00 set_rpm=0.00 motor_V=0.00 trip=0 result=none",
                  ask("status"));
@@ -158,7 +156,7 @@ static void test_a_whole_run(void) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
 }
 
-static void test_a_trip_is_told_and_cleared(void) {
+TEST(station, a_trip_is_told_and_cleared) {
     begin();
     ask("arm");
     ask("start 330");
@@ -180,7 +178,7 @@ static void test_a_trip_is_told_and_cleared(void) {
 /* --- readers and typists ------------------------------------------------------------------------------- */
 
 /* Escape overtakes earlier input, even unfinished input. */
-static void test_escape_stops_at_once(void) {
+TEST(station, escape_stops_at_once) {
     for (unsigned i = 0; i < 40; i++) {
         begin();
         ask("arm");
@@ -202,7 +200,7 @@ static void test_escape_stops_at_once(void) {
     }
 }
 
-static void test_lines_wait_for_each_other(void) {
+TEST(station, lines_wait_for_each_other) {
     begin();
     type("arm\rstart 330\r\nstatus\nnonsense\n\nset 250\r");
     for (unsigned i = 0; i < 12; i++) {
@@ -223,7 +221,7 @@ static void test_lines_wait_for_each_other(void) {
     TEST_ASSERT_EQUAL_UINT(5, lines); /* the empty one needs no answer */
 }
 
-static void test_a_person_sees_what_is_typed(void) {
+TEST(station, a_person_sees_what_is_typed) {
     begin();
     check_begins("OK", ask("talk on"));
     heard_length = 0;
@@ -243,7 +241,7 @@ static void test_a_person_sees_what_is_typed(void) {
 }
 
 /* Without a reader whole answers are dropped and counted; the buffer holds whole lines. Then a reader returns. */
-static void test_nobody_reads(void) {
+TEST(station, nobody_reads) {
     begin();
     for (unsigned i = 0; i < 30; i++) {
         type("status\n");
@@ -267,7 +265,7 @@ static void test_nobody_reads(void) {
 }
 
 /* Lines faster than they are processed: a line is obeyed as typed, or refused as too long. */
-static void test_no_line_is_obeyed_that_lost_bytes(void) {
+TEST(station, no_line_is_obeyed_that_lost_bytes) {
     seed = 12;
     begin();
     unsigned obeyed = 0;
@@ -291,7 +289,7 @@ static void test_no_line_is_obeyed_that_lost_bytes(void) {
 }
 
 /* Random input, with or without a reader: the rig acts as if the same orders were posted, and each answer is the rig's. */
-static void test_orders_are_those_that_are_posted(void) {
+TEST(station, orders_are_those_that_are_posted) {
     static const struct {
         const char *line;
         wh_rig_event event;
@@ -337,7 +335,7 @@ static void test_orders_are_those_that_are_posted(void) {
 }
 
 /* Random bytes: every answer has its end, and there are no more answers than lines. */
-static void test_any_bytes(void) {
+TEST(station, any_bytes) {
     static const char *const pieces[] = {"arm",    "start", " 330", "stop",    "\n",
                                          "\r\n",   "\x1b",  "help", " ",       "talk on",
                                          "status", "\b",    "\xff", "measure", "fault"};
@@ -361,18 +359,4 @@ static void test_any_bytes(void) {
     }
     TEST_ASSERT_TRUE(lines_out <= lines_in && lines_out > 1000U);
     TEST_ASSERT_TRUE(station.lost_answers == 0);
-}
-
-void suite_station(void) {
-    RUN_TEST(test_help_knows_every_command);
-    RUN_TEST(test_refusals_have_their_numbers);
-    RUN_TEST(test_a_whole_run);
-    RUN_TEST(test_a_trip_is_told_and_cleared);
-    RUN_TEST(test_escape_stops_at_once);
-    RUN_TEST(test_lines_wait_for_each_other);
-    RUN_TEST(test_a_person_sees_what_is_typed);
-    RUN_TEST(test_nobody_reads);
-    RUN_TEST(test_no_line_is_obeyed_that_lost_bytes);
-    RUN_TEST(test_orders_are_those_that_are_posted);
-    RUN_TEST(test_any_bytes);
 }

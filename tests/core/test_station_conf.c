@@ -7,9 +7,7 @@
 #include "core/text.h"
 #include "draw.h"
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_station_conf(void);
+#include "tests/suites.h"
 
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 #define SLOT_BYTES 256U
@@ -159,7 +157,7 @@ static const char *name_of(wh_conf_id id) {
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 
-static void test_rows(void) {
+TEST(station_conf, rows) {
     begin();
     for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
         wh_conf_row room;
@@ -180,7 +178,7 @@ static void test_rows(void) {
 }
 
 /* Random values: each is in its place, and is saved, loaded and restored. */
-static void test_values_have_their_places(void) {
+TEST(station_conf, values_have_their_places) {
     seed = 21;
     wh_rig_config plain;
     own(&plain);
@@ -227,7 +225,7 @@ static void test_values_have_their_places(void) {
 /* The rotor's dependent values: a heavier one, or one that lies level. */
 static void own_standard(wh_rig_config *config) { *config = wh_rig_standard; }
 
-static void test_what_follows(void) {
+TEST(station_conf, what_follows) {
     wh_rig_config plain;
     own_standard(&plain);
     wh_conf_start(&conf, own_standard, NULL, &even.config);
@@ -253,7 +251,7 @@ static void test_what_follows(void) {
 }
 
 /* Another program's settings: unknown numbers, values out of range, contradictory settings. */
-static void test_what_is_stored_of_others(void) {
+TEST(station_conf, what_is_stored_of_others) {
     static const struct {
         uint8_t payload[16];
         unsigned count;
@@ -290,7 +288,7 @@ static void test_what_is_stored_of_others(void) {
 
 /* --- at the console ------------------------------------------------------------------------------------ */
 
-static void test_list_has_all_and_can_be_typed(void) {
+TEST(station_conf, list_has_all_and_can_be_typed) {
     begin();
     unsigned from = 0;
     unsigned told = 0;
@@ -336,7 +334,7 @@ static void test_list_has_all_and_can_be_typed(void) {
 }
 
 /* A list begins at 0 or later and before its end, for any typed number. */
-static void test_where_a_list_begins(void) {
+TEST(station_conf, where_a_list_begins) {
     begin();
     unsigned below = 0;
     for (unsigned i = 0; i < draw_cases(2000); i++) {
@@ -355,7 +353,7 @@ static void test_where_a_list_begins(void) {
     TEST_ASSERT_TRUE(below > draw_cases(2000) / 12U);
 }
 
-static void test_refusals(void) {
+TEST(station_conf, refusals) {
     static const struct {
         const char *line;
         const char *answer;
@@ -413,7 +411,7 @@ static void test_refusals(void) {
 }
 
 /* Settings act on the measurement: a cell twice as sensitive, masses half as large. */
-static void test_a_run_with_settings(void) {
+TEST(station_conf, a_run_with_settings) {
     begin();
     check_begins("OK", ask("conf set cell_scale 20"));
     check_begins("OK", ask("conf set speed_least 120"));
@@ -423,15 +421,4 @@ static void test_a_run_with_settings(void) {
     check_begins("OK result=", ask("measure"));
     TEST_ASSERT_FLOAT_WITHIN(0.05f, 2.0f * (float)EVEN_LOAD_N,
                              (float)even.rig.result.force.amplitude_N);
-}
-
-void suite_station_conf(void) {
-    RUN_TEST(test_rows);
-    RUN_TEST(test_values_have_their_places);
-    RUN_TEST(test_what_follows);
-    RUN_TEST(test_what_is_stored_of_others);
-    RUN_TEST(test_list_has_all_and_can_be_typed);
-    RUN_TEST(test_where_a_list_begins);
-    RUN_TEST(test_refusals);
-    RUN_TEST(test_a_run_with_settings);
 }

@@ -5,9 +5,7 @@
 
 #include "draw.h"
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_station_host(void);
+#include "tests/suites.h"
 
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 
@@ -40,7 +38,7 @@ static void obey(const char *line) {
 
 /* A host types now and then, then stops. The run ends, to the step, after the silence that the host or the configuration
  * allows. Without a limit, or while bytes come, it goes on. */
-static void test_a_host_that_is_gone(void) {
+TEST(station_host, a_host_that_is_gone) {
     seed = 31;
     unsigned ends = 0;
     for (unsigned i = 0; i < 60U; i++) {
@@ -94,5 +92,3 @@ static void test_a_host_that_is_gone(void) {
     }
     TEST_ASSERT_TRUE(ends >= 10U);
 }
-
-void suite_station_host(void) { RUN_TEST(test_a_host_that_is_gone); }

@@ -2,9 +2,7 @@
 #include "core/station/line.h"
 #include "core/text.h"
 #include "draw.h"
-#include "unity.h"
-
-void suite_station_line(void);
+#include "tests/suites.h"
 
 static wh_line line;
 static uint64_t seed;
@@ -18,7 +16,7 @@ static wh_line_event take(const char *bytes) {
     return last;
 }
 
-static void test_lines_end_in_each_of_three_ways(void) {
+TEST(station_line, lines_end_in_each_of_three_ways) {
     static const char *const ends[] = {"\r", "\n", "\r\n"};
     for (unsigned i = 0; i < 9; i++) {
         line = (wh_line){.length = 0};
@@ -34,14 +32,14 @@ static void test_lines_end_in_each_of_three_ways(void) {
     TEST_ASSERT_TRUE(take("\n") == WH_LINE_WHOLE);
 }
 
-static void test_typing_errors_are_taken_back(void) {
+TEST(station_line, typing_errors_are_taken_back) {
     line = (wh_line){.length = 0};
     TEST_ASSERT_TRUE(take("\b\x7fstat\brt 33\x7f\x7f"
                           "170\n") == WH_LINE_WHOLE);
     TEST_ASSERT_EQUAL_STRING("start 170", line.text);
 }
 
-static void test_escape_forgets_and_keys_are_no_text(void) {
+TEST(station_line, escape_forgets_and_keys_are_no_text) {
     static const char *const keys[] = {"\x1b", "\x1b[A", "\x1bOP", "\x1b[15~", "\x1b[1;5C"};
     for (unsigned i = 0; i < 5; i++) {
         line = (wh_line){.length = 0};
@@ -52,7 +50,7 @@ static void test_escape_forgets_and_keys_are_no_text(void) {
     }
 }
 
-static void test_what_is_no_line_is_refused_whole(void) {
+TEST(station_line, what_is_no_line_is_refused_whole) {
     char bytes[WH_LINE_MOST + 3U];
     for (unsigned length = WH_LINE_MOST - 1U; length <= WH_LINE_MOST + 1U; length++) {
         line = (wh_line){.length = 0};
@@ -78,7 +76,7 @@ static void test_what_is_no_line_is_refused_whole(void) {
 }
 
 /* Random bytes: nothing is written beyond the line, and each line end counts once. */
-static void test_any_bytes(void) {
+TEST(station_line, any_bytes) {
     seed = 3;
     line = (wh_line){.length = 0};
     unsigned whole = 0;
@@ -96,7 +94,7 @@ static void test_any_bytes(void) {
     TEST_ASSERT_TRUE(whole > 500U);
 }
 
-static void test_words(void) {
+TEST(station_line, words) {
     char text[] = "  conf \t set  speed 330 now ";
     wh_words words;
     wh_line_split(&words, text);
@@ -112,7 +110,7 @@ static void test_words(void) {
 }
 
 /* The sum of a whole number and a fraction, written as text. */
-static void test_numbers_drawn(void) {
+TEST(station_line, numbers_drawn) {
     static const uint32_t tens[] = {1, 10, 100, 1000, 10000};
     seed = 7;
     for (unsigned i = 0; i < 2000U; i++) {
@@ -137,7 +135,7 @@ static void test_numbers_drawn(void) {
     }
 }
 
-static void test_what_is_no_number(void) {
+TEST(station_line, what_is_no_number) {
     static const char *const none[] = {"",    "-",          "+",   ".",    "-.",  "3-",
                                        "--3", "3..1",       "1e3", "0x10", "nan", "inf",
                                        "3,5", "1234567890", "33O", "3 "};
@@ -145,15 +143,4 @@ static void test_what_is_no_number(void) {
         wh_real found = WH_R(0.0);
         TEST_ASSERT_FALSE(wh_line_number(none[i], &found));
     }
-}
-
-void suite_station_line(void) {
-    RUN_TEST(test_lines_end_in_each_of_three_ways);
-    RUN_TEST(test_typing_errors_are_taken_back);
-    RUN_TEST(test_escape_forgets_and_keys_are_no_text);
-    RUN_TEST(test_what_is_no_line_is_refused_whole);
-    RUN_TEST(test_any_bytes);
-    RUN_TEST(test_words);
-    RUN_TEST(test_numbers_drawn);
-    RUN_TEST(test_what_is_no_number);
 }

@@ -5,9 +5,7 @@
 #include "core/station/answer.h"
 #include "draw.h"
 #include "tel_bench.h"
-#include "unity.h"
-
-void suite_station_odd(void);
+#include "tests/suites.h"
 
 static char heard[WH_STATION_OUT_BYTES + 1U];
 
@@ -23,7 +21,7 @@ static void check_begins(const char *with, const char *text) {
 }
 
 /* Other code posts orders too: an order without room is refused with its number, and the next is taken. */
-static void test_a_full_queue(void) {
+TEST(station_odd, a_full_queue) {
     for (unsigned posted = 0; posted <= WH_RIG_ORDERS_MOST; posted++) {
         tel_begin();
         for (unsigned i = 0; i < posted; i++) {
@@ -45,7 +43,7 @@ static void test_a_full_queue(void) {
 }
 
 /* A host lost while the queue is full: the rig is notified once, in the first step with room. */
-static void test_lost_while_the_queue_is_full(void) {
+TEST(station_odd, lost_while_the_queue_is_full) {
     for (unsigned full_steps = 0; full_steps < 6U; full_steps++) {
         tel_begin();
         bench.station.host_told = true;
@@ -72,7 +70,7 @@ static void test_lost_while_the_queue_is_full(void) {
 }
 
 /* Where text is on, a trip is reported with its cause; `fault` shows nothing of another trip's record. */
-static void test_trips_are_told(void) {
+TEST(station_odd, trips_are_told) {
 #define NAME(name, number, words) name,
     static const wh_trip trips[] = {WH_TRIP_ROWS(NAME)};
 #undef NAME
@@ -103,7 +101,7 @@ static void test_trips_are_told(void) {
 }
 
 /* Keys without effect are not echoed: beyond the line's room, or a rub-out of nothing. */
-static void test_echo(void) {
+TEST(station_odd, echo) {
     tel_begin();
     tel_type("talk on");
     wh_station_step(&bench.station, &bench.even.rig);
@@ -133,7 +131,7 @@ static void compute_otherwise(wh_real *result) {
 }
 
 /* Arithmetic is checked in the observer's scene; an observer without one, or no scene, passes. */
-static void test_arithmetic_is_tested(void) {
+TEST(station_odd, arithmetic_is_tested) {
     wh_scene scene = {.name = "none"};
     for (unsigned i = 0; i <= WH_PROBED_COUNT + 2U; i++) {
         tel_begin();
@@ -158,7 +156,7 @@ static void own_turned(wh_rig_config *config) {
 }
 
 /* A board with a reversed cell: that is its standard, and its scale has no sign. */
-static void test_a_cell_turned_round(void) {
+TEST(station_odd, a_cell_turned_round) {
     static wh_conf conf;
     wh_rig_config config;
     wh_conf_start(&conf, own_turned, NULL, &config);
@@ -193,7 +191,7 @@ static bool read_slot(unsigned slot, unsigned at, uint8_t *bytes, unsigned count
 }
 
 /* A setting that cannot be read back is reported as not saved, whichever read fails. */
-static void test_a_memory_that_is_not_read(void) {
+TEST(station_odd, a_memory_that_is_not_read) {
     static const wh_store_memory memory = {erase_slot, write_slot, read_slot};
     static wh_conf conf;
     wh_rig_config config;
@@ -219,7 +217,7 @@ static void test_a_memory_that_is_not_read(void) {
 }
 
 /* Whole numbers have no point; text is cut at the room, and that is reported. */
-static void test_exact_numbers(void) {
+TEST(station_odd, exact_numbers) {
     bench.seed = 64;
     for (unsigned i = 0; i < 2000U; i++) {
         const uint32_t whole = (uint32_t)draw_bits(&bench.seed) >> draw_one_of(&bench.seed, 32) &
@@ -242,15 +240,4 @@ static void test_exact_numbers(void) {
         TEST_ASSERT_TRUE(text.truncated || strcmp(wanted, bytes) == 0);
         TEST_ASSERT_TRUE(text.length < size && bytes[text.length] == '\0');
     }
-}
-
-void suite_station_odd(void) {
-    RUN_TEST(test_a_full_queue);
-    RUN_TEST(test_lost_while_the_queue_is_full);
-    RUN_TEST(test_trips_are_told);
-    RUN_TEST(test_echo);
-    RUN_TEST(test_arithmetic_is_tested);
-    RUN_TEST(test_a_cell_turned_round);
-    RUN_TEST(test_a_memory_that_is_not_read);
-    RUN_TEST(test_exact_numbers);
 }

@@ -6,9 +6,7 @@
 #include "core/station/station.h"
 #include "draw.h"
 #include "even_rig.h"
-#include "unity.h"
-
-void suite_station_result(void);
+#include "tests/suites.h"
 
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 #define FOREVER 60000U /* steps */
@@ -205,7 +203,7 @@ static void begin(void) {
     even_rest(&even);
 }
 
-static void test_answers_belong_to_the_last_start(void) {
+TEST(station_result, answers_belong_to_the_last_start) {
     unsigned results = 0;
     unsigned outdated = 0;
     seed = 71;
@@ -227,7 +225,7 @@ static void test_answers_belong_to_the_last_start(void) {
 }
 
 /* Each setting changes the hash, which depends on the values alone: restored values restore it. */
-static void test_any_other_setting_has_another_hash(void) {
+TEST(station_result, any_other_setting_has_another_hash) {
     seed = 72;
     begin();
     const uint32_t plain = even.config.settings;
@@ -252,7 +250,7 @@ static void test_any_other_setting_has_another_hash(void) {
 }
 
 /* Hours later: a wrapping capture timer does not rejuvenate a result. */
-static void test_an_age_beyond_the_timer(void) {
+TEST(station_result, an_age_beyond_the_timer) {
     begin();
     start();
     for (unsigned i = 0; i < FOREVER && !has_result; i++) {
@@ -270,7 +268,7 @@ static void test_an_age_beyond_the_timer(void) {
 }
 
 /* The console prints all doubts of a result, with the largest numbers of a rig. With larger ones the line still has an end. */
-static void test_every_verdict_is_said(void) {
+TEST(station_result, every_verdict_is_said) {
     static const char other[] = "conf set settle_time 2";
     wh_measured *force = &even.rig.result.force;
     begin();
@@ -300,11 +298,4 @@ static void test_every_verdict_is_said(void) {
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(heard, words), words);
         }
     }
-}
-
-void suite_station_result(void) {
-    RUN_TEST(test_every_verdict_is_said);
-    RUN_TEST(test_answers_belong_to_the_last_start);
-    RUN_TEST(test_any_other_setting_has_another_hash);
-    RUN_TEST(test_an_age_beyond_the_timer);
 }

@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "draw.h"
-#include "unity.h"
-
-void suite_store(void);
+#include "tests/suites.h"
 
 #define SLOT_BYTES 256U
 #define FOREVER UINT32_MAX
@@ -122,7 +120,7 @@ static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     }
 }
 
-static void test_what_is_saved_is_loaded(void) {
+TEST(store, what_is_saved_is_loaded) {
     seed = 3;
     start_flash();
     const payload none = {.count = -1};
@@ -140,7 +138,7 @@ static void test_what_is_saved_is_loaded(void) {
 }
 
 /* The supply fails at every erased or written byte: the old or new record loads, and the next save works. */
-static void test_torn_at_every_byte(void) {
+TEST(store, torn_at_every_byte) {
     seed = 4;
     unsigned old = 0;
     unsigned new = 0;
@@ -176,7 +174,7 @@ static void test_torn_at_every_byte(void) {
 }
 
 /* A flipped bit in the newest record: the one before counts. */
-static void test_every_bit(void) {
+TEST(store, every_bit) {
     seed = 5;
     for (unsigned round = 0; round < 4U; round++) {
         start_flash();
@@ -201,7 +199,7 @@ static void test_every_bit(void) {
 static uint32_t after_it(uint32_t sequence) { return sequence == UINT32_MAX ? 1U : sequence + 1U; }
 
 /* Sequence numbers wrap, and the format is the documented one. */
-static void test_sequences_wrap(void) {
+TEST(store, sequences_wrap) {
     static const uint32_t first[] = {1U, 0x7FFFFFFFU, 0xFFFFFFFEU, 0xFFFFFFFFU};
     seed = 6;
     for (unsigned i = 0; i < 8U; i++) {
@@ -224,7 +222,7 @@ static void test_sequences_wrap(void) {
 }
 
 /* Failing memory is reported, and another format is refused. */
-static void test_failing_memory(void) {
+TEST(store, failing_memory) {
     seed = 7;
     start_flash();
     payload p = draw_payload();
@@ -239,12 +237,4 @@ static void test_failing_memory(void) {
     flash[0][0] = 0x02;
     memset(flash[1], 0, SLOT_BYTES);
     TEST_ASSERT_TRUE(is_loaded(&none));
-}
-
-void suite_store(void) {
-    RUN_TEST(test_what_is_saved_is_loaded);
-    RUN_TEST(test_torn_at_every_byte);
-    RUN_TEST(test_every_bit);
-    RUN_TEST(test_sequences_wrap);
-    RUN_TEST(test_failing_memory);
 }

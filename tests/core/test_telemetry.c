@@ -4,19 +4,17 @@
 #include "core/cobs.h"
 #include "draw.h"
 #include "tel_bench.h"
-#include "unity.h"
-
-void suite_telemetry(void);
+#include "tests/suites.h"
 
 static even_rig twin;
 
-static void test_sum(void) {
+TEST(telemetry, sum) {
     const uint8_t digits[9] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
     TEST_ASSERT_EQUAL_HEX16(0x29B1, wh_crc16(WH_CRC16_START, digits, 9));
     TEST_ASSERT_EQUAL_HEX16(0x29B1, wh_crc16(wh_crc16(WH_CRC16_START, digits, 4), digits + 4, 5));
 }
 
-static void test_coding(void) {
+TEST(telemetry, coding) {
     bench.seed = 40;
     uint8_t bytes[WIRE_CHUNK];
     uint8_t back[WIRE_CHUNK];
@@ -47,7 +45,7 @@ static void test_coding(void) {
     }
 }
 
-static void test_off_at_first_and_after(void) {
+TEST(telemetry, off_at_first_and_after) {
     bench.seed = 41;
     tel_begin();
     for (unsigned i = 0; i < 600U; i++) {
@@ -75,7 +73,7 @@ static void test_off_at_first_and_after(void) {
 }
 
 /* Every sample and pulse, for any converter's status, at each rate and delay, of 12 to 24 bits. */
-static void test_all_that_was_seen(void) {
+TEST(telemetry, all_that_was_seen) {
     static const char *const rates[] = {"tel rate 500", "tel rate 250", "tel rate 100",
                                         "tel rate 20"};
     bench.seed = 42;
@@ -102,7 +100,7 @@ static void test_all_that_was_seen(void) {
 }
 
 /* A 115,200 baud line carries it with room to spare. A slow one does not, and every loss is counted; answers come. */
-static void test_losses_are_counted(void) {
+TEST(telemetry, losses_are_counted) {
     static const unsigned baud[] = {115200, 57600, 38400, 19200, 9600, 4800};
     bench.seed = 43;
     for (unsigned k = 0; k < 6U; k++) {
@@ -136,7 +134,7 @@ static void test_losses_are_counted(void) {
 }
 
 /* A pulse and an end in each step, more than a 115,200 baud line takes: ends are dropped, loads are not. */
-static void test_ends_give_way(void) {
+TEST(telemetry, ends_give_way) {
     bench.seed = 47;
     tel_begin();
     bench.got.blind = true;
@@ -153,7 +151,7 @@ static void test_ends_give_way(void) {
 }
 
 /* Bytes that the line breaks, loses or invents: each frame is as sent or missing, and text is whole after the next zero. */
-static void test_a_bad_line(void) {
+TEST(telemetry, a_bad_line) {
     bench.seed = 44;
     tel_begin();
     bench.got.broken = true;
@@ -184,7 +182,7 @@ static void test_a_bad_line(void) {
 }
 
 /* A reader comes, goes, returns and types. A second rig without a reader gives the same commands. */
-static void test_control_is_undisturbed(void) {
+TEST(telemetry, control_is_undisturbed) {
     bench.seed = 45;
     tel_begin();
     tel_turn_on("tel rate 500");
@@ -216,7 +214,7 @@ static void test_control_is_undisturbed(void) {
     TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
 }
 
-static void test_states_are_told(void) {
+TEST(telemetry, states_are_told) {
     bench.seed = 46;
     tel_begin();
     tel_turn_on("tel rate 500");
@@ -261,16 +259,4 @@ static void test_states_are_told(void) {
         TEST_ASSERT_TRUE(changed || i < 3U || wh_rig_shown_stage(&bench.even.rig) == before);
     }
     TEST_ASSERT_TRUE(told >= 8U && fast > 80U);
-}
-
-void suite_telemetry(void) {
-    RUN_TEST(test_sum);
-    RUN_TEST(test_coding);
-    RUN_TEST(test_off_at_first_and_after);
-    RUN_TEST(test_all_that_was_seen);
-    RUN_TEST(test_losses_are_counted);
-    RUN_TEST(test_ends_give_way);
-    RUN_TEST(test_a_bad_line);
-    RUN_TEST(test_control_is_undisturbed);
-    RUN_TEST(test_states_are_told);
 }

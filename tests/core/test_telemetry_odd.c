@@ -5,9 +5,7 @@
 
 #include "draw.h"
 #include "tel_bench.h"
-#include "unity.h"
-
-void suite_telemetry_odd(void);
+#include "tests/suites.h"
 
 #define RPM_PER_COUNT 0.02f
 #define RADPS_PER_RPM 0.104719755f
@@ -47,7 +45,7 @@ static int load_wanted(int32_t raw, wh_load_status status) {
                                                   : (int)counts;
 }
 
-static void test_frames_of_odd_numbers(void) {
+TEST(telemetry_odd, frames_of_odd_numbers) {
     static const wh_load_status statuses[] = {WH_LOAD_OK, WH_LOAD_LATE, WH_LOAD_DISCONNECTED};
     bench.seed = 61;
     for (unsigned round = 0; round < 100U; round++) {
@@ -96,7 +94,7 @@ static void test_frames_of_odd_numbers(void) {
 }
 
 /* A line for each valid sample, with the speed if it is known; lines without room are counted. */
-static void test_lines_of_odd_numbers(void) {
+TEST(telemetry_odd, lines_of_odd_numbers) {
     bench.seed = 62;
     unsigned none = 0;
     for (unsigned round = 0; round < 200U; round++) {
@@ -154,7 +152,7 @@ static void check_answer(const char *line, const char *answer) {
 }
 
 /* A board without a cell has no rate. Also checks the reports while telemetry is on. */
-static void test_rates_and_schemas(void) {
+TEST(telemetry_odd, rates_and_schemas) {
     tel_begin();
     bench.got.blind = true;
     tel_period(true, FREE);
@@ -181,10 +179,4 @@ static void test_rates_and_schemas(void) {
     check_answer("tel list", "OK rate=0 ");
     check_answer("tel rate 1", "ERR 116 ");
     check_answer("tel schema run", "OK channel=0 name=run period_ticks=0 ");
-}
-
-void suite_telemetry_odd(void) {
-    RUN_TEST(test_frames_of_odd_numbers);
-    RUN_TEST(test_lines_of_odd_numbers);
-    RUN_TEST(test_rates_and_schemas);
 }

@@ -3,9 +3,7 @@
 
 #include "draw.h"
 #include "tel_bench.h"
-#include "unity.h"
-
-void suite_telemetry_ring(void);
+#include "tests/suites.h"
 
 static wh_captured truth[4096];
 static uint32_t truth_ticks[4096];
@@ -77,7 +75,7 @@ static void check_read(unsigned end, bool by_pulse) {
                                   bench.tel.dropped[WH_TEL_RING]);
 }
 
-static void test_the_ring_has_what_was(void) {
+TEST(telemetry_ring, the_ring_has_what_was) {
     bench.seed = 47;
     for (unsigned round = 0; round < 20U; round++) {
         const bool by_pulse = round % 2U == 0;
@@ -99,7 +97,7 @@ static void test_the_ring_has_what_was(void) {
     }
 }
 
-static void test_text_for_plotters(void) {
+TEST(telemetry_ring, text_for_plotters) {
     bench.seed = 48;
     for (unsigned which = 0; which < 2U; which++) {
         tel_begin();
@@ -133,7 +131,7 @@ static void test_text_for_plotters(void) {
     }
 }
 
-static void test_answers_and_refusals(void) {
+TEST(telemetry_ring, answers_and_refusals) {
     static const struct {
         const char *line;
         const char *answer;
@@ -191,10 +189,4 @@ static void test_answers_and_refusals(void) {
         TEST_ASSERT_NOT_NULL_MESSAGE(found, rows[i].line);
         memset(&bench.heard, 0, sizeof bench.heard);
     }
-}
-
-void suite_telemetry_ring(void) {
-    RUN_TEST(test_the_ring_has_what_was);
-    RUN_TEST(test_text_for_plotters);
-    RUN_TEST(test_answers_and_refusals);
 }

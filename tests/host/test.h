@@ -18,6 +18,4 @@
 
 #include "tests/suites.h"
 
-#include "unity.h"
-
 #endif

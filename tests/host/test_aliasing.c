@@ -2,21 +2,10 @@
  * periods and every stage sees the same force. Masses on springs, free masses and low passes have closed forms. Ripples
  * on a slow force add up to a drift; frictions have rippling normal forces. Wrong runs must be reported and not trusted
  * to the end, right ones must not be, and the named remedy must work. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "named_cures.h"
-
-#include "unity.h"
-
-void suite_aliasing(void);
-void suite_pulse_trains(void);
 
 /* === aliasing ================================================================================= */
 
@@ -110,7 +99,7 @@ static bool told(const said *what) { return strstr(what->err, "[aliased]") != NU
 
 static bool trusted(const said *what) { return strstr(what->out, "to the end: every") != NULL; }
 
-static void test_what_is_wrong_is_told(void) {
+TEST(aliasing, what_is_wrong_is_told) {
     static const named_cure none;
     dice d = dice_of("aliasing", 20261127);
     const unsigned cases = dice_cases(few_or_all(usual_or(36, 12), 600));
@@ -167,7 +156,7 @@ static void test_what_is_wrong_is_told(void) {
 }
 
 /* `whirl sweep` counts the points that `whirl run` reports. */
-static void test_sweeps_count_it(void) {
+TEST(aliasing, sweeps_count_it) {
     dice d = dice_of("aliasing, swept", 20261201);
     unsigned counted = 0;
     for (unsigned i = 0; i < 12 && counted < 3; i++) {
@@ -190,7 +179,7 @@ static void test_sweeps_count_it(void) {
 }
 
 /* A slow force with a ripple of whole periods per step: the sum of the ripple grows with time. */
-static void test_small_ripples(void) {
+TEST(aliasing, small_ripples) {
     static const named_cure none;
     dice d = dice_of("aliasing, ripples", 20261129);
     const unsigned cases = dice_cases(usual_or(24, 8));
@@ -230,7 +219,7 @@ static void test_small_ripples(void) {
 }
 
 /* Pushed below the friction limit, or sliding to rest; the normal force ripples in whole periods per step. */
-static void test_rippling_normals(void) {
+TEST(aliasing, rippling_normals) {
     static const named_cure none;
     dice d = dice_of("aliasing, normals", 20261130);
     const unsigned cases = dice_cases(usual_or(12, 4));
@@ -263,7 +252,7 @@ static void test_rippling_normals(void) {
 }
 
 /* Shaken beyond the friction limit, in whole periods per step. */
-static void test_blocks_with_friction(void) {
+TEST(aliasing, blocks_with_friction) {
     static const named_cure none;
     dice d = dice_of("aliasing, friction", 20261128);
     const unsigned cases = dice_cases(usual_or(6, 3));
@@ -283,14 +272,6 @@ static void test_blocks_with_friction(void) {
         run_with(text, &none, false, &what);
         TEST_ASSERT_TRUE_MESSAGE(still ? !told(&what) : !trusted(&what), text);
     }
-}
-
-void suite_aliasing(void) {
-    RUN_TEST(test_what_is_wrong_is_told);
-    RUN_TEST(test_sweeps_count_it);
-    RUN_TEST(test_blocks_with_friction);
-    RUN_TEST(test_small_ripples);
-    RUN_TEST(test_rippling_normals);
 }
 
 /* === pulse trains ============================================================================= */
@@ -336,7 +317,7 @@ static void write_train(char *text, size_t size, double pulses_hz, double duty, 
              pulses_hz, phase, duty, end_s);
 }
 
-static void test_pulses_between_stages(void) {
+TEST(pulse_trains, pulses_between_stages) {
     static const double turns[] = {0.5, 1.0, 1.0, 1.5, 2.0, 3.0, 5.0};
     dice d = dice_of("pulses", 6301);
     const unsigned cases = dice_cases(few_or_all(usual_or(8, 3), 200));
@@ -376,7 +357,7 @@ static double driven_mps(double pulses_hz, double duty, double phase, double end
 }
 
 /* 12 to 3,000 steps per period. */
-static void test_pulses_that_steps_resolve(void) {
+TEST(pulse_trains, pulses_that_steps_resolve) {
     dice d = dice_of("slow pulses", 6303);
     const unsigned cases = dice_cases(few_or_all(usual_or(10, 4), 400));
     unsigned right = 0;
@@ -401,7 +382,7 @@ static void test_pulses_that_steps_resolve(void) {
 }
 
 /* A body on a spring from rest, with a force of k + 1/2 or k turns per step. */
-static void test_turns_and_a_half(void) {
+TEST(pulse_trains, turns_and_a_half) {
     static const char *const all[] = {"nystroem5", "nystroem5", "nystroem5", "rk4",
                                       "rk38",      "nystroem4", "heun"};
     dice d = dice_of("turns and a half", 6307);
@@ -436,10 +417,4 @@ static void test_turns_and_a_half(void) {
     model_drop();
     printf("  %u forces of whole and half turns a step: %u wrong, none silent\n", cases, wrong);
     TEST_ASSERT_TRUE(wrong > cases / 2);
-}
-
-void suite_pulse_trains(void) {
-    RUN_TEST(test_pulses_between_stages);
-    RUN_TEST(test_pulses_that_steps_resolve);
-    RUN_TEST(test_turns_and_a_half);
 }

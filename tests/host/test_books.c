@@ -1,20 +1,10 @@
 /* test_books.c: the energy account of a summary against closed forms, with impacts. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 #include "host/derive/program.h"
 
 #include "command.h"
 #include "derived.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_account(void);
-void suite_ledger_turns(void);
 
 /* === account ================================================================================== */
 
@@ -27,7 +17,7 @@ static double told(const char *summary, const char *words) {
 
 /* A ball that falls from h and bounces once with restitution e loses m g h (1 - e^2). The summary assigns that to the
  * contact and the residual to the numerical error. `with ledger` must not change a bit. */
-static void test_what_contacts_took_is_told_apart(void) {
+TEST(account, what_contacts_took_is_told_apart) {
     dice d = dice_of("bounces", 4004);
     for (unsigned i = 0; i < dice_cases(10); i++) {
         const double e = dice_between(&d, 0.2, 0.95);
@@ -61,7 +51,7 @@ static void test_what_contacts_took_is_told_apart(void) {
 /* Impacts of other coordinates, or in between, change neither the energy from a constant force, P (z - h), nor the loss
  * of an evenly damped slide. Each printed entry has its closed form, and with the contacts' part they sum to the
  * change. Integration between step ends only would miss part of the step with the impact. */
-static void test_entries_across_impacts_are_closed_forms(void) {
+TEST(account, entries_across_impacts_are_closed_forms) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
         const double e = dice_between(&d, 0.2, 0.95);
@@ -88,11 +78,6 @@ static void test_entries_across_impacts_are_closed_forms(void) {
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-7, change, work + lost + took, text);
     }
     model_drop();
-}
-
-void suite_account(void) {
-    RUN_TEST(test_what_contacts_took_is_told_apart);
-    RUN_TEST(test_entries_across_impacts_are_closed_forms);
 }
 
 /* === ledger turns ============================================================================= */
@@ -134,7 +119,7 @@ static double of_energies(const motion *m, const account_book *book, const char 
 }
 
 /* L = th'^2/2 + k th^2 th': free, th = w t; dL/dth = 2 k th th' adds up to k (w t)^2. */
-static void test_a_free_wheel(void) {
+TEST(ledger_turns, a_free_wheel) {
     static const char text[] = "mechanism wheel\ncoordinate th [rad]\nparameter k = 3 [N*m*s]\n"
                                "T = 1 [kg*m^2]*th'^2/2 + k*th^2*th'\n"
                                "scene s { start th = 0.5, th' = 7 [rad/s]\nuntil 3 [s] }\n";
@@ -158,7 +143,7 @@ static void test_a_free_wheel(void) {
 
 /* Two wheels with gyroscopic coupling, L = (a'^2 + b'^2)/2 + B a b'. Their rates rotate with B: a' = v cos(B t), b' =
  * -v sin(B t). p_b = b' + B a is constant; p_a = a' changes by dL/da = B b'. */
-static void test_gyroscopic_coupling(void) {
+TEST(ledger_turns, gyroscopic_coupling) {
     static const char text[] =
         "mechanism wheels\ncoordinate a [rad]\ncoordinate b [rad]\nparameter B = 2 [N*m*s]\n"
         "T = 1 [kg*m^2]*(a'^2 + b'^2)/2 + B*a*b'\n"
@@ -178,7 +163,7 @@ static void test_gyroscopic_coupling(void) {
 
 /* A charge in a uniform field, in polar coordinates and a gauge that depends on its angle: A = B r^2/2 dphi + d(c
  * phi^2)/2. It moves on a circle with angular frequency B/m; h = m v^2/2. */
-static void test_a_charge_in_a_uniform_field(void) {
+TEST(ledger_turns, a_charge_in_a_uniform_field) {
     static const char text[] =
         "mechanism charge\ncoordinate r [m]\ncoordinate phi [rad]\nparameter m = 2 [kg]\n"
         "parameter B = 3 [kg/s]\nparameter c = 0.7 [N*m*s]\nT = m*(r'^2 + r^2*phi'^2)/2\n"
@@ -283,7 +268,7 @@ static void compare(const gauge *g, stepping how, double tolerance) {
     motion_close(&without);
 }
 
-static void test_total_derivatives_change_no_motion(void) {
+TEST(ledger_turns, total_derivatives_change_no_motion) {
     uint64_t seed = 20110;
     const char *more = getenv("WHIRL_GAUGE_CASES");
     const int cases = more != NULL ? (int)strtol(more, NULL, 10) : 30;
@@ -299,11 +284,4 @@ static void test_total_derivatives_change_no_motion(void) {
     }
     printf("  %d mechanisms from seed 20110, %d with angles outside sines\n", cases, turned);
     TEST_ASSERT_TRUE(turned > cases / 2);
-}
-
-void suite_ledger_turns(void) {
-    RUN_TEST(test_a_free_wheel);
-    RUN_TEST(test_gyroscopic_coupling);
-    RUN_TEST(test_a_charge_in_a_uniform_field);
-    RUN_TEST(test_total_derivatives_change_no_motion);
 }

@@ -2,20 +2,12 @@
  * search; and the table of their rows (price_table.h). */
 #include "derived.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/base/alloc.h"
 #include "host/cli/pricing_scene.h"
 #include "host/emit/emit.h"
 #include "host/engine/start.h"
 #include "host/study/choice.h"
-#include "unity.h"
-
-void suite_choice(void);
 
 static const char *const texts[] = {
     "mechanism spring\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 90 [N/m]*x^2/2\n"
@@ -122,7 +114,7 @@ static void try_all(request *q, double *cycles, double *flash) {
     }
 }
 
-static void test_drawn_requests(void) {
+TEST(choice, drawn_requests) {
     dice d = dice_of("choice", 501);
     const unsigned cases = dice_cases(few_or_all(4, 20));
     int found = 0;
@@ -172,7 +164,7 @@ static bool is_same(const table_row *a, const table_row *b) {
 }
 
 /* The same effort gives the same rows on any number of processors. Less effort gives fewer rows and reports that. */
-static void test_rows_depend_on_the_effort_alone(void) {
+TEST(choice, rows_depend_on_the_effort_alone) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
         open_request(&q, texts[n], boards[n % 3], 50.0);
@@ -203,7 +195,7 @@ static void test_rows_depend_on_the_effort_alone(void) {
 }
 
 /* The answer's larger error limit or faster clock suffices, and slightly less does not. */
-static void test_what_would_fit_does(void) {
+TEST(choice, what_would_fit_does) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
     q.wish.table.error = 1e-5;
@@ -242,7 +234,7 @@ static char *code_of(const request *q, const setting *s, bool *own) {
 }
 
 /* Of all settings that make the same code, exactly one is the scene's own. */
-static void test_settings_of_a_scene_are_those_that_differ(void) {
+TEST(choice, settings_of_a_scene_are_those_that_differ) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
         open_request(&q, texts[n], "mps2-an386", 20.0);
@@ -302,7 +294,7 @@ static bool is_beaten(const table *made, const table_row *row) {
 
 /* Random springs and dampers. The exact matrix has only round-off at any step, so the cheapest row with an error below
  * 1e-4 is a matrix. A matrix that no row beats is on the front. */
-static void test_linear_scenes_have_the_matrix_on_their_front(void) {
+TEST(choice, linear_scenes_have_the_matrix_on_their_front) {
     dice d = dice_of("choice linear", 503);
     for (unsigned n = 0; n < dice_cases(few_or_all(1, 10)); n++) {
         char text[700];
@@ -343,12 +335,4 @@ static void test_linear_scenes_have_the_matrix_on_their_front(void) {
         table_free(made);
         close_request(&q);
     }
-}
-
-void suite_choice(void) {
-    RUN_TEST(test_settings_of_a_scene_are_those_that_differ);
-    RUN_TEST(test_linear_scenes_have_the_matrix_on_their_front);
-    RUN_TEST(test_drawn_requests);
-    RUN_TEST(test_rows_depend_on_the_effort_alone);
-    RUN_TEST(test_what_would_fit_does);
 }

@@ -1,10 +1,5 @@
 /* test_cost.c: predicted prices (host/study/cost.h): figures are within their bounds, larger for more work, and agree
  * with the counted steps of docs/figures/price.csv. */
-#define _POSIX_C_SOURCE 200809L
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "derived.h"
 #include "host/cli/load.h"
@@ -12,9 +7,6 @@
 #include "host/fixed/fixed_plan.h"
 #include "host/lang/model.h"
 #include "host/study/cost.h"
-#include "unity.h"
-
-void suite_cost(void);
 
 static const cost_number numbers[] = {COST_FLOAT, COST_DOUBLE};
 
@@ -68,7 +60,7 @@ static int check_whole(const scene *s) {
     return priced;
 }
 
-static void prices_are_whole(void) {
+TEST(cost, prices_are_whole) {
     /* every board in float at least */
     TEST_ASSERT_GREATER_THAN_INT(30 * cost_board_count, each_builtin_scene(check_whole));
 }
@@ -103,12 +95,12 @@ static int check_monotonic(const scene *s) {
     return 1;
 }
 
-static void more_stages_and_compensated_sums_are_never_cheaper(void) {
+TEST(cost, more_stages_and_compensated_sums_are_never_cheaper) {
     TEST_ASSERT_GREATER_THAN_INT(50, each_builtin_scene(check_monotonic));
 }
 
 /* A row of masses with one more mass and spring has more of everything. */
-static void a_longer_row_costs_more(void) {
+TEST(cost, a_longer_row_costs_more) {
     for (int b = 0; b < cost_board_count; b++) {
         cost before = {0};
         for (int n = 1; n <= 12; n += n) {
@@ -140,7 +132,7 @@ static void a_longer_row_costs_more(void) {
 }
 
 /* As `whirl describe` and the generated headers state it (WH_MEMORY_BYTES). */
-static void state_bytes_are_those_of_the_header(void) {
+TEST(cost, state_bytes_are_those_of_the_header) {
     static const struct {
         const char *name;
         double in_float, in_double;
@@ -157,7 +149,7 @@ static void state_bytes_are_those_of_the_header(void) {
 }
 
 /* The table has exactly the existing boards; an STM32F405 is priced as its processor, mps2-an386. */
-static void every_board_has_a_row(void) {
+TEST(cost, every_board_has_a_row) {
     char path[128];
     char line[64];
     FILE *boards = popen("grep -L stm32f4.mk boards/*/board.mk", "r");
@@ -174,7 +166,7 @@ static void every_board_has_a_row(void) {
     TEST_ASSERT_NULL(cost_board_named("mps2"));
 }
 
-static void measured_rows_are_read(void) {
+TEST(cost, measured_rows_are_read) {
     const cost_board *m4 = cost_board_named("mps2-an386");
     const cost_board *m7 = cost_board_named("mps2-an500");
     cost c = {0};
@@ -269,7 +261,7 @@ static int by_size(const void *one, const void *other) {
 }
 
 /* The counted rows of docs/figures/price.csv, which are absent from the table of figures. */
-static void counted_steps_are_predicted(void) {
+TEST(cost, counted_steps_are_predicted) {
     static char head[2000];
     static char line[2000];
     static double factor[1000];
@@ -308,14 +300,4 @@ static void counted_steps_are_predicted(void) {
         100.0 * (factor[count - 1] - 1.0));
     TEST_ASSERT_TRUE(within >= 0.85 * count);
     TEST_ASSERT_TRUE(factor[count / 2] < 1.25);
-}
-
-void suite_cost(void) {
-    RUN_TEST(counted_steps_are_predicted);
-    RUN_TEST(prices_are_whole);
-    RUN_TEST(more_stages_and_compensated_sums_are_never_cheaper);
-    RUN_TEST(a_longer_row_costs_more);
-    RUN_TEST(state_bytes_are_those_of_the_header);
-    RUN_TEST(every_board_has_a_row);
-    RUN_TEST(measured_rows_are_read);
 }

@@ -4,19 +4,9 @@
  * the energy agrees with this file's formulas. Untried cures must be named as such. */
 #include "command.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
 #include "motion.h"
 #include "named_cures.h"
-
-#include "unity.h"
-
-void suite_cures(void);
 
 enum { TEXT = 900 };
 
@@ -134,7 +124,7 @@ static double missing(const ruined *r, const named_cure *with) {
     return went ? fabs(energy[1] - energy[0]) / moved_J(r) : (double)INFINITY;
 }
 
-static void test_cures_were_tried(void) {
+TEST(cures, cures_were_tried) {
     dice d = dice_of("cures", 3122);
     const unsigned cases = dice_cases(few_or_all(15, 400));
     unsigned told = 0;
@@ -179,7 +169,7 @@ static void test_cures_were_tried(void) {
 
 /* A body rolls up to the top of a hill, where its errors grow as exp(t), beside a spring that needs a shorter step. In float
  * its rounding throws it off the top: that is chaotic, and no finding. A cure in float is right to the end all the same. */
-static void test_cures_in_float_are_right_to_the_end(void) {
+TEST(cures, cures_in_float_are_right_to_the_end) {
     dice d = dice_of("cures_float", 29112026);
     const unsigned cases = dice_cases(few_or_all(12, 60));
     unsigned in_float = 0;
@@ -222,9 +212,4 @@ static void test_cures_in_float_are_right_to_the_end(void) {
     printf("  %u cures in float, at most %.1e of the range off at the end; %u in double\n",
            in_float, worst, in_double);
     TEST_ASSERT_TRUE(worst < 0.012 && in_float > 1 && in_double > cases / 4);
-}
-
-void suite_cures(void) {
-    RUN_TEST(test_cures_were_tried);
-    RUN_TEST(test_cures_in_float_are_right_to_the_end);
 }

@@ -3,9 +3,12 @@
 #include "host/base/alloc.h"
 #include "host/check/energy_residual.h"
 #include "host/check/slow.h"
+#include "host/cli/commands.h"
+#include "host/engine/engine.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 
+#include "command.h"
 #include "derived.h"
 
 /* === fixed loss =============================================================================== */
@@ -420,3 +423,467 @@ TEST(fixed_runs, ranges_in_the_language) {
     TEST_ASSERT_EQUAL_DOUBLE(6.0, d.image->range[1].high);
     derived_free(&d);
 }
+
+/* === fixed ranges ============================================================================ */
+/* Ranges and steps of all sizes in fixed point: planning ends, with a step or with a refusal whose
+ * hint helps. Coordinates without acceleration still move. */
+
+/* Result and messages of fixed_plan_make(); `report` to be freed. */
+static fixed_plan *plan_of(const image *im, char **report) {
+    size_t length;
+    diags *errors = diags_new();
+    fixed_plan *p = fixed_plan_make(im, false, errors);
+    FILE *out = alloc_text(report, &length);
+    diags_flush(errors, out);
+    alloc_text_end(out);
+    diags_free(errors);
+    return p;
+}
+
+static bool is_made(const image *im) {
+    char *report;
+    fixed_plan *p = plan_of(im, &report);
+    const bool made = p != NULL;
+    free(report);
+    fixed_plan_free(p);
+    return made;
+}
+
+static void set_ranges(image *im, double size) {
+    for (int i = 0; i < im->reals + im->inputs; i++) {
+        im->range[i].declared = true;
+        im->range[i].low = -size;
+        im->range[i].high = size;
+    }
+}
+
+static const char *const wide[] = {
+    "coordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 100 [N/m^3]*x^4/4\n",
+    "coordinate x [m]\ninput u = 0 [N]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m^7]*x^8\nF = 3 [N*s/m]*x'^2\nQ(x) = u\n",
+    "coordinate x [m]\nT = 1 [kg]*x'^2/2 + 2 [kg/m^2]*x^2*x'^2\nV = 40 [N/m]*x^2/2\n",
+    "coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = -2 [J]*cos(a)\nF = 1e-3 [N*m*s]*a'^2\n",
+    ("coordinate a [rad]\ncoordinate b [rad]\n"
+     "T = 1 [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\nV = -2 [J]*cos(a)\n"),
+    "state x\nequation x'*1 [s] = -x^3\n",
+    "state x\nequation x'*1 [s] = x - x^5\n",
+    "state x\nstate p [rad]\nequation x'*1 [s] = -x^3*sin(p)\nequation p'*1 [s] = x^2\n",
+    "state x\nstate y\nequation x'*1 [s] = 1/(1 + x^2) - y\nequation y'*1 [s] = x*y\n",
+};
+
+/* Following this hint, and the next one, succeeds: by smaller steps, or narrower ranges. */
+static void check_hint(image *im, double size, const char *report) {
+    const double step_s = im->step_s;
+    bool helped = false;
+    for (int down = 0; size * pow(0.1, down) > 1e-11 && !helped; down++) {
+        set_ranges(im, size * pow(0.1, down));
+        for (int k = 0; k <= 4 && !helped; k++) {
+            im->step_s = step_s * pow(0.1, k);
+            helped = is_made(im);
+        }
+    }
+    TEST_ASSERT_TRUE_MESSAGE(helped, report);
+}
+
+TEST(fixed_ranges, ranges_and_steps_of_all_sizes) {
+    static const double step_s[] = {1e-6, 1e-4, 1e-3, 1e-2, 1.0};
+    int made = 0;
+    int refused = 0;
+    for (size_t k = 0; k < sizeof wide / sizeof wide[0]; k++) {
+        char *text = alloc_words("mechanism m\n%sscene s { until 1 [s] }\n", wide[k]);
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        for (int power = -9; power <= 300;
+             power += power < 12 ? (int)few_or_all(4, 1) : (int)few_or_all(96, 32)) {
+            for (size_t n = 0; n < sizeof step_s / sizeof step_s[0]; n += few_or_all(2, 1)) {
+                const double size = pow(10.0, power);
+                char *report;
+                set_ranges(d.image, size);
+                d.image->step_s = step_s[n];
+                fixed_plan *p = plan_of(d.image, &report);
+                made += p != NULL;
+                if (p == NULL) {
+                    refused++;
+                    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, "hint: "), report);
+                    check_hint(d.image, size, report);
+                }
+                free(report);
+                fixed_plan_free(p);
+            }
+        }
+        derived_free(&d);
+        free(text);
+    }
+    TEST_ASSERT_GREATER_THAN_INT((int)few_or_all(25, 200), made);
+    TEST_ASSERT_GREATER_THAN_INT((int)few_or_all(25, 200), refused);
+}
+
+static void run_to_end(const image *im, double *angle, double *real) {
+    void *run = engine_fixed.start(im);
+    for (uint64_t k = 0; k < im->steps; k++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, engine_fixed.step(run));
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, engine_fixed.saturated(run));
+    engine_fixed.state(run, angle, real);
+    engine_fixed.stop(run);
+}
+
+/* Half a unit of each step, and of the rate in it. */
+static double range_bound_of(const fixed_plan *p, int at, int rate, double until_s) {
+    const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 1.4629180793e-9;
+    const double of_rate = rate >= 0 ? ldexp(1.0, -p->format[rate].bits) : 0.0;
+    return 0.51 * (double)p->image->steps * unit + until_s * of_rate;
+}
+
+/* Uniform motion: closed forms. */
+TEST(fixed_ranges, what_has_no_acceleration_moves) {
+    static const struct {
+        const char *text;
+        int at, rate; /* of the reals; -1: the angle, or absent */
+        bool moves;
+    } kinds[] = {
+        {"coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nscene s { start a' = %.9f [rad/s]", -1, 0,
+         true},
+        {"coordinate y [m]\nT = 3 [kg]*y'^2/2\nscene s { start y' = %.9f [m/s]", 0, 1, true},
+        {"coordinate t [s]\nT = 1e-9 [J]*t'^2/2\nscene s { start t' = %.9f", 0, 1, true},
+        {"coordinate x [m]\ncoordinate t [s]\nT = 2 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\n"
+         "V = 50 [N/m]*x^2/2\nQ(x) = 4 [N/s]*t\nscene s { start t' = %.9f",
+         1, 3, true},
+        {"state c\nstate d\nequation c'*1 [s] = 0\nequation d'*1 [s] = c - d\n"
+         "scene s { start c = %.9f",
+         0, -1, false},
+        {"state c\nequation c'*1 [s] = %.9f\nscene s {", 0, -1, true},
+    };
+    uint64_t seed = 91;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        for (int i = 0; i < 12; i++) {
+            double angle[4] = {0};
+            double real[4] = {0};
+            const double value = pow(10.0, random_between(&seed, -2.0, 2.0));
+            const double until_s = 2.0;
+            char *with = alloc_words(kinds[k].text, value);
+            char *text = alloc_words("mechanism m\n%s; step %d [us]; until 2 [s] }\n", with,
+                                     (int[]){50, 100, 500, 1000, 5000, 20000}[i % 6]);
+            derived d = derived_scene(text, "s");
+            char *report;
+            derived_expect(&d, text);
+            fixed_plan *p = plan_of(d.image, &report);
+            TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
+            d.image->fixed = p;
+            run_to_end(d.image, angle, real);
+            const double end = kinds[k].at < 0 ? angle[0] : real[kinds[k].at];
+            const double expected = kinds[k].moves ? value * until_s : value;
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(
+                range_bound_of(p, kinds[k].at, kinds[k].rate, until_s) + 1e-9 * value, expected,
+                end, text);
+            fixed_plan_free(p);
+            derived_free(&d);
+            free(report);
+            free(text);
+            free(with);
+        }
+    }
+}
+
+/* A swing so small that a step adds more at the lowest place than the whole range of the rate: with all ranges not
+ * declared. */
+TEST(fixed_ranges, small_swings) {
+    for (int power = -7; power <= 0; power++) {
+        char *report;
+        char *text = alloc_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
+                                 "V = -2.3544 [J]*cos(th)\nF = 0.02 [N*m*s]*th'^2\n"
+                                 "scene s { start th = %.9g [rad]; step 1 [ms]; until 2 [s] }\n",
+                                 pow(10.0, power));
+        derived d = derived_scene(text, "s");
+        derived_expect(&d, text);
+        fixed_plan *p = plan_of(d.image, &report);
+        TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
+        fixed_plan_free(p);
+        derived_free(&d);
+        free(report);
+        free(text);
+    }
+}
+
+enum { INPUTS_MOST = 3, RANGES_TEXT = 400 };
+
+/* A scene with inputs that push to either side, and these ranges. Returns the message of `whirl derive` on its
+ * fixed-point code. */
+static void derive_pushed(int inputs, const double *start, const char *ranges, said *what) {
+    char text[1500];
+    int length = snprintf(text, sizeof text, "mechanism pushed\ncoordinate x [m]\n");
+    for (int i = 0; i < inputs; i++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "input u%d = %.17g [N]\n",
+                           i, start[i]);
+    }
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "T = 2 [kg]*x'^2/2\nV = 50 [N/m]*x^2/2\nF = 3 [N*s/m]*x'^2/2\nQ(x) = u0");
+    for (int i = 1; i < inputs; i++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, " + u%d", i);
+    }
+    snprintf(text + length, sizeof text - (size_t)length,
+             "\nscene s { start x = 0.3 [m]; until 1 [s]%s }\n", ranges);
+    const char *words[] = {model_keep(text), "--as", "c", "--number", "fixed", NULL};
+    command_say(command_derive, words, what);
+    model_drop();
+}
+
+/* Each input without a range is refused with a hint; pasting the hints suffices. */
+TEST(fixed_ranges, inputs_must_declare_ranges) {
+    dice d = dice_of("fixed_ranges", 46);
+    const unsigned cases = dice_cases(usual_or(24, 8));
+    for (unsigned k = 0; k < cases; k++) {
+        const int inputs = 1 + (int)(k % INPUTS_MOST);
+        const unsigned declared = dice_one_of(&d, 1U << inputs);
+        double start[INPUTS_MOST];
+        char ranges[RANGES_TEXT] = "";
+        size_t length = 0;
+        said what;
+        for (int i = 0; i < inputs; i++) {
+            start[i] = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -2.0, 2.0);
+            if ((declared >> i & 1U) != 0) { /* around its start, and perhaps zero */
+                length += (size_t)snprintf(
+                    ranges + length, sizeof ranges - length, "; range u%d = %.17g .. %.17g [N]", i,
+                    start[i] - dice_between(&d, 0.1, 3.0), start[i] + dice_between(&d, 0.1, 3.0));
+            }
+        }
+        derive_pushed(inputs, start, ranges, &what);
+        const bool all = declared == (1U << inputs) - 1U;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(all ? 0 : 2, what.status, what.err);
+        const char *at = what.err;
+        for (int i = 0; i < inputs; i++) {
+            char wanted[40];
+            snprintf(wanted, sizeof wanted, "range of the input 'u%d'", i);
+            TEST_ASSERT_TRUE_MESSAGE(
+                (strstr(what.err, wanted) != NULL) == ((declared >> i & 1U) == 0), what.err);
+        }
+        while ((at = strstr(at, "in the scene: ")) != NULL) {
+            at += strlen("in the scene: ");
+            length += (size_t)snprintf(ranges + length, sizeof ranges - length, "; %.*s",
+                                       (int)strcspn(at, "\n"), at);
+        }
+        derive_pushed(inputs, start, ranges, &what);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
+    }
+}
+
+/* === engine fixed ============================================================================ */
+/* Steps in fixed point (host/fixed/engine_fixed.h) of random mechanisms against the same steps in
+ * double. The steps are so long and few that the difference is round-off, while a stage other than Runge-Kutta's would
+ * be visible. Also other queries of a run. test_fixed.c has whole runs. */
+
+void suite_engine_fixed(void);
+
+enum { ENGINE_TEXT_SIZE = 1500, ENGINE_KINDS = 5, ENGINE_MOST = 16 };
+
+static dice die;
+
+static double some(double low, double high) { return dice_between(&die, low, high); }
+
+/* A mechanism m with a scene s. Every operation of the lists occurs in one of them. */
+static void engine_write_mechanism(char *text, int which) {
+    char rest[200];
+    snprintf(rest, sizeof rest, "step %.3f [s]; until %.1f [s] }\n",
+             which == 1 ? some(0.004, 0.01) : some(0.012, 0.025), which == 1 ? 0.3 : 1.0);
+    switch (which) {
+    case 0:
+        snprintf(
+            text, ENGINE_TEXT_SIZE,
+            "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ninput f = %.6f [N]\n"
+            "T = %.6f [kg]*x'^2/2 + 1.5 [kg]*y'^2/2\nV = %.6f [N/m]*(y - x)^2/2 + 20 [N/m]*x^2/2\n"
+            "Q(x) = f - 0.8 [N*s^2/m^2]*x'*abs(x')\n"
+            "Q(y) = -2 [N*s/m]*min(y', 0.1 [m/s]) - 3 [N/m]*max(y, 0.05 [m])\n"
+            "output o = x - 2*y\noutput p = f\nscene s { range f = -2 .. 2 [N], x = -1 .. 1 [m], y = -1 .. 1 [m], x' = -3 .. 3 [m/s], y' = -3 .. 3 [m/s]; start x = 0.1 [m]; %s",
+            some(-1, 1), some(1, 2), some(10, 60), rest);
+        break;
+    case 1:
+        snprintf(
+            text, ENGINE_TEXT_SIZE,
+            "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\ninput M = %.6f [N*m]\n"
+            "T = %.6f [kg*m^2]*(1.5 + cos(2*a + 0.3))*a'^2/2 + 1 [kg]*x'^2/2\n"
+            "V = %.6f [J]*sin(3*a) + 9 [N/m]*x^2/2\nF = 0.4 [N*m*s]*a'^2/2\nQ(a) = M\n"
+            "Q(x) = -0.5 [N]*sign(x - 0.02 [m])\noutput o = x*sin(a)\noutput p = M\noutput r = x' \n"
+            "scene s { range M = -1 .. 1 [N*m], a' = -6 .. 6 [rad/s]; start a' = %.6f [rad/s], x = 0.2 [m]; %s",
+            some(0.1, 0.4), some(0.3, 0.6), some(0.1, 0.5), some(-3, 3), rest);
+        break;
+    case 2:
+        snprintf(
+            text, ENGINE_TEXT_SIZE,
+            "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ninput M = %.6f [N*m]\n"
+            "T = %.6f [kg*m^2]*(2*a'^2 + b'^2 + a'*b'*cos(a - b))/2\n"
+            "V = -%.6f [J]*(2*cos(a) + cos(b))\nF = 0.1 [N*m*s]*(a'^2 + (a' - b')^2)/2\nQ(a) = M\n"
+            "output o = a - b\noutput p = M\nscene s { range M = -1 .. 1 [N*m], a' = -12 .. 12 [rad/s], b' = -12 .. 12 [rad/s]; start a = %.6f [rad], b = -0.4 [rad]; %s",
+            some(-0.4, 0.4), some(0.4, 0.7), some(1, 4), some(-0.7, 0.7), rest);
+        break;
+    case 3:
+        snprintf(
+            text, ENGINE_TEXT_SIZE,
+            "mechanism m\nstate p [rad]\nstate v [V]\nstate q\ninput d = %.6f [V]\n"
+            "equation p' = %.6f [1/s]*(1 + 0.3*sin(p)) + 0.1 [1/s]*q\n"
+            "equation v' = %.6f [1/s]*(d - v + 0.5 [V]*cos(2*p - 1))\n"
+            "equation q''/(30 [1/s^2]) + %.6f*q'/(5 [1/s]) + q = v/(1 [V])\n"
+            "output o = v*q\noutput e = d\nscene s { range d = -2 .. 2 [V], v = -4 .. 4 [V], q = -4 .. 4, q' = -30 .. 30 [1/s]; %s",
+            some(0.2, 1), some(1, 4), some(0.5, 3), some(0.1, 0.4), rest);
+        break;
+    default: /* a negative denominator, and one of a wide range */
+        snprintf(
+            text, ENGINE_TEXT_SIZE,
+            "mechanism m\nstate x\nstate y\ninput d = %.6f\n"
+            "equation x' = %.6f [1/s]*(d - x)/(-1.1 - y^2) + 0.2 [1/s]\n"
+            "equation y' = %.6f [1/s]*(x - y)/(0.05 + y^2)/20\noutput o = x + y\noutput e = d\n"
+            "scene s { range d = -1 .. 1, x = -2 .. 2, y = -2 .. 2; start x = 0.3, y = %.6f; %s",
+            some(0.1, 0.3), some(-1.5, -0.5), some(0.5, 1), some(-0.6, 0.6), rest);
+    }
+}
+
+static fixed_plan *planned(derived *d, const char *text) {
+    *d = derived_scene(text, "s");
+    derived_expect(d, text);
+    diags *errors = diags_new();
+    fixed_plan *p = fixed_plan_make(d->image, false, errors);
+    if (p == NULL) {
+        diags_flush(errors, stdout);
+    }
+    diags_free(errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(p, text);
+    d->image->fixed = p;
+    return p;
+}
+
+static void drop(derived *d, fixed_plan *p) {
+    d->image->fixed = NULL;
+    fixed_plan_free(p);
+    derived_free(d);
+}
+
+/* Angles, then reals. */
+static void state_of(const engine_kind *kind, const image *im, const void *run, double *state) {
+    kind->state(run, state, state + im->angles);
+}
+
+/* The largest difference, each in its own fixed-point unit. */
+static double units_off(const image *im, const void *fixed, const void *exact) {
+    double is[ENGINE_MOST];
+    double wanted[ENGINE_MOST];
+    double most = 0.0;
+    state_of(&engine_fixed, im, fixed, is);
+    state_of(&engine_double, im, exact, wanted);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const double unit = engine_fixed.unit(fixed, i);
+        const double units = is[i] / unit;
+        TEST_ASSERT_TRUE(i < im->angles || units == rint(units)); /* stored values are integers */
+        most = fmax(most, fabs(is[i] - wanted[i]) / unit);
+    }
+    return most;
+}
+
+/* Bound on round-off: list results have errors of some units, a step has four of them, and positions integrate the
+ * rates' errors. A force with a squared rate has fewer digits than the rate. Maxima of 25 seeds: 482, 36, 631, 10 and
+ * 7. */
+static const double units_most[ENGINE_KINDS] = {1200.0, 90.0, 1600.0, 25.0, 25.0};
+
+TEST(engine_fixed, steps) {
+    double worst[ENGINE_KINDS] = {0.0};
+    for (int which = 0; which < ENGINE_KINDS; which++) {
+        for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
+            static char text[ENGINE_TEXT_SIZE];
+            derived d;
+            engine_write_mechanism(text, which);
+            fixed_plan *p = planned(&d, text);
+            const image *im = d.image;
+            void *fixed = engine_fixed.start(im);
+            void *exact = engine_double.start(im);
+            for (uint64_t k = 0; k < im->steps; k++) {
+                uint64_t most = 1;
+                TEST_ASSERT_EQUAL_UINT64(k, engine_fixed.steps(fixed));
+                TEST_ASSERT_EQUAL_UINT64(4 * k, engine_fixed.evaluations(fixed, &most));
+                TEST_ASSERT_EQUAL_UINT64(0, most);
+                worst[which] = fmax(worst[which], units_off(im, fixed, exact));
+                TEST_ASSERT_EQUAL_INT(WH_OK, engine_fixed.step(fixed));
+                TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(exact));
+                if (k == im->steps / 2) { /* another input from here on */
+                    const double input = im->input[0].value * some(0.2, 0.9);
+                    engine_fixed.set_input(fixed, 0, input);
+                    engine_double.set_input(exact, 0, input);
+                }
+            }
+            worst[which] = fmax(worst[which], units_off(im, fixed, exact));
+            TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, engine_fixed.saturated(fixed), text);
+            engine_fixed.stop(fixed);
+            engine_double.stop(exact);
+            drop(&d, p);
+        }
+        printf("  kind %d: %.1f units off\n", which, worst[which]);
+        TEST_ASSERT_TRUE(worst[which] < units_most[which] && worst[which] > 0.1);
+    }
+}
+
+/* Outputs belong to the reported state. An input is stored to half a unit and clamped to its range, with a count. */
+TEST(engine_fixed, outputs_and_inputs) {
+    for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
+        static char text[ENGINE_TEXT_SIZE];
+        derived d;
+        double output[4];
+        double is[ENGINE_MOST];
+        const int which = (int)(c % ENGINE_KINDS);
+        engine_write_mechanism(text, which);
+        fixed_plan *p = planned(&d, text);
+        const image *im = d.image;
+        void *run = engine_fixed.start(im);
+        for (int k = 0; k < 5; k++) {
+            (void)engine_fixed.step(run);
+        }
+        state_of(&engine_fixed, im, run, is);
+        engine_fixed.outputs(run, output);
+        const double wanted[ENGINE_KINDS] = {is[0] - 2.0 * is[1], is[1] * sin(is[0]), is[0] - is[1],
+                                             is[1] * is[2], is[0] + is[1]};
+        TEST_ASSERT_TRUE_MESSAGE(fabs(output[0] - wanted[which]) < 1e-13, text);
+        TEST_ASSERT_TRUE(which != 1 || output[2] == is[3]); /* a, x, a', x' */
+        const enclosure range = p->range[im->reals];
+        const double unit = ldexp(1.0, -p->format[im->reals].bits);
+        for (int k = 0; k < 20; k++) {
+            const double wished = range.low + some(-0.3, 1.3) * (range.high - range.low);
+            const double held = fmin(fmax(wished, range.low), range.high);
+            const uint64_t before = engine_fixed.saturated(run);
+            engine_fixed.set_input(run, 0, wished);
+            engine_fixed.outputs(run, output);
+            TEST_ASSERT_TRUE(fabs(output[1] - held) <= 1.01 * unit);
+            const bool is_out = fabs(wished - held) > 2.0 * unit;
+            TEST_ASSERT_TRUE(engine_fixed.saturated(run) - before == (is_out ? 1U : 0U) ||
+                             (!is_out && wished != held));
+            TEST_ASSERT_TRUE(is_out || wished != held || fabs(output[1] - wished) <= 0.501 * unit);
+        }
+        engine_fixed.stop(run);
+        drop(&d, p);
+    }
+}
+
+/* The same run has the same hash after each step, and the next step another; no failures, no events. */
+TEST(engine_fixed, asked) {
+    for (unsigned c = 0; c < dice_cases(usual_or(5, 5)); c++) {
+        static char text[ENGINE_TEXT_SIZE];
+        derived d;
+        engine_write_mechanism(text, (int)(c % ENGINE_KINDS));
+        fixed_plan *p = planned(&d, text);
+        void *one = engine_fixed.start(d.image);
+        void *other = engine_fixed.start(d.image);
+        for (int k = 0; k < 10; k++) {
+            uint64_t overruns = 1;
+            const uint64_t before = engine_fixed.hash(one);
+            engine_event happened[WH_EVENT_LOG];
+            TEST_ASSERT_EQUAL_HEX64(before, engine_fixed.hash(other));
+            (void)engine_fixed.step(one);
+            TEST_ASSERT_TRUE(before != engine_fixed.hash(one));
+            (void)engine_fixed.step(other);
+            TEST_ASSERT_EQUAL_INT(-1, engine_fixed.fault(one));
+            TEST_ASSERT_EQUAL_UINT64(0, engine_fixed.events(one, &overruns));
+            TEST_ASSERT_EQUAL_UINT64(0, overruns);
+            TEST_ASSERT_EQUAL_INT(0, engine_fixed.happened(one, happened));
+        }
+        TEST_ASSERT_TRUE(strcmp(engine_fixed.name, "fixed") == 0 && engine_fixed.digits == 9);
+        engine_fixed.stop(one);
+        engine_fixed.stop(other);
+        drop(&d, p);
+    }
+}
+
+void suite_engine_fixed(void) { die = dice_of("engine_fixed", 52); }

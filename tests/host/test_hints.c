@@ -1,10 +1,7 @@
 /* test_hints.c: a hint on dry friction written by hand, and no hint on similar formulas. */
-#include <stdio.h>
-
 #include "derived.h"
 #include "host/lang/hints.h"
 #include "parsed.h"
-#include "unity.h"
 
 void suite_hints(void);
 

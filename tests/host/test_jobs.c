@@ -1,10 +1,8 @@
 /* test_jobs.c: worker processes of a sweep (host/study/jobs.h). Rows stay in order, whichever
  * worker ends first. Also: a lost worker, refused rows, and a low limit of open files. */
-#define _POSIX_C_SOURCE 200809L
-#include <math.h>
+#include "test.h"
+
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
@@ -14,9 +12,6 @@
 #include "host/base/alloc.h"
 #include "host/os/jobs.h"
 #include "host/study/session.h"
-#include "unity.h"
-
-void suite_jobs(void);
 
 enum { FIRST = 5, END = 205, ENOUGH = 40 };
 
@@ -105,7 +100,7 @@ static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
     return result;
 }
 
-static void test_rows_come_in_order_from_any_number_of_workers(void) {
+TEST(jobs, rows_come_in_order_from_any_number_of_workers) {
     static const int workers[] = {1, 2, 3, 16};
     for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
         log_of_rows log;
@@ -117,7 +112,7 @@ static void test_rows_come_in_order_from_any_number_of_workers(void) {
     }
 }
 
-static void test_rows_wait_for_the_one_before_them(void) {
+TEST(jobs, rows_wait_for_the_one_before_them) {
     for (int workers = 2; workers <= 5; workers++) {
         log_of_rows log;
         TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, workers, held_up_work));
@@ -125,7 +120,7 @@ static void test_rows_wait_for_the_one_before_them(void) {
     }
 }
 
-static void test_refused_rows_end_it(void) {
+TEST(jobs, refused_rows_end_it) {
     log_of_rows log;
     TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, ENOUGH, 3, slow_work));
     TEST_ASSERT_TRUE(log.next == ENOUGH);
@@ -138,7 +133,7 @@ static bool die_at_20(void *context, uint64_t point, FILE *row, FILE *reason) {
     return slow_work(context, point, row, reason);
 }
 
-static void test_a_lost_worker_is_noticed(void) {
+TEST(jobs, a_lost_worker_is_noticed) {
     log_of_rows log;
     TEST_ASSERT_EQUAL_INT(JOBS_WORKER_LOST, (int)run_rows(&log, END + 1, 2, die_at_20));
     TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
@@ -157,7 +152,7 @@ static bool quick_work(void *context, uint64_t point, FILE *row, FILE *reason) {
 
 /* With a low limit of open files, either fewer workers deliver all rows or Whirl reports an error.
  * No file or block leaks. */
-static void test_few_files(void) {
+TEST(jobs, few_files) {
     struct rlimit usual;
     int done = 0;
     const int before = open_files();
@@ -198,7 +193,7 @@ static bool interrupted_work(void *context, uint64_t point, FILE *row, FILE *rea
     return quick_work(context, point, row, reason);
 }
 
-static void test_interrupts_are_the_parent_s(void) {
+TEST(jobs, interrupts_are_the_parent_s) {
     log_of_rows log;
     void (*const before)(int) = signal(SIGINT, SIG_DFL);
     TEST_ASSERT_EQUAL_INT(JOBS_DONE, (int)run_rows(&log, END + 1, 3, interrupted_work));
@@ -214,7 +209,7 @@ static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason)
     return quick_work(context, point, row, reason);
 }
 
-static void test_workers_end_when_they_are_told(void) {
+TEST(jobs, workers_end_when_they_are_told) {
     log_of_rows log;
     struct timespec begin;
     struct timespec end;
@@ -242,7 +237,7 @@ static void finish(progress *p) {
     free(shown);
 }
 
-static void test_what_is_shown(void) {
+TEST(jobs, what_is_shown) {
     static const struct {
         double ago_s;
         uint64_t from, done, end;
@@ -266,7 +261,7 @@ static void test_what_is_shown(void) {
 }
 
 /* The line is not drawn twice in a row. Zero of zero points are 100 %. Without a terminal no line is drawn. */
-static void test_when_it_is_shown(void) {
+TEST(jobs, when_it_is_shown) {
     progress p = begun(1.0, 0, 0);
     progress_show(&p, 0);
     TEST_ASSERT_NOT_NULL(strstr(shown, "100.0 %"));
@@ -293,16 +288,4 @@ static void test_when_it_is_shown(void) {
     progress_clear(&unseen);
     TEST_ASSERT_FALSE(unseen.drawn);
     TEST_ASSERT_TRUE(progress_elapsed_s(&unseen) >= 0.0 && progress_elapsed_s(&unseen) < 60.0);
-}
-
-void suite_jobs(void) {
-    RUN_TEST(test_rows_come_in_order_from_any_number_of_workers);
-    RUN_TEST(test_rows_wait_for_the_one_before_them);
-    RUN_TEST(test_refused_rows_end_it);
-    RUN_TEST(test_a_lost_worker_is_noticed);
-    RUN_TEST(test_few_files);
-    RUN_TEST(test_interrupts_are_the_parent_s);
-    RUN_TEST(test_workers_end_when_they_are_told);
-    RUN_TEST(test_what_is_shown);
-    RUN_TEST(test_when_it_is_shown);
 }

@@ -1,17 +1,11 @@
 /* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h). The divisors of drawn equations and forces
  * come near zero and never reach it. A warning must appear if the run crossed the pole, and only then. The last state
  * alone shows whether it crossed. False alarms: test_unjumped.c. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "blocks.h"
 #include "host/check/pole_crossing.h"
 #include "host/cli/commands.h"
 #include "jumps.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_jumped(void);
 
@@ -71,7 +65,7 @@ static void knee_text(char text[JUMPS_TEXT], unsigned which, double v, double k,
              v, k, knees[which], s, step_s, until_s);
 }
 
-static void test_knees(void) {
+TEST(jumped, knees) {
     unsigned told = 0;
     unsigned kept = 0;
     unsigned cured = 0;
@@ -114,7 +108,7 @@ static void test_knees(void) {
 }
 
 /* Compared with a run of the test's own: start of the step and number of the expression. No memory leaks. */
-static void test_when(void) {
+TEST(jumped, when) {
     for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 0.5, 2.0);
@@ -147,7 +141,7 @@ static void test_when(void) {
 }
 
 /* In bends this narrow, half steps jump too, and the two runs may agree. No result after the jump is trusted. */
-static void test_trust(void) {
+TEST(jumped, trust) {
     for (unsigned c = 0; c < jumps_cases(KNEES, 8 * KNEES, 3); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 0.5, 2.0);
@@ -167,7 +161,7 @@ static void test_trust(void) {
 }
 
 /* The force of this brake vanishes with the rate, so its energy balances everywhere. */
-static void test_forces(void) {
+TEST(jumped, forces) {
     static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
                                          "-B*(1 - v0/(v0 + x'))"};
     unsigned told = 0;
@@ -200,7 +194,7 @@ static void test_forces(void) {
 }
 
 /* An angle passes a zero of a dividing cosine or tangent without a step near it. w is its rate. */
-static void test_angles(void) {
+TEST(jumped, angles) {
     static const char *const poles[] = {"1/cos(th - %.17g [rad])", "tan(th - %.17g [rad])",
                                         "1/tan(th - %.17g [rad])",
                                         "1/(2*sin(th/2 - %.17g [rad])*cos(th/2 - %.17g [rad]))"};
@@ -225,7 +219,7 @@ static void test_angles(void) {
 }
 
 /* The warning names the equation with the crossed divisor, among others of any order and place. */
-static void test_which_equation_is_told(void) {
+TEST(jumped, which_equation_is_told) {
     static const char *const others[] = {"equation p'' = -p*9 [1/s^2]\n",
                                          "equation q' = (1 + p*p)*rate\n"};
     static const char *const states[] = {"state s\n", "state p\n", "state q\n"};
@@ -257,7 +251,7 @@ static void test_which_equation_is_told(void) {
 }
 
 /* Far from the origin positions have few digits: exponential growth and a saturating motion. */
-static void test_far_away(void) {
+TEST(jumped, far_away) {
     static const char *const laws[] = {"1/(s - a)", "sin(s - a)/(s - a)", "(s - a)^(-2)",
                                        "(s^2 - a^2)/(s - a)"};
     for (unsigned c = 0; c < jumps_cases(12, 60, 4); c++) {
@@ -275,13 +269,4 @@ static void test_far_away(void) {
     }
 }
 
-void suite_jumped(void) {
-    die = dice_of("jumped", 51);
-    RUN_TEST(test_knees);
-    RUN_TEST(test_when);
-    RUN_TEST(test_trust);
-    RUN_TEST(test_forces);
-    RUN_TEST(test_angles);
-    RUN_TEST(test_which_equation_is_told);
-    RUN_TEST(test_far_away);
-}
+void suite_jumped(void) { die = dice_of("jumped", 51); }

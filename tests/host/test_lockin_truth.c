@@ -3,16 +3,11 @@
  * The truth is the first Fourier coefficient, over the angle, of the force of a rotor. It is integrated finely in
  * double (rig_orbit.c) without noise. The measurement has noise of the cell and jitter of the marks. Seeds are fixed.
  * WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000 runs of each kind, `make test` fewer, and prints the results. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "command.h"
 #include "core/rig/datasheet.h"
 #include "hal/virtual/virtual_rig.h"
 #include "rig_orbit.h"
 #include "tests/scattered.h"
-#include "unity.h"
 
 void suite_lockin_truth(void);
 
@@ -98,7 +93,7 @@ static void print_row(double rpm, const rig_noise *noise) {
 }
 
 /* In float, with the tare, over the whole range of states. */
-static void test_the_plant_is_the_model(void) {
+TEST(lockin_truth, the_plant_is_the_model) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
     TEST_ASSERT_TRUE(wh_scene_start(&rig_fixed, &state, memory, sizeof memory) == WH_OK);
@@ -123,7 +118,7 @@ static void test_the_plant_is_the_model(void) {
 /* At any mean speed, a rotor on a fixed mount in a periodic motion has its force in line with the
  * masses, of size S <w^2>. Proof: integrate F cos and F sin over the angle by parts. With swing E
  * of the speed, to second order, that is S W^2 (1 + 3/2 E^2), W the mean speed. */
-static void test_the_truth_is_what_theory_says(void) {
+TEST(lockin_truth, the_truth_is_what_theory_says) {
     static const double rpm[] = {170.0, 330.0};
     for (unsigned i = 0; i < 2; i++) {
         rig_orbit_find(&rig_plant_nominal, rpm[i], LEAD_RAD, &orbit);
@@ -162,7 +157,7 @@ static void check_scatter(const rig_noise *noise) {
 }
 
 /* Bias at most 0.5 % and 0.5 degrees. */
-static void test_bias_and_scatter(void) {
+TEST(lockin_truth, bias_and_scatter) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {
         rig_orbit_find(&rig_plant_nominal, rpm[k], LEAD_RAD, &orbit);
@@ -180,7 +175,7 @@ static void test_bias_and_scatter(void) {
 
 /* The same with a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN, noise of half a count.
  * Without noise a crest repeats one value longer than a working cell would. The result must still be honest. */
-static void test_a_converter_of_twelve_bits(void) {
+TEST(lockin_truth, a_converter_of_twelve_bits) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {
         rig_orbit_find(&rig_plant_nominal, rpm[k], LEAD_RAD, &orbit);
@@ -204,7 +199,7 @@ static void test_a_converter_of_twelve_bits(void) {
 }
 
 /* At 330 rpm: 93 to 97 % of 1,000 runs lie within their interval, and the intervals are not wider than needed. */
-static void test_intervals_hold_what_they_promise(void) {
+TEST(lockin_truth, intervals_hold_what_they_promise) {
     static const double cells_N[] = {0.5, 1.0, 3.0};
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 6; i++) {
@@ -224,7 +219,7 @@ static void test_intervals_hold_what_they_promise(void) {
 }
 
 /* With the cell's own noise the floors dominate: at least 95 % lie within 0.1 % and 0.1 degrees. */
-static void test_intervals_where_floors_rule(void) {
+TEST(lockin_truth, intervals_where_floors_rule) {
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 2; i++) {
         const rig_noise noise = {.cell_N = 0.07, .jitter_s = i == 0 ? 0.0 : 60e-6};
@@ -246,7 +241,7 @@ static double drawn(double least, double most) {
 }
 
 /* Inertia and friction are drawn within 30 %, at the slowest set-point. */
-static void test_drawn_rotors(void) {
+TEST(lockin_truth, drawn_rotors) {
     for (unsigned i = 0; i < 2; i++) {
         const rig_noise noise = {.cell_N = i == 0 ? 0.07 : 1.0, .jitter_s = i == 0 ? 0.0 : 60e-6};
         const unsigned runs = few_or_all(20, 1000);
@@ -300,7 +295,7 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
 /* From the speed at which the motor can just brake as much as required, the result is within 1 % and 1 degree. The
  * compensation is wrong by up to 30 %, the inertia 50 % higher or 30 % lower. Slower, the rotor cannot pass the top
  * by itself and the motor cannot brake enough. There only the right compensation passes. */
-static void test_what_is_fed_does_not_show(void) {
+TEST(lockin_truth, what_is_fed_does_not_show) {
     static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {
         {1.0, 0.0, 1.0, 1.0},   {1.1, 0.0, 1.0, 1.0}, {0.7, 0.0, 1.0, 1.0}, {1.0, 0.02, 1.0, 1.0},
@@ -328,7 +323,7 @@ static void test_what_is_fed_does_not_show(void) {
 
 /* The angle of the compensation is wrong by a normal number; the tolerance is two standard
  * deviations. The interval covers the truth as often as promised. */
-static void test_intervals_while_fed(void) {
+TEST(lockin_truth, intervals_while_fed) {
     const rig_noise noise = {.cell_N = 1.0, .jitter_s = 60e-6};
     rotor.fed_tolerance_rad = (wh_real)0.02;
     const unsigned runs = few_or_all(40, 1000);
@@ -360,7 +355,7 @@ static void test_intervals_while_fed(void) {
 
 /* Faults of the cell at all speeds: a result marked good is right within its interval plus 1 %. Gain errors below 5 %
  * are exempt, because only calibration finds them. Some results must be good. */
-static void test_no_fault_is_called_good(void) {
+TEST(lockin_truth, no_fault_is_called_good) {
     static const rig_noise faults[] = {
         {.cell_N = 0.07, .frozen_s = 0.1},
         {.cell_N = 0.0, .frozen_s = 0.1},
@@ -403,16 +398,4 @@ static void test_no_fault_is_called_good(void) {
     TEST_ASSERT_TRUE(good > 0 && doubtful > 0);
 }
 
-void suite_lockin_truth(void) {
-    rig_measure_config(&judged, &rotor, &cell);
-    RUN_TEST(test_the_plant_is_the_model);
-    RUN_TEST(test_the_truth_is_what_theory_says);
-    RUN_TEST(test_bias_and_scatter);
-    RUN_TEST(test_a_converter_of_twelve_bits);
-    RUN_TEST(test_intervals_hold_what_they_promise);
-    RUN_TEST(test_intervals_where_floors_rule);
-    RUN_TEST(test_drawn_rotors);
-    RUN_TEST(test_what_is_fed_does_not_show);
-    RUN_TEST(test_intervals_while_fed);
-    RUN_TEST(test_no_fault_is_called_good);
-}
+void suite_lockin_truth(void) { rig_measure_config(&judged, &rotor, &cell); }

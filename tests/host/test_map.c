@@ -1,20 +1,14 @@
 /* test_map.c: stability maps of drawn springs, dampers and decays, per method, compared with closed forms from both
  * sides. Limits: unbounded runs, tolerance, energy. Also pairs without a run, interrupted maps and refused words. */
+#include "test.h"
+
 #include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "command.h"
 #include "derived.h"
 #include "host/cli/commands.h"
 #include "host/os/system.h"
 #include "host/study/stability_map.h"
-
-#include "unity.h"
-
-void suite_map(void);
 
 typedef struct drawn_map {
     derived d;
@@ -151,7 +145,7 @@ static void hold_drawn(dice *d, const char *text, wh_method method, const char *
 }
 
 /* m x'' + c x' + k x = 0 of any mass and stiffness, undamped and underdamped. */
-static void test_springs_of_all_methods(void) {
+TEST(map, springs_of_all_methods) {
     dice d = dice_of("map", 1421);
     const unsigned cases = dice_cases(few_or_all(1, 6) * ROWS);
     tally sum = {0};
@@ -187,7 +181,7 @@ static void test_springs_of_all_methods(void) {
 }
 
 /* x' = -a x, without an energy. */
-static void test_decays_of_all_methods(void) {
+TEST(map, decays_of_all_methods) {
     dice d = dice_of("map decays", 1422);
     const unsigned cases = dice_cases(few_or_all(4, 32));
     tally sum = {0};
@@ -217,7 +211,7 @@ static const char spring_text[] =
     "T = m*x'^2/2\nV = k*x^2/2\nscene s { start x = 1 [m]; step 1 [s]; until 200 [s] }\n";
 
 /* Explicit Euler and Heun are never stable for an undamped oscillation. */
-static void test_no_limit(void) {
+TEST(map, no_limit) {
     const wh_method methods[] = {WH_EULER, WH_HEUN};
     for (int i = 0; i < 2; i++) {
         drawn_map m;
@@ -230,7 +224,7 @@ static void test_no_limit(void) {
 
 /* From 90 degrees a pendulum swings wider in each long step and goes over the top, a little below the limit of its small swings,
  * 2.83 root(l/g). No longer step is taken for stable again, up to ten times the limit, in a run of nine to 35 such steps. */
-static void test_pendulums_from_a_right_angle(void) {
+TEST(map, pendulums_from_a_right_angle) {
     static const char text[] = "mechanism pendulum\ncoordinate a [rad]\nparameter l = 0.19 [m]\n"
                                "T = 1 [kg]*(l*a')^2/2\nV = -9.81 [N]*l*cos(a)\n"
                                "scene s { start a = 90 [deg]; step 1 [ms]; until 5 [s] }\n";
@@ -253,7 +247,7 @@ static void test_pendulums_from_a_right_angle(void) {
 
 /* Growth by 20 is bounded, by 1e4 is not. If half the step is too long as well, the two runs grow
  * alike, and the finest run of the row decides. */
-static void test_what_bounds_are(void) {
+TEST(map, what_bounds_are) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {
         const double w = pow(10.0, dice_between(&d, -1.0, 2.0));
@@ -286,7 +280,7 @@ static void test_what_bounds_are(void) {
  * T these are w T z^4/120 of the amplitude (half of it relative to the range) and w T z^5/72 of
  * the energy. The largest entry of its balance is the work on changes of speed. It is half the RMS
  * momentum times the swing of the rate: root 2 of the energy. */
-static void test_where_a_tolerance_and_the_energy_end(void) {
+TEST(map, where_a_tolerance_and_the_energy_end) {
     dice d = dice_of("map tolerance", 1423);
     const unsigned cases = dice_cases(few_or_all(4, 32));
     unsigned seen[MAP_VERDICTS] = {0};
@@ -327,7 +321,7 @@ static void test_where_a_tolerance_and_the_energy_end(void) {
 }
 
 /* Without mass there is no acceleration, beyond the stop no start, and a step longer than the run is no step. */
-static void test_pairs_without_a_run(void) {
+TEST(map, pairs_without_a_run) {
     static const char ball[] =
         "mechanism ball\ncoordinate z [m]\nparameter e = 0.5\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"
         "stop z >= 0 [m] restitution e\n"
@@ -353,7 +347,7 @@ static void stop_after_six(double runs, void *told) {
     interrupted = runs >= 6.0;
 }
 
-static void test_stopped_maps_keep_what_is_done(void) {
+TEST(map, stopped_maps_keep_what_is_done) {
     drawn_map m;
     open_map(
         &m, &(map_asked){spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, stop_after_six});
@@ -374,7 +368,7 @@ static void test_stopped_maps_keep_what_is_done(void) {
     close_map(&m);
 }
 
-static void test_words_that_are_refused(void) {
+TEST(map, words_that_are_refused) {
     static const char *const wrong[][10] = {
         {"two_mass_relative", NULL},
         {"two_mass_relative", "--over", "step=1ms..10ms:3", NULL},
@@ -394,16 +388,4 @@ static void test_words_that_are_refused(void) {
             strstr(what.err, "error: ") != NULL || strstr(what.err, "usage: ") != NULL, what.err);
         TEST_ASSERT_EQUAL_STRING("", what.out);
     }
-}
-
-void suite_map(void) {
-    RUN_TEST(test_springs_of_all_methods);
-    RUN_TEST(test_decays_of_all_methods);
-    RUN_TEST(test_no_limit);
-    RUN_TEST(test_pendulums_from_a_right_angle);
-    RUN_TEST(test_what_bounds_are);
-    RUN_TEST(test_where_a_tolerance_and_the_energy_end);
-    RUN_TEST(test_pairs_without_a_run);
-    RUN_TEST(test_stopped_maps_keep_what_is_done);
-    RUN_TEST(test_words_that_are_refused);
 }

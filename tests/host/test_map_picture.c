@@ -1,9 +1,7 @@
 /* test_map_picture.c: stability maps as pictures, words and CSV: made-up maps, compared with map_picture.txt. `cat` stands in
  * for gnuplot, so that its "picture" is the script. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
+
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,10 +9,6 @@
 
 #include "caught.h"
 #include "derived.h"
-
-#include "unity.h"
-
-void suite_map_picture(void);
 
 #define PICTURE "build/tests/drawn_map.svg"
 #define PLAYERS "build/tests/players"
@@ -126,7 +120,7 @@ static void copy_picture(FILE *out, const shown *s) {
     fclose(in);
 }
 
-static void test_pictures_that_cannot_be_drawn(void) {
+TEST(map_picture, pictures_that_cannot_be_drawn) {
     shown s;
     made_up_map(&s, 0);
     TEST_ASSERT_FALSE(map_plot("build/tests/none/map.svg", &s.map, "words"));
@@ -135,7 +129,7 @@ static void test_pictures_that_cannot_be_drawn(void) {
     stop_playing(path);
 }
 
-static void test_maps_are_shown_as_before(void) {
+TEST(map_picture, maps_are_shown_as_before) {
     char *path = play_gnuplot("cat && echo '</svg>'");
     caught all;
     catch_text(&all);
@@ -172,7 +166,7 @@ static void hear(double runs, void *told) {
 }
 
 /* Progress counts finished runs plus the fraction of the current one. It never decreases and ends at the total. */
-static void test_progress_goes_on(void) {
+TEST(map_picture, progress_goes_on) {
     static const char *const text =
         "mechanism m\ncoordinate x [m]\nparameter k = 1 [N/m]\nT = 1 [kg]*x'^2/2\nV = k*x^2/2\n"
         "scene s {\n start x = 1 [m]\n step 1 [ms]\n until 20 [s]\n}\n";
@@ -208,10 +202,4 @@ static void test_progress_goes_on(void) {
         diags_free(errors);
         derived_free(&d);
     }
-}
-
-void suite_map_picture(void) {
-    RUN_TEST(test_pictures_that_cannot_be_drawn);
-    RUN_TEST(test_maps_are_shown_as_before);
-    RUN_TEST(test_progress_goes_on);
 }

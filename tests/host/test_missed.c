@@ -1,17 +1,10 @@
 /* test_missed.c: contacts and forces thinner than the path of a step. Hits on round posts follow closed forms
  * (core/contact/contact_step.h). Passing a latch, flat wall, edge or hill of potential energy gives a warning
  * (host/check/missed.h); a right run gives none. WHIRL_CASES=2000 WHIRL_SEED=... draws more or other cases. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "command.h"
 #include "contacts.h"
 #include "hybrid.h"
 #include "jumps.h"
-#include "unity.h"
-
-void suite_missed(void);
 
 enum { TEXT = 1500 };
 
@@ -96,7 +89,7 @@ static const char *const posts[] = {
 enum { POSTS = sizeof posts / sizeof posts[0] };
 
 /* Posts of 0.1 to 32 mm, hit at the centre, off it, or not at all; restitution 1. */
-static void test_posts(void) {
+TEST(missed, posts) {
     dice d = dice_of("missed", 1);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 120));
     unsigned thin = 0;
@@ -160,7 +153,7 @@ static const char *const flats[] = {
 enum { FLATS = sizeof flats / sizeof flats[0] };
 
 /* Latches, walls, and a hill higher than the body's energy: hit, or a warning. */
-static void test_flat_ones(void) {
+TEST(missed, flat_ones) {
     dice d = dice_of("missed", 2);
     const unsigned cases = dice_cases(few_or_all(112, 224));
     unsigned told = 0;
@@ -192,7 +185,7 @@ static void test_flat_ones(void) {
 }
 
 /* The remedy in a warning, pasted, gives a run without it: a shorter step, or an earlier end if no step suffices. */
-static void test_ways_out(void) {
+TEST(missed, ways_out) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(few_or_all(usual_or(26, 13), 130));
     unsigned ways[2] = {0, 0};
@@ -225,7 +218,7 @@ static void test_ways_out(void) {
 }
 
 /* A hill after a pole (the tip of a weak force's cone) on the path: a warning about either. */
-static void test_hills_behind_a_tip(void) {
+TEST(missed, hills_behind_a_tip) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);
     unsigned met = 0;
@@ -271,7 +264,7 @@ static const char *const narrow[] = {
 enum { NARROW = sizeof narrow / sizeof narrow[0] };
 
 /* Friction limits and crossings that exist only within a step: y follows the closed form, or there is a warning. */
-static void test_narrow_limits_and_crossings(void) {
+TEST(missed, narrow_limits_and_crossings) {
     dice d = dice_of("missed", 6);
     const unsigned cases = dice_cases(few_or_all(48, 240));
     unsigned told = 0;
@@ -329,7 +322,7 @@ static double pass_least_m(const flight *f, const pass *p) {
 
 /* Moving posts, on the other body or a turning disk; pairs of them; and latches between two circles. Each is hit as
  * on straight lines, or there is a warning. */
-static void test_moving_ones(void) {
+TEST(missed, moving_ones) {
     dice d = dice_of("missed", 4);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 120));
     unsigned hits = 0;
@@ -451,7 +444,7 @@ static bool is_right(const motion *m, const char *of, stepping how) {
 }
 
 /* Random linkages with stops and frictions, and wide contacts: no warning if the run is right. */
-static void test_right_runs(void) {
+TEST(missed, right_runs) {
     dice d = dice_of("missed", 3);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 120));
     uint64_t seed = d.state;
@@ -502,7 +495,7 @@ enum { FACES = sizeof faces / sizeof faces[0], FACES_ENDING = FACES - 2 };
 
 /* A body slides on a face and, in half of the runs, over its edge into flight: a right run or a warning. On the face
  * there is never a warning. */
-static void test_edges(void) {
+TEST(missed, edges) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(60);
     unsigned told = 0;
@@ -528,15 +521,4 @@ static void test_edges(void) {
         motion_close(&m);
     }
     TEST_ASSERT_TRUE(told * 5 > cases);
-}
-
-void suite_missed(void) {
-    RUN_TEST(test_posts);
-    RUN_TEST(test_flat_ones);
-    RUN_TEST(test_ways_out);
-    RUN_TEST(test_hills_behind_a_tip);
-    RUN_TEST(test_narrow_limits_and_crossings);
-    RUN_TEST(test_moving_ones);
-    RUN_TEST(test_right_runs);
-    RUN_TEST(test_edges);
 }

@@ -1,13 +1,8 @@
 /* test_pole.c: poles on a path (host/check/pole.h), for drawn products of powers. Exponents are integers or fractions.
  * Also zeros nearby, one-sided poles, differences that are only round-off, and divisors with two changes of sign. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-
 #include "command.h"
 #include "host/check/pole.h"
 #include "host/number/functions.h"
-#include "unity.h"
 
 void suite_pole(void);
 
@@ -47,7 +42,7 @@ static int pole_of(void *of, void (*is_at)(void *of, double share, double *sign,
     return pole_on(&(pole_way){of, SIGNS, VALUES, nearest, is_at});
 }
 
-static void test_powers(void) {
+TEST(pole, powers) {
     static const double orders[] = {0.0, 0.3, 0.5, 2.0 / 3.0, 0.8,  1.0,
                                     1.5, 2.0, 3.0, 7.0,       60.0, 200.0};
     enum { ORDERS = sizeof orders / sizeof orders[0] };
@@ -71,7 +66,7 @@ static void test_powers(void) {
 
 /* The pole is found by the function that touches zero, as accurately as its digits allow; also 1 - cos(x) as a
  * divisor. */
-static void test_what_touches(void) {
+TEST(pole, what_touches) {
     static const double orders[] = {0.0, 0.3, 0.5, 0.8, 1.0, 2.0, 3.0, 4.0};
     enum { ORDERS = sizeof orders / sizeof orders[0] };
     for (unsigned c = 0; c < dice_cases(600); c++) {
@@ -88,7 +83,7 @@ static void test_what_touches(void) {
 }
 
 /* Parabolas with a minimum below, at and above zero. */
-static void test_what_may_touch(void) {
+TEST(pole, what_may_touch) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         const double least = dice_between(&die, 0.01, 3.0) * (c % 3 == 0 ? 1.0 : 0.0);
         const double place = dice_between(&die, -0.5, 1.5);
@@ -126,7 +121,7 @@ static void at_shifted(void *of, double share, double *sign, double *value) {
     sign[1] = share - d->zero;
 }
 
-static void test_leaps_and_few_digits(void) {
+TEST(pole, leaps_and_few_digits) {
     for (unsigned c = 0; c < dice_cases(100); c++) {
         drawn d = {.place = dice_between(&die, 0.1, 0.9), .beside = dice_between(&die, 0.0, 1.0)};
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_leaps, 1.0));
@@ -180,7 +175,7 @@ static void at_difference(void *of, double share, double *sign, double *value) {
     value[1] = difference_at(d->which, x);
 }
 
-static void test_what_rounding_leaves(void) {
+TEST(pole, what_rounding_leaves) {
     for (unsigned c = 0; c < dice_cases(350); c++) {
         const double size = exp(dice_between(&die, -17.0, -0.1));
         difference d = {.which = (difference_kind)(c % DIFFERENCES),
@@ -202,7 +197,7 @@ static void at_touched(void *of, double share, double *sign, double *value) {
     value[1] = d->zeros == 0 ? x * x / square : number_power(fabs(square), -0.4);
 }
 
-static void test_what_has_no_digits(void) {
+TEST(pole, what_has_no_digits) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         drawn d = {.place = dice_between(&die, -1.0, 1.0),
                    .order = exp(dice_between(&die, -5.0, 0.0)),
@@ -223,7 +218,7 @@ static void at_standing(void *of, double share, double *sign, double *value) {
     value[1] = d->zeros == 0 ? 1.0 / sign[1] : 1.0 / sign[0];
 }
 
-static void test_what_stands_off(void) {
+TEST(pole, what_stands_off) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         drawn d = {.place = dice_between(&die, 0.1, 0.9),
                    .order = exp(dice_between(&die, -5.0, 0.0)),
@@ -243,7 +238,7 @@ static void at_twice(void *of, double share, double *sign, double *value) {
     value[1] = 1.0 / sign[1];
 }
 
-static void test_what_changes_twice(void) {
+TEST(pole, what_changes_twice) {
     for (unsigned c = 0; c < dice_cases(60); c++) {
         drawn d = {.place = dice_between(&die, 0.3, 0.7),
                    .order = exp(dice_between(&die, -15.0, -1.5))};
@@ -253,14 +248,4 @@ static void test_what_changes_twice(void) {
     }
 }
 
-void suite_pole(void) {
-    die = dice_of("pole", 61);
-    RUN_TEST(test_powers);
-    RUN_TEST(test_what_touches);
-    RUN_TEST(test_what_may_touch);
-    RUN_TEST(test_leaps_and_few_digits);
-    RUN_TEST(test_what_rounding_leaves);
-    RUN_TEST(test_what_has_no_digits);
-    RUN_TEST(test_what_stands_off);
-    RUN_TEST(test_what_changes_twice);
-}
+void suite_pole(void) { die = dice_of("pole", 61); }

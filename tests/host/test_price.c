@@ -1,13 +1,6 @@
 /* test_price.c: cost of operation lists for expressions of known least cost: no one writes them shorter by hand.
  * Values are checked elsewhere. Also extrapolation and trials. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <float.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/base/alloc.h"
 #include "host/fixed/engine_fixed.h"
@@ -19,12 +12,6 @@
 #include "command.h"
 #include "derived.h"
 #include "priced.h"
-
-#include "unity.h"
-
-void suite_price(void);
-void suite_price_control(void);
-void suite_price_dearest(void);
 
 /* === price ==================================================================================== */
 
@@ -70,7 +57,7 @@ static void expect(price got, int operations, int waves, const char *what) {
 /* --- sums and products ------------------------------------------------------------------------------------- */
 
 /* Horner's scheme: a product and a sum per power. */
-static void test_polynomials_take_two_operations_a_power(void) {
+TEST(price, polynomials_take_two_operations_a_power) {
     for (int degree = 1; degree <= 9; degree++) {
         char sum[400] = "1";
         for (int k = 1; k <= degree; k++) {
@@ -82,7 +69,7 @@ static void test_polynomials_take_two_operations_a_power(void) {
 }
 
 /* By squaring: binary digits plus ones of the exponent, less two. */
-static void test_powers_take_few_products(void) {
+TEST(price, powers_take_few_products) {
     for (int exponent = 2; exponent <= 64; exponent++) {
         int products = -2;
         for (int rest = exponent; rest > 0; rest /= 2) {
@@ -97,7 +84,7 @@ static void test_powers_take_few_products(void) {
     }
 }
 
-static void test_equal_coefficients_are_taken_out(void) {
+TEST(price, equal_coefficients_are_taken_out) {
     uint64_t seed = 17;
     for (int count = 2; count <= 7; count++) {
         for (int round = 0; round < 8; round++) {
@@ -116,7 +103,7 @@ static void test_equal_coefficients_are_taken_out(void) {
 }
 
 /* Nested as written: x0 (2 x1 + x2 (3 x3 + x4 (5 x5 + 7 x6))), and with another x0 in each part. */
-static void test_factors_are_taken_out_again(void) {
+TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*(2*x1 + 3*x2)"), 4, 0, "one factor");
     expect(price_of("x0*(2*x1 + x2*(3*x3 + 5*x4))"), 7, 0, "a factor inside");
     expect(price_of("x0*(2*x1 + x2*(3*x3 + x4*(5*x5 + 7*x6)))"), 10, 0, "two factors inside");
@@ -127,7 +114,7 @@ static void test_factors_are_taken_out_again(void) {
 }
 
 /* Odd powers of a root share it. */
-static void test_what_is_the_same_is_computed_once(void) {
+TEST(price, what_is_the_same_is_computed_once) {
     static const char *const of[] = {"exp(x0)",    "sqrt(x0)",    "atan2(x0, x1)", "abs(x0)",
                                      "log(x0*x1)", "max(x0, x1)", "sin(x0*x1)"};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
@@ -139,7 +126,7 @@ static void test_what_is_the_same_is_computed_once(void) {
 
 /* --- sines --------------------------------------------------------------------------------------------------- */
 
-static void test_sines_of_multiples_follow_from_one(void) {
+TEST(price, sines_of_multiples_follow_from_one) {
     uint64_t seed = 19;
     for (int round = 0; round < 24; round++) {
         char sum[400] = "7*sin(a)*x0";
@@ -160,7 +147,7 @@ static void test_sines_of_multiples_follow_from_one(void) {
 }
 
 /* Powers of sines stay powers where their sums would lose digits and cost more. */
-static void test_powers_of_sines_are_put_back(void) {
+TEST(price, powers_of_sines_are_put_back) {
     for (int n = 1; n <= 7; n++) {
         char what[60];
         int products = -2;
@@ -206,7 +193,7 @@ static int price_of_system(int n) {
 }
 
 /* Up to three by Cramer's rule. Each further one by elimination: divide a column, subtract its row, substitute back. */
-static void test_equations_are_eliminated_one_by_one(void) {
+TEST(price, equations_are_eliminated_one_by_one) {
     int last = 0; /* of three: four determinants with shared parts */
     for (int n = 1; n <= 6; n++) {
         const int now = price_of_system(n);
@@ -218,7 +205,7 @@ static void test_equations_are_eliminated_one_by_one(void) {
 }
 
 /* In two equations a numeric coefficient at any place is the pivot; no determinant is needed. */
-static void test_a_number_is_the_pivot(void) {
+TEST(price, a_number_is_the_pivot) {
     for (int at = 0; at < 4; at++) {
         char text[600] = "mechanism m\n";
 #define PUT(...) snprintf(text + strlen(text), sizeof text - strlen(text), __VA_ARGS__)
@@ -248,7 +235,7 @@ static void test_a_number_is_the_pivot(void) {
 
 /* The cost does not depend on the decimals of parameters. Values equal up to round-off are one number; a value within
  * round-off of a simple fraction is that fraction. */
-static void test_decimals_cost_nothing(void) {
+TEST(price, decimals_cost_nothing) {
     uint64_t seed = 23;
     int least = 1000;
     int most = 0;
@@ -272,24 +259,11 @@ static void test_decimals_cost_nothing(void) {
     TEST_ASSERT_EQUAL_INT(least, most);
 }
 
-void suite_price(void) {
-    RUN_TEST(test_polynomials_take_two_operations_a_power);
-    RUN_TEST(test_powers_take_few_products);
-    RUN_TEST(test_equal_coefficients_are_taken_out);
-    RUN_TEST(test_factors_are_taken_out_again);
-    RUN_TEST(test_what_is_the_same_is_computed_once);
-    RUN_TEST(test_sines_of_multiples_follow_from_one);
-    RUN_TEST(test_powers_of_sines_are_put_back);
-    RUN_TEST(test_equations_are_eliminated_one_by_one);
-    RUN_TEST(test_a_number_is_the_pivot);
-    RUN_TEST(test_decimals_cost_nothing);
-}
-
 /* === price control ============================================================================ */
 /* y' = linear y + square y^2, over two spans: its solution, and how many steps of `columns` rules are tried for it. They grow by
  * at most 3, shrink by at most 5, aim at 0.9 of the tolerance, and leave no remainder shorter than half a step. At a pole none is
  * small enough. */
-static void test_steps_of_one_equation(void) {
+TEST(price_control, steps_of_one_equation) {
     static const struct {
         double linear, square, start;
         int columns;
@@ -338,8 +312,6 @@ static void test_steps_of_one_equation(void) {
     }
 }
 
-void suite_price_control(void) { RUN_TEST(test_steps_of_one_equation); }
-
 /* === price dearest ============================================================================ */
 /* Cost of a setting in trials (host/study/trial.h): the maximum over all places, finer steps where a coarse one
  * fails, and settings without an image. */
@@ -378,7 +350,7 @@ static void expect_same(const cost *want, const cost *have, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(have->state_bytes.value == want->state_bytes.value, what);
 }
 
-static void test_the_dearest_of_all_places(void) {
+TEST(price_dearest, the_dearest_of_all_places) {
     static const char *const boards[] = {"mps2-an386", "mps2-an385"};
     for (int turn = 0; turn < 3; turn++) {
         const char *texts[3] = {springs[turn], springs[(turn + 1) % 3], springs[(turn + 2) % 3]};
@@ -428,7 +400,7 @@ static bool none_longer(const setting *s, double step_s) {
 }
 
 /* Fixed point asks three times for a step a tenth as long. */
-static void test_finer_steps_are_asked_for(void) {
+TEST(price_dearest, finer_steps_are_asked_for) {
     static const struct {
         deviation_pace from;
         double longest_s;
@@ -478,7 +450,7 @@ static void test_finer_steps_are_asked_for(void) {
 }
 
 /* Finding ranges needs a run, so it is skipped if the finer step's takes too long. */
-static void test_no_finer_step_than_may_be_planned(void) {
+TEST(price_dearest, no_finer_step_than_may_be_planned) {
     const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
     priced p;
     priced_open(&p, springs, 1);
@@ -501,7 +473,7 @@ static bool no_long_matrix(const setting *s, double step_s) {
     return s->image.matrix == MATRIX_NONE || step_s < longest_s;
 }
 
-static void test_matrices_are_priced_by_a_step_that_they_take(void) {
+TEST(price_dearest, matrices_are_priced_by_a_step_that_they_take) {
     priced p;
     priced_open(&p, springs, 1);
     TEST_ASSERT_TRUE(
@@ -524,7 +496,7 @@ static void test_matrices_are_priced_by_a_step_that_they_take(void) {
     priced_close(&p);
 }
 
-static void test_contacts_are_left_out_where_that_is_asked(void) {
+TEST(price_dearest, contacts_are_left_out_where_that_is_asked) {
     priced p;
     priced_open(&p, priced_ball, 1);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing_price_dearest, 10, NULL));
@@ -544,12 +516,4 @@ static void test_contacts_are_left_out_where_that_is_asked(void) {
     expect_same(&without, &c, "without");
     image_free(im);
     priced_close(&p);
-}
-
-void suite_price_dearest(void) {
-    RUN_TEST(test_the_dearest_of_all_places);
-    RUN_TEST(test_finer_steps_are_asked_for);
-    RUN_TEST(test_no_finer_step_than_may_be_planned);
-    RUN_TEST(test_matrices_are_priced_by_a_step_that_they_take);
-    RUN_TEST(test_contacts_are_left_out_where_that_is_asked);
 }

@@ -1,10 +1,5 @@
 /* test_price_front.c: rows of error against price (host/study/price_table.h). Sorting and Pareto front are compared
  * with all pairs of drawn rows. Also the steps tried, counted prices, and motions. */
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "host/base/alloc.h"
@@ -18,12 +13,6 @@
 #include "derived.h"
 #include "made_up_tree.h"
 #include "priced.h"
-
-#include "unity.h"
-
-void suite_price_front(void);
-void suite_price_measured(void);
-void suite_price_motion(void);
 
 /* === price front ============================================================================== */
 
@@ -44,7 +33,7 @@ static bool beats(const table_row *a, const table_row *b) {
 }
 
 /* Few distinct values, so that many rows tie. */
-static void test_drawn_rows_are_sorted_and_their_front_is_marked(void) {
+TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
     dice d = dice_of("price_front", 1);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 20000)); n++) {
         table_row row[ROWS_MOST];
@@ -78,7 +67,7 @@ static void test_drawn_rows_are_sorted_and_their_front_is_marked(void) {
 }
 
 /* By 50, 20, 10, 5, 2 records a step, then 1, 2, 5, 10, ... steps a record, to 5e7. */
-static void test_the_ladder_goes_down_by_one_two_five(void) {
+TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     double length = 100.0;
     const table_wish w = {.rate_Hz = 0.0};
     deviation_pace p;
@@ -100,7 +89,7 @@ static void test_the_ladder_goes_down_by_one_two_five(void) {
 }
 
 /* With a rate: rising numbers of steps per several records, including all of 1 to 10. */
-static void test_substeps_rise_as_they_are_told(void) {
+TEST(price_front, substeps_rise_as_they_are_told) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_wish w = {.rate_Hz = 7.0, .periods = periods};
         table_row row = {.pace = {0, 1}};
@@ -125,7 +114,7 @@ static cost_figure drawn_figure(dice *d) {
                          .most = dice_between(d, 900.0, 9000.0)};
 }
 
-static void test_prices_are_cycles_where_somebody_counts_them(void) {
+TEST(price_front, prices_are_cycles_where_somebody_counts_them) {
     dice d = dice_of("price_front prices", 2);
     for (int n = 0; n < 2000; n++) {
         const cost c = {.instructions = drawn_figure(&d), .cycles = drawn_figure(&d)};
@@ -146,19 +135,12 @@ static void test_prices_are_cycles_where_somebody_counts_them(void) {
     TEST_ASSERT_EQUAL_STRING("evaluations", table_unit_words[PRICE_EVALUATIONS]);
 }
 
-void suite_price_front(void) {
-    RUN_TEST(test_drawn_rows_are_sorted_and_their_front_is_marked);
-    RUN_TEST(test_the_ladder_goes_down_by_one_two_five);
-    RUN_TEST(test_substeps_rise_as_they_are_told);
-    RUN_TEST(test_prices_are_cycles_where_somebody_counts_them);
-}
-
 /* === price measured =========================================================================== */
 /* Counted prices (host/study/price_table.h) and choices by them (choice.h), in a made-up source tree (made_up_tree.h). */
 
 /* --- can it be counted? ----------------------------------------------------------------------------------*/
 
-static void test_what_is_missing_is_told(void) {
+TEST(price_measured, what_is_missing_is_told) {
     static const struct {
         const char *says;
         const char *status;
@@ -227,7 +209,7 @@ static table table_of(table_row row[2], const setting *s, deviation_pace pace, i
     return (table){.row = row, .count = 2, .why = ""};
 }
 
-static void test_steps_are_counted_and_kept(void) {
+TEST(price_measured, steps_are_counted_and_kept) {
     dice d = dice_of("price_measured steps", 21);
     priced p;
     priced_open(&p, springs, 2);
@@ -325,7 +307,7 @@ static void expect_most(double each_least, double each_most, double most, cost_b
 }
 
 /* Maximum of each column over the places, sum of their steps, and bounds if each place has one. */
-static void test_whole_runs_are_the_most_of_all_places(void) {
+TEST(price_measured, whole_runs_are_the_most_of_all_places) {
     static const char *const files[] = {"row0", "row1", "row2"};
     static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
     dice d = dice_of("price_measured runs", 22);
@@ -405,7 +387,7 @@ static void count_progress(void *context, int done, int of) {
 }
 
 /* Predictions are 100, 200, ...; counted, the first costs more than all. Refused rows are removed. */
-static void test_the_front_is_counted_until_all_of_it_is(void) {
+TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
     priced p;
     priced_open(&p, springs, 1);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
@@ -464,7 +446,7 @@ static void test_the_front_is_counted_until_all_of_it_is(void) {
 
 /* Prices of six settings by three steps. Counting only the answers gives the same choice as counting all, if no
  * prediction is too high. */
-static void test_choices_are_as_if_all_was_counted(void) {
+TEST(price_measured, choices_are_as_if_all_was_counted) {
     dice d = dice_of("price_measured choices", 23);
     priced p;
     priced_open(&p, springs, 1);
@@ -546,14 +528,6 @@ static void test_choices_are_as_if_all_was_counted(void) {
     priced_close(&p);
 }
 
-void suite_price_measured(void) {
-    RUN_TEST(test_what_is_missing_is_told);
-    RUN_TEST(test_steps_are_counted_and_kept);
-    RUN_TEST(test_whole_runs_are_the_most_of_all_places);
-    RUN_TEST(test_the_front_is_counted_until_all_of_it_is);
-    RUN_TEST(test_choices_are_as_if_all_was_counted);
-}
-
 /* === price motion ============================================================================= */
 /* The reference (host/study/reference_run.h) compared with closed forms and its order; deviations
  * (deviation.h) with the test's own loop. Long motions: test_price_reference.c. */
@@ -577,7 +551,7 @@ static derived decay_of(double rate, double start) {
 
 /* A decay after one second is within the tolerance, with any number of columns. A finer tolerance gives a smaller
  * error at a higher cost. */
-static void test_decays_end_where_they_should(void) {
+TEST(price_motion, decays_end_where_they_should) {
     dice d = dice_of("price_motion", 91);
     for (unsigned n = 0; n < dice_cases(few_or_all(12, 300)); n++) {
         const double rate = number_scaled(1.0, (int)dice_one_of(&d, 5) - 1);
@@ -614,7 +588,7 @@ static void test_decays_end_where_they_should(void) {
 
 /* One step of y' = -y is a rational function of the step. Each further rule makes two more terms of its power series
  * right. */
-static void test_a_step_is_of_twice_its_columns_order(void) {
+TEST(price_motion, a_step_is_of_twice_its_columns_order) {
     for (int columns = 2; columns <= 5; columns++) {
         double off[2];
         for (int half = 0; half < 2; half++) {
@@ -634,7 +608,7 @@ static void test_a_step_is_of_twice_its_columns_order(void) {
 }
 
 /* y' = y^2 from 1 ends at 1 s: no step is small enough there. The number of evaluations is limited too. */
-static void test_poles_and_limits_end_it(void) {
+TEST(price_motion, poles_and_limits_end_it) {
     derived d = derived_scene("mechanism m\nstate y\nequation y' - 1 [1/s]*y^2 = 0 [1/s]\n"
                               "scene s { start y = 1; step 1 [ms]; until 3 [s] }\n",
                               "s");
@@ -660,7 +634,7 @@ static void test_poles_and_limits_end_it(void) {
 /* --- fine steps ------------------------------------------------------------------------------------------*/
 
 /* A sixteenth of the scene's step, rounded to an even count, unless that needs too many operations. */
-static void test_fine_steps_are_as_fine_as_they_may(void) {
+TEST(price_motion, fine_steps_are_as_fine_as_they_may) {
     dice d = dice_of("price_motion steps", 92);
     derived of = derived_scene(spring, "s");
     derived_expect(&of, spring);
@@ -686,7 +660,7 @@ static void test_fine_steps_are_as_fine_as_they_may(void) {
     derived_free(&of);
 }
 
-static void test_fine_steps_are_a_cosine(void) {
+TEST(price_motion, fine_steps_are_a_cosine) {
     derived of = derived_scene(spring, "s");
     derived_expect(&of, spring);
     const reference_wish w = {
@@ -721,7 +695,7 @@ static reference *reference_of(const image *im, int count) {
     return r;
 }
 
-static void test_references_are_cut_and_their_columns_found(void) {
+TEST(price_motion, references_are_cut_and_their_columns_found) {
     derived of = derived_scene(spring, "s");
     derived_expect(&of, spring);
     reference *r = reference_of(of.image, 20);
@@ -757,7 +731,7 @@ static void test_references_are_cut_and_their_columns_found(void) {
     derived_free(&of);
 }
 
-static void test_deviations_are_the_largest_of_all_records(void) {
+TEST(price_motion, deviations_are_the_largest_of_all_records) {
     static const deviation_pace paces[] = {{1, 1}, {3, 1}, {1, 2}, {1, 5}};
     static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4};
     derived of = derived_scene(spring, "s");
@@ -818,7 +792,7 @@ static void test_deviations_are_the_largest_of_all_records(void) {
     derived_free(&of);
 }
 
-static void test_the_step_with_most_evaluations_is_told(void) {
+TEST(price_motion, the_step_with_most_evaluations_is_told) {
     derived of = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "V = 1 [kg]*9.81 [m/s^2]*x\nstop x >= 0 [m] restitution 0.5\n"
                                "scene s { start x = 1 [m]; step 10 [ms]; until 1 [s] }\n",
@@ -853,15 +827,4 @@ static void test_the_step_with_most_evaluations_is_told(void) {
     TEST_ASSERT_TRUE(same.usable && same.error == d.error);
     reference_free(r);
     derived_free(&of);
-}
-
-void suite_price_motion(void) {
-    RUN_TEST(test_the_step_with_most_evaluations_is_told);
-    RUN_TEST(test_decays_end_where_they_should);
-    RUN_TEST(test_a_step_is_of_twice_its_columns_order);
-    RUN_TEST(test_poles_and_limits_end_it);
-    RUN_TEST(test_fine_steps_are_as_fine_as_they_may);
-    RUN_TEST(test_fine_steps_are_a_cosine);
-    RUN_TEST(test_references_are_cut_and_their_columns_found);
-    RUN_TEST(test_deviations_are_the_largest_of_all_records);
 }

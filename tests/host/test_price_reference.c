@@ -2,15 +2,7 @@
  * with libm. The reference shares no code with the runs it judges. */
 #include "derived.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "host/study/reference_run.h"
-#include "unity.h"
-
-void suite_price_reference(void);
 
 #define MOST_OPERATIONS 6e8
 
@@ -41,7 +33,7 @@ static const long_case long_cases[] = {
     {FN_ATAN, atanl, -1e-6, 1e-6, 4.0}, {FN_ABS, fabsl, -3.0, 3.0, 0.0},
 };
 
-static void test_functions_against_libm(void) {
+TEST(price_reference, functions_against_libm) {
     uint64_t seed = 71;
     for (size_t c = 0; c < sizeof long_cases / sizeof long_cases[0]; c++) {
         const long_case *each = &long_cases[c];
@@ -57,7 +49,7 @@ static void test_functions_against_libm(void) {
     }
 }
 
-static void test_functions_of_two(void) {
+TEST(price_reference, functions_of_two) {
     uint64_t seed = 72;
     double worst_angle = 0.0;
     double worst_power = 0.0;
@@ -75,7 +67,7 @@ static void test_functions_of_two(void) {
     TEST_ASSERT_TRUE(worst_power <= 200.0); /* |exponent log(base)| of them */
 }
 
-static void test_functions_at_their_edges(void) {
+TEST(price_reference, functions_at_their_edges) {
     const long double inf = (long double)INFINITY;
     TEST_ASSERT_TRUE(isnan(long_call(FN_LOG, -1.0L, 0.0L)));
     TEST_ASSERT_TRUE(long_call(FN_LOG, 0.0L, 0.0L) == -inf);
@@ -113,7 +105,7 @@ static long double at(const reference *r, int record, const char *name) {
 
 /* x(t) and its rate of m x'' + c x' + k x = 0 from x0, v0, underdamped. Stiffness and damping are powers of two,
  * because the algebra rounds other constants by 1e-16. */
-static void test_damped_springs(void) {
+TEST(price_reference, damped_springs) {
     uint64_t seed = 73;
     double worst = 0.0;
     for (int i = 0; i < 12; i++) {
@@ -152,7 +144,7 @@ static void test_damped_springs(void) {
     TEST_ASSERT_TRUE(worst <= 200.0 * (double)LDBL_EPSILON);
 }
 
-static void test_a_flight_is_a_parabola(void) {
+TEST(price_reference, a_flight_is_a_parabola) {
     derived d = derived_builtin("spherical_flight");
     derived_expect(&d, "spherical_flight");
     reference *r = reference_of(d.image, 0.01, 200);
@@ -176,7 +168,7 @@ static void test_a_flight_is_a_parabola(void) {
     derived_free(&d);
 }
 
-static void test_pendulums_keep_their_energy(void) {
+TEST(price_reference, pendulums_keep_their_energy) {
     uint64_t seed = 74;
     double worst = 0.0;
     for (int i = 0; i < 12; i++) {
@@ -205,7 +197,7 @@ static void test_pendulums_keep_their_energy(void) {
 
 /* In a scene with a known solution, the error is at most a few times the difference of the two references, which is
  * not zero. */
-static void test_agreement_is_no_less_than_the_error(void) {
+TEST(price_reference, agreement_is_no_less_than_the_error) {
     derived d = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                               "V = 9 [N/m]*x^2/2\n"
                               "scene s { start x = 1 [m]; step 1 [ms]; until 100 [s] }\n",
@@ -225,7 +217,7 @@ static void test_agreement_is_no_less_than_the_error(void) {
 }
 
 /* A double pendulum thrown high is chaotic: the higher, the shorter the horizon. */
-static void test_chaos_cuts_the_horizon(void) {
+TEST(price_reference, chaos_cuts_the_horizon) {
     derived d = derived_builtin("thomson_b");
     derived_expect(&d, "thomson_b");
     const reference_wish wish = {
@@ -239,7 +231,7 @@ static void test_chaos_cuts_the_horizon(void) {
 }
 
 /* A coordinate that symmetry holds at zero has no relative error. */
-static void test_zeros_do_not_count(void) {
+TEST(price_reference, zeros_do_not_count) {
     derived d = derived_builtin("cuff_equal");
     derived_expect(&d, "cuff_equal");
     const reference_wish wish = {
@@ -252,16 +244,4 @@ static void test_zeros_do_not_count(void) {
     TEST_ASSERT_EQUAL_INT(-1, reference_find(r, "X''", &noisy));
     reference_free(r);
     derived_free(&d);
-}
-
-void suite_price_reference(void) {
-    RUN_TEST(test_functions_against_libm);
-    RUN_TEST(test_functions_of_two);
-    RUN_TEST(test_functions_at_their_edges);
-    RUN_TEST(test_damped_springs);
-    RUN_TEST(test_a_flight_is_a_parabola);
-    RUN_TEST(test_pendulums_keep_their_energy);
-    RUN_TEST(test_agreement_is_no_less_than_the_error);
-    RUN_TEST(test_chaos_cuts_the_horizon);
-    RUN_TEST(test_zeros_do_not_count);
 }

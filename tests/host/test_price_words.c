@@ -1,19 +1,11 @@
 /* test_price_words.c: printed prices and choices (host/study/price_table.h, choice.h): made-up rows as text, CSV and JSON,
  * compared with price_words.txt. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "caught.h"
 #include "command.h"
 #include "host/base/alloc.h"
 #include "host/os/atomic_file.h"
 #include "host/study/choice.h"
 #include "priced.h"
-#include "unity.h"
-
-void suite_price_words(void);
 
 #define PLACE(k) \
     "mechanism m\ncoordinate x [mm]\ncoordinate z [m]\nT = 1 [kg]*(x'^2 + z'^2)/2\n" \
@@ -193,7 +185,7 @@ static void print_remedies(FILE *out) {
     priced_close(&p);
 }
 
-static void test_prices_and_choices_are_printed_as_before(void) {
+TEST(price_words, prices_and_choices_are_printed_as_before) {
     caught all;
     catch_text(&all);
     print_tables(all.to);
@@ -207,7 +199,7 @@ static void test_prices_and_choices_are_printed_as_before(void) {
 /* --- fields, fronts, nothing -------------------------------------------------------------------------------*/
 
 /* RFC 4180: quoted fields parse to the original, and quotes appear only where needed. */
-static void test_fields_come_back(void) {
+TEST(price_words, fields_come_back) {
     static const char pieces[] = "abc \",\r\n\"x";
     dice d = dice_of("price_words fields", 33);
     for (int n = 0; n < 2000; n++) {
@@ -248,7 +240,7 @@ static const char *behind(const char *text, const char *what) {
 }
 
 /* The cheapest and the most accurate row are among them. */
-static void test_at_most_twelve_rows_of_a_front_are_shown(void) {
+TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
     dice d = dice_of("price_words fronts", 36);
     priced p;
     begin(&p, places, 1, NULL);
@@ -293,7 +285,7 @@ static char *table_of_nothing(const trials *t, const table *made) {
     return out.text;
 }
 
-static void test_tables_of_nothing_say_why(void) {
+TEST(price_words, tables_of_nothing_say_why) {
     priced p;
     begin(&p, places, 1, NULL);
     table made = {.unpriced = 3, .why = "a reason"};
@@ -328,11 +320,4 @@ static void test_tables_of_nothing_say_why(void) {
     TEST_ASSERT_NULL(strstr(text, "the two agree"));
     free(text);
     priced_close(&p);
-}
-
-void suite_price_words(void) {
-    RUN_TEST(test_prices_and_choices_are_printed_as_before);
-    RUN_TEST(test_fields_come_back);
-    RUN_TEST(test_at_most_twelve_rows_of_a_front_are_shown);
-    RUN_TEST(test_tables_of_nothing_say_why);
 }

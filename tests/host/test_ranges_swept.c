@@ -1,12 +1,9 @@
 /* test_ranges_swept.c: axes of a sweep (host/study/grid.h, changes.h), drawn: linear or geometric values in counting
  * order, and the changes of each point. An error names its option and leaves the grid unchanged. Also the CSV file,
  * and leaks. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
 #include <fcntl.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,8 +16,6 @@
 
 #include "blocks.h"
 #include "command.h"
-
-#include "unity.h"
 
 void suite_ranges_swept(void);
 void suite_sheet(void);
@@ -597,7 +592,7 @@ static void close_folder(void) {
 }
 
 /* No file, or an empty one of any owner. */
-static void test_begun(void) {
+TEST(sheet, begun) {
     open_folder();
     for (int c = 0; c < 8; c++) {
         draw_sheet();
@@ -612,7 +607,7 @@ static void test_begun(void) {
 }
 
 /* Truncated anywhere, mostly near line ends. */
-static void test_gone_on_with(void) {
+TEST(sheet, gone_on_with) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(5, 3)); c++) {
         draw_sheet();
@@ -633,7 +628,7 @@ static void test_gone_on_with(void) {
     close_folder();
 }
 
-static void test_fresh(void) {
+TEST(sheet, fresh) {
     open_folder();
     for (int c = 0; c < 6; c++) {
         draw_sheet();
@@ -648,7 +643,7 @@ static void test_fresh(void) {
 }
 
 /* One changed byte in any row makes it another sweep's file. */
-static void test_rows_of_others(void) {
+TEST(sheet, rows_of_others) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
         char text[TEXT];
@@ -684,7 +679,7 @@ static void test_rows_of_others(void) {
     close_folder();
 }
 
-static void test_too_few_fields(void) {
+TEST(sheet, too_few_fields) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(20, 10)); c++) {
         draw_sheet();
@@ -694,7 +689,7 @@ static void test_too_few_fields(void) {
     close_folder();
 }
 
-static void test_settings_of_others(void) {
+TEST(sheet, settings_of_others) {
     static const char *const others[] = {"scene: t\nover: m=1..3:7\nmeasure: X\n",
                                          "scene: s\nover: m=1..3:8\nmeasure: X\n",
                                          "scene: s\nover: m=1..3:7\n",
@@ -732,7 +727,7 @@ static void test_settings_of_others(void) {
     close_folder();
 }
 
-static void test_locked(void) {
+TEST(sheet, locked) {
     resumable_csv sh;
     open_folder();
     draw_sheet();
@@ -757,7 +752,7 @@ static void test_locked(void) {
 }
 
 /* No such folder; a device that is full at the start or the end. */
-static void test_not_written(void) {
+TEST(sheet, not_written) {
     resumable_csv sh;
     open_folder();
     draw_sheet();
@@ -798,7 +793,7 @@ static void test_not_written(void) {
 }
 
 /* A device cannot be resumed and is written directly. */
-static void test_no_file(void) {
+TEST(sheet, no_file) {
     resumable_csv sh;
     draw_sheet();
     d.settings.path = "/dev/null";
@@ -816,15 +811,4 @@ static void test_no_file(void) {
     TEST_ASSERT_FALSE(exists("-.sweep"));
 }
 
-void suite_sheet(void) {
-    die = dice_of("sheet", 47);
-    RUN_TEST(test_begun);
-    RUN_TEST(test_gone_on_with);
-    RUN_TEST(test_fresh);
-    RUN_TEST(test_rows_of_others);
-    RUN_TEST(test_too_few_fields);
-    RUN_TEST(test_settings_of_others);
-    RUN_TEST(test_locked);
-    RUN_TEST(test_not_written);
-    RUN_TEST(test_no_file);
-}
+void suite_sheet(void) { die = dice_of("sheet", 47); }

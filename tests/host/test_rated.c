@@ -1,17 +1,10 @@
 /* test_rated.c: accuracy and cost at the end of a run, and the step of `--error`, for drawn scenes with known motions
  * (rated.h). */
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "host/cli/commands.h"
 #include "host/engine/start.h"
 #include "host/study/cost.h"
 #include "rated.h"
-#include "unity.h"
 
 void suite_rated(void);
 

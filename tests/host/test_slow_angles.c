@@ -1,17 +1,7 @@
 /* test_slow_angles.c: warning about float angles with steps too small for their units, and no others. The reference
  * is the same run in double. WH_SLOW=N: number of random rotors. */
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/check/slow.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_slow_angles(void);
 
 #define UNIT_RAD (6.283185307179586477 / 4294967296.0)
 
@@ -51,7 +41,7 @@ static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^
 
 /* The error of the angle decides, with an allowance for round-off of rates and constants, and for a larger error
  * before the end. */
-static void test_slow_rates_are_told_and_others_are_not(void) {
+TEST(slow_angles, slow_rates_are_told_and_others_are_not) {
     const char *wanted = getenv("WH_SLOW");
     const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;
     int told = 0;
@@ -134,7 +124,7 @@ static const struct {
      1e-3, 20000, true},
 };
 
-static void test_of_other_motions_those_that_are_false(void) {
+TEST(slow_angles, of_other_motions_those_that_are_false) {
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         const outcome plain =
             run(others[i].text, in_float(WH_RK4, false, others[i].step_s), others[i].steps);
@@ -147,7 +137,7 @@ static void test_of_other_motions_those_that_are_false(void) {
 
 /* In a step with events some tries are discarded; only accepted ones count. A second body crosses a point every third
  * step, which must change nothing. */
-static void test_steps_with_events_count_once(void) {
+TEST(slow_angles, steps_with_events_count_once) {
     static const char text[] = "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
                                "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2\nV = 1e6 [N/m]*x^2/2\n"
                                "scene s { when x crosses 0 [m] { set x = 0 [m] }\n"
@@ -171,16 +161,9 @@ static void test_steps_with_events_count_once(void) {
     }
 }
 
-static void test_double_has_no_units(void) {
+TEST(slow_angles, double_has_no_units) {
     char text[320];
     snprintf(text, sizeof text, rotor, 0.0, 1e-9);
     const outcome exact = run(text, IN_DOUBLE, 1000);
     TEST_ASSERT_FALSE(exact.told);
-}
-
-void suite_slow_angles(void) {
-    RUN_TEST(test_slow_rates_are_told_and_others_are_not);
-    RUN_TEST(test_of_other_motions_those_that_are_false);
-    RUN_TEST(test_steps_with_events_count_once);
-    RUN_TEST(test_double_has_no_units);
 }

@@ -1,17 +1,7 @@
 /* test_sweep.c: grids and measures of `whirl sweep`. Workers: test_jobs.c; files and whole sweeps: tests/cli/sweep.sh. */
-#define _POSIX_C_SOURCE 200809L
-
-#include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/study/grid.h"
 #include "host/study/point.h"
-#include "unity.h"
-
-void suite_sweep(void);
 
 #define PI 3.14159265358979323846
 
@@ -47,7 +37,7 @@ static void close_sample(void) {
 
 static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, heard); }
 
-static void test_last_axis_runs_fastest(void) {
+TEST(sweep, last_axis_runs_fastest) {
     open_sample();
     TEST_ASSERT_TRUE(over("m=1..3:3"));
     TEST_ASSERT_TRUE(over("theta'=10..20:2"));
@@ -64,7 +54,7 @@ static void test_last_axis_runs_fastest(void) {
 }
 
 /* The limit is 1e12 points; an axis above it is not added. */
-static void test_grids_have_an_end(void) {
+TEST(sweep, grids_have_an_end) {
     static const char *const axes[][3] = {{"m=1..2:1000000", "r=1..2:1000000", "M=1..2:2"},
                                           {"m=1..2:1000000000", "r=1..2:1000", "M=1..2:1000"},
                                           {"m=1..2:3", "r=1..2:333333333", "M=1..2:1001"}};
@@ -86,7 +76,7 @@ static void test_grids_have_an_end(void) {
 }
 
 /* An axis has at most twelve digits of points. */
-static void test_counts_have_an_end(void) {
+TEST(sweep, counts_have_an_end) {
     static const char *const counts[] = {"0",  "1000000000000", "99999999999999999999",
                                          "-3", "1e3",           ""};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
@@ -102,7 +92,7 @@ static void test_counts_have_an_end(void) {
     }
 }
 
-static void test_units_and_exact_ends(void) {
+TEST(sweep, units_and_exact_ends) {
     static const struct {
         const char *text;
         double from, middle, to;
@@ -133,7 +123,7 @@ static void test_units_and_exact_ends(void) {
     }
 }
 
-static void test_shards_tile_the_grid(void) {
+TEST(sweep, shards_tile_the_grid) {
     open_sample();
     TEST_ASSERT_TRUE(over("m=1..3:7"));
     TEST_ASSERT_TRUE(over("r=1..3:11"));
@@ -151,7 +141,7 @@ static void test_shards_tile_the_grid(void) {
     close_sample();
 }
 
-static void test_numbers_come_back(void) {
+TEST(sweep, numbers_come_back) {
     char text[NUMBER_SIZE];
     TEST_ASSERT_EQUAL_STRING("0.1", number_shortest(0.1, text));
     TEST_ASSERT_EQUAL_STRING("0.30000000000000004", number_shortest(0.1 + 0.2, text));
@@ -173,7 +163,7 @@ static double of_sine(measure_kind kind, double offset, double size, double peri
     return result;
 }
 
-static void test_series_of_a_sine(void) {
+TEST(sweep, series_of_a_sine) {
     /* ten whole periods of 200 steps: sampled peaks miss by at most size (2 pi/200)^2/8 */
     const double miss = 2.5 * pow(2.0 * PI / 200.0, 2.0) / 8.0;
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MAX, 1.5, 2.5, 0.2, 2001, 1e-3) - 4.0) <= miss);
@@ -188,7 +178,7 @@ static void test_series_of_a_sine(void) {
     TEST_ASSERT_TRUE(isfinite(measured_s) && measured_s != odd_s);
 }
 
-static void test_series_without_a_value(void) {
+TEST(sweep, series_without_a_value) {
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* one crossing */
     TEST_ASSERT_FALSE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 500, 1e-3)));
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3))); /* round-off */
@@ -204,7 +194,7 @@ static void test_series_without_a_value(void) {
     }
 }
 
-static void test_mean_is_over_time(void) {
+TEST(sweep, mean_is_over_time) {
     gauge g = gauge_start(MEASURE_MEAN); /* 0, 1, 4: trapezoids 0.5 and 2.5 over two steps */
     gauge_enter(&g, 0.0);
     gauge_enter(&g, 1.0);
@@ -213,7 +203,7 @@ static void test_mean_is_over_time(void) {
     gauge_end(&g);
 }
 
-static void test_measures_are_read(void) {
+TEST(sweep, measures_are_read) {
     static const struct {
         const char *text;
         int mechanism;
@@ -252,7 +242,7 @@ static void test_measures_are_read(void) {
 }
 
 /* A measure inside an expression is reported with its place; longer names with the same beginning are names. */
-static void test_measures_inside_are_told(void) {
+TEST(sweep, measures_inside_are_told) {
     static const char *const words[] = {"amplitude", "mean", "period"};
     static const char *const before[] = {"2*", "theta + ", "1/(3*", "sin(2) - ", "theta*mean_2 + "};
     for (unsigned c = 0; c < 15U; c++) {
@@ -282,7 +272,7 @@ static void test_measures_inside_are_told(void) {
     }
 }
 
-static void test_a_list_of_measures_is_told(void) {
+TEST(sweep, a_list_of_measures_is_told) {
     static const char *const one[] = {"theta",       "max(theta)",        "mean(2*theta)",
                                       "theta*theta", "atan2(theta, 2)",   "max(theta, 1)",
                                       "min(theta)",  "max(max(theta, 1))"};
@@ -316,7 +306,7 @@ static void test_a_list_of_measures_is_told(void) {
     }
 }
 
-static void test_default_measures_are_the_columns_of_run(void) {
+TEST(sweep, default_measures_are_the_columns_of_run) {
     static const char *const wanted[] = {"theta", "der(theta)", "height"};
     open_sample();
     measures *m = measures_new(parsed->mechanisms[0], NULL, 0, heard);
@@ -328,20 +318,4 @@ static void test_default_measures_are_the_columns_of_run(void) {
     }
     measures_free(m);
     close_sample();
-}
-
-void suite_sweep(void) {
-    RUN_TEST(test_last_axis_runs_fastest);
-    RUN_TEST(test_grids_have_an_end);
-    RUN_TEST(test_counts_have_an_end);
-    RUN_TEST(test_units_and_exact_ends);
-    RUN_TEST(test_shards_tile_the_grid);
-    RUN_TEST(test_numbers_come_back);
-    RUN_TEST(test_series_of_a_sine);
-    RUN_TEST(test_series_without_a_value);
-    RUN_TEST(test_mean_is_over_time);
-    RUN_TEST(test_measures_are_read);
-    RUN_TEST(test_measures_inside_are_told);
-    RUN_TEST(test_a_list_of_measures_is_told);
-    RUN_TEST(test_default_measures_are_the_columns_of_run);
 }

@@ -1,14 +1,8 @@
 /* test_told_drawn.c: the whole output of `whirl describe` for drawn scenes. */
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "derived.h"
 #include "drawn_scene.h"
 #include "host/emit/description.h"
 #include "host/image/image.h"
-#include "unity.h"
 
 void suite_told_drawn(void);
 
@@ -199,7 +193,7 @@ static const char *said_memory(const char *at, const image *im) {
     return said_exactly(at, " in double\n");
 }
 
-static void test_readers_are_told_everything(void) {
+TEST(told_drawn, readers_are_told_everything) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         drawn_scene_draw(&drawn, &die);
         const image *im = &drawn.im;
@@ -227,7 +221,4 @@ static void test_readers_are_told_everything(void) {
     }
 }
 
-void suite_told_drawn(void) {
-    die = dice_of("told_drawn", 4150);
-    RUN_TEST(test_readers_are_told_everything);
-}
+void suite_told_drawn(void) { die = dice_of("told_drawn", 4150); }

@@ -1,11 +1,7 @@
 /* test_traces.c: waveform files of a run (host/io/records.h). The unit of time is compared with integers, names with
  * drawn scenes, and times of contacts with closed forms, to one unit. Also VCD. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
-#include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "host/base/alloc.h"
@@ -17,10 +13,7 @@
 #include "command.h"
 #include "derived.h"
 
-#include "unity.h"
-
 void suite_traces(void);
-void suite_vcd(void);
 
 /* === traces =================================================================================== */
 
@@ -59,7 +52,7 @@ static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double un
     return whole >= 0 ? whole : apart;
 }
 
-static void test_units(void) {
+TEST(traces, units) {
     static const uint64_t unders[] = {
         1, 2, 3, 4, 5, 7, 8, 10, 20, 100, 1000, 3000, 44100, 100000, 1000000, 12500000, 100000000};
     unsigned found[POWERS + 1] = {0};
@@ -93,7 +86,7 @@ static void test_units(void) {
 }
 
 /* The end must lie below 2^52 units: at 2^52 the next coarser unit applies, if there is one. */
-static void test_ends(void) {
+TEST(traces, ends) {
     for (int k = 0; k < POWERS; k++) {
         double per_s = 1.0;
         for (int i = 0; i < k; i++) {
@@ -379,7 +372,7 @@ static void expect_columns(const char *csv, double units_per_s) {
     }
 }
 
-static void test_moments(void) {
+TEST(traces, moments) {
     const long before = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(usual_or(12, 8)); c++) {
         const bodies b = draw_bodies(c);
@@ -456,12 +449,7 @@ static void test_moments(void) {
     TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
-void suite_traces(void) {
-    die = dice_of("traces", 64);
-    RUN_TEST(test_units);
-    RUN_TEST(test_ends);
-    RUN_TEST(test_moments);
-}
+void suite_traces(void) { die = dice_of("traces", 64); }
 
 /* === vcd ====================================================================================== */
 /* Value change dumps (host/io/vcd.h), parsed by the test: drawn changes of many signals, slightly out of order, come
@@ -604,7 +592,7 @@ static int sort_made(int count) {
     return kept;
 }
 
-static void test_changes_come_in_order(void) {
+TEST(vcd, changes_come_in_order) {
     dice d = dice_of("vcd", 51);
     for (unsigned round = 0; round < 20U; round++) {
         char *text = NULL;
@@ -650,7 +638,7 @@ static void test_changes_come_in_order(void) {
 }
 
 /* A late change appears at the last time written, and is counted. */
-static void test_what_is_late_is_counted(void) {
+TEST(vcd, what_is_late_is_counted) {
     dice d = dice_of("vcd", 52);
     for (unsigned round = 0; round < 10U; round++) {
         char *text = NULL;
@@ -672,9 +660,4 @@ static void test_what_is_late_is_counted(void) {
         free(text);
     }
     TEST_ASSERT_EQUAL_UINT64(0, vcd_end(NULL));
-}
-
-void suite_vcd(void) {
-    RUN_TEST(test_changes_come_in_order);
-    RUN_TEST(test_what_is_late_is_counted);
 }

@@ -1,17 +1,7 @@
 /* test_trust.c: accuracy horizon estimated by `whirl trust`, compared with independent references in long double:
  * four chaotic systems in float, compensated float and double. Also built-in scenes. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "horizons.h"
-
-#include "unity.h"
-
-void suite_trust(void);
-void suite_trust_scenes(void);
 
 /* === trust ==================================================================================== */
 
@@ -76,33 +66,26 @@ static void chaotic(const char *name, bool builtin, const char *file, const char
     }
 }
 
-static void test_thomson_a(void) {
+TEST(trust, thomson_a) {
     chaotic("thomson", true, "thomson.whirl",
             "theta1 = 0, theta2 = 0, X = 0, theta1' = 0, theta2' = 0, X' = 0",
             (const double[]){12.0, 12.0, 12.0, 14.0});
 }
 
-static void test_double_pendulum(void) {
+TEST(trust, double_pendulum) {
     chaotic("double_pendulum", false, "tests/mechanisms/double_pendulum.whirl",
             "a = 2.5 [rad], b = 2 [rad]", (const double[]){60.0, 60.0, 60.0, 60.0});
 }
 
-static void test_triple_pendulum(void) {
+TEST(trust, triple_pendulum) {
     chaotic("triple_pendulum", false, "tests/mechanisms/triple_pendulum.whirl",
             "q1 = 2.2 [rad], q2 = 2.8 [rad], q3 = 1.7 [rad]\n  set c = 0.0002 [N*m*s]",
             (const double[]){20.0, 20.0, 20.0, 20.0});
 }
 
-static void test_lorenz(void) {
+TEST(trust, lorenz) {
     chaotic("lorenz", false, "tests/mechanisms/lorenz.whirl", "x = 1, y = 0.5, z = 2",
             (const double[]){40.0, 40.0, 45.0, 60.0});
-}
-
-void suite_trust(void) {
-    RUN_TEST(test_lorenz);
-    RUN_TEST(test_thomson_a);
-    RUN_TEST(test_double_pendulum);
-    RUN_TEST(test_triple_pendulum);
 }
 
 /* === trust scenes ============================================================================= */
@@ -137,7 +120,7 @@ static void expect_the_end(const char *file, const char *name, horizons_setting 
     horizons_free(&h);
 }
 
-static void test_where_nothing_diverges(void) {
+TEST(trust_scenes, where_nothing_diverges) {
     expect_the_end("epicyclic.whirl", "epicyclic_from_rest", in_double);
     expect_the_end("epicyclic.whirl", "epicyclic_from_rest", in_float);
     expect_the_end("epicyclic.whirl", "epicyclic_conserved", in_float);
@@ -164,7 +147,7 @@ static void expect_ratio(const char *what, const horizons *h, double least, doub
 }
 
 /* The error grows evenly here, so an omitted part would show in proportion. */
-static void test_steps_and_methods_that_are_too_coarse(void) {
+TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
     static const struct {
         wh_method method;
         double step_ms;
@@ -190,7 +173,7 @@ static void test_steps_and_methods_that_are_too_coarse(void) {
 }
 
 /* Round-off of float and of tables, for any tolerance. */
-static void test_rounding_and_tables(void) {
+TEST(trust_scenes, rounding_and_tables) {
     static const double tolerances[] = {1e-4, 3e-6, 3e-7};
     static const horizons_setting settings[] = {
         {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE},
@@ -234,7 +217,7 @@ static unsigned expect_contacts(const char *name, horizons_setting how, double t
     return ended;
 }
 
-static void test_contacts(void) {
+TEST(trust_scenes, contacts) {
     static const char *const names[] = {"crash_cart",     "belt_stick_slip", "plank_shaken",
                                         "table_drifts",   "hopper_hops",     "shuttle_buffers",
                                         "thomson_magnet", "carriage_stop",   "crash_both",
@@ -252,18 +235,10 @@ static void test_contacts(void) {
 }
 
 /* Beyond the event limit of a step both runs let the ball rest and agree. */
-static void test_steps_with_too_many_events(void) {
+TEST(trust_scenes, steps_with_too_many_events) {
     horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.estimate.until_s);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.true_until_s);
     horizons_free(&h);
-}
-
-void suite_trust_scenes(void) {
-    RUN_TEST(test_where_nothing_diverges);
-    RUN_TEST(test_steps_and_methods_that_are_too_coarse);
-    RUN_TEST(test_rounding_and_tables);
-    RUN_TEST(test_contacts);
-    RUN_TEST(test_steps_with_too_many_events);
 }

@@ -1,11 +1,7 @@
 /* test_unjumped.c: false poles (host/check/pole_crossing.h): limits, tangents, losses, impacts and places at events.
  * A jump is reported only over a true pole. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-
 #include "jumps.h"
-#include "unity.h"
+#include "test.h"
 
 void suite_unjumped(void);
 
@@ -48,7 +44,7 @@ static const char *const harmless[] = {
 };
 enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
 
-static void test_what_has_limits(void) {
+TEST(unjumped, what_has_limits) {
     for (unsigned c = 0; c < jumps_cases(HARMLESS, 3 * HARMLESS, HARMLESS / 2); c++) {
         char text[JUMPS_TEXT];
         snprintf(text, sizeof text,
@@ -66,7 +62,7 @@ static void test_what_has_limits(void) {
 
 /* Losses of one body while another passes s = a. They act along the rate alone, so one over a root slows the body
  * down and no more, although its slope along s grows faster than a pole. */
-static void test_losses(void) {
+TEST(unjumped, losses) {
     static const char *const laws[] = {
         "/sqrt(abs(s - a))", "/abs(s - a)",          "/(1 - cos(s - a))^0.25", "/(s - a)^2",
         "/abs(s - a)^0.7",   "/(s^2 - 2*a*s + a^2)", "*sqrt(abs(s - a))",      "/(1 - cos(s - a))"};
@@ -88,7 +84,7 @@ static void test_losses(void) {
 }
 
 /* An impact turns a rate past a zero of its divisor without reaching it. */
-static void test_impacts(void) {
+TEST(unjumped, impacts) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
                                        "tan(x'/v0 + 1)"}; /* of about 2 and of 0 */
     for (unsigned c = 0; c < jumps_cases(3, 12, 3); c++) {
@@ -110,7 +106,7 @@ static void test_impacts(void) {
 
 /* A pole of a force, a friction's pressure or its coefficient, passed at constant rate. Steps are with and without
  * impacts of another body. Also poles after the end. */
-static void test_places_at_events(void) {
+TEST(unjumped, places_at_events) {
     static const char *const laws[] = {
         "Q(x) = 1e-6 [N*m]/(x - %.17g [m])\n",
         "Q(x) = max(1e-6 [N*m]/(x - %.17g [m]), 0)\n", /* on one side only */
@@ -135,10 +131,4 @@ static void test_places_at_events(void) {
     }
 }
 
-void suite_unjumped(void) {
-    die = dice_of("unjumped", 52);
-    RUN_TEST(test_what_has_limits);
-    RUN_TEST(test_losses);
-    RUN_TEST(test_impacts);
-    RUN_TEST(test_places_at_events);
-}
+void suite_unjumped(void) { die = dice_of("unjumped", 52); }
