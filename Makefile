@@ -169,9 +169,6 @@ sine-exhaustive: $(B)/tools/sine_exhaustive ##- the sine's worst error, over all
 functions-exhaustive: $(B)/tools/functions_exhaustive ##- the float functions' worst errors, over all 2^32 floats (half an hour at most)
 	$(Q)$<
 
-root-exhaustive: $(B)/tools/root_exhaustive ##- the square root in integers, over all 2^32 numbers (a minute)
-	$(Q)$<
-
 long-runs: $(B)/tools/long_runs ##- energies and a centre of mass over LONG_STEPS steps, 10^8 when left out (an hour)
 	$(Q)$< $(or $(LONG_STEPS),1e8)
 

@@ -269,3 +269,26 @@ const char derived_ranged[] =
     "input push = 1 [N]\ninput pull = 1 [N]\n"
     "T = 1 [kg*m^2]*a'^2/2 + 2 [kg]*x'^2/2\nQ(x) = push - pull\n"
     "scene s { range pull = -2 .. 4 [kN], x = -p/2 .. p, a' = 1 .. 2 [rad/s]; until 1 [s] }\n";
+
+void dense_solve(int n, int width, long double *a, long double *x) {
+    for (int k = 0; k < n; k++) {
+        int best = k;
+        for (int i = k; i < n; i++) {
+            best = fabsl(a[i * width + k]) > fabsl(a[best * width + k]) ? i : best;
+        }
+        for (int j = 0; j <= n; j++) {
+            const long double swap = a[k * width + j];
+            a[k * width + j] = a[best * width + j];
+            a[best * width + j] = swap;
+        }
+        for (int i = 0; i < n; i++) {
+            const long double part = i == k ? 0.0L : a[i * width + k] / a[k * width + k];
+            for (int j = k; j <= n; j++) {
+                a[i * width + j] -= part * a[k * width + j];
+            }
+        }
+    }
+    for (int k = 0; k < n; k++) {
+        x[k] = a[k * width + n] / a[k * width + k];
+    }
+}

@@ -77,4 +77,8 @@ double random_between(uint64_t *seed, double low, double high);
 /* `front`, then `piece` repeated with its number (up to twice in it), then `tail`. */
 char *repeated(const char *front, const char *piece, int times, const char *tail);
 
+/* x of A x = b by elimination with pivots: a has n rows of `width` numbers, of which the first n are A and the next is b.
+ * It is overwritten. */
+void dense_solve(int n, int width, long double *a, long double *x);
+
 #endif

@@ -285,42 +285,6 @@ TEST(contact_devices, carriage_walks_away_from_the_stop_and_then_only_swings) {
     check_walk(IN_FLOAT, 1e-4, 1e-4);
 }
 
-TEST(contact_devices, without_friction_it_walks_on) {
-    motion m;
-    motion_open(&m, "carriage_stop_smooth", IN_DOUBLE);
-    motion_to(&m, 5.0);
-    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m)); /* one impact reverses it */
-    const double x_cm = motion_value(&m, "x_cm");
-    const double p = motion_value(&m, "momentum");
-    motion_to(&m, 10.0);
-    TEST_ASSERT_EQUAL_UINT64(1, contacts_events(&m));
-    /* the momentum stays as the stop made it, and the centre of mass moves with it; the project's bound */
-    expect_between("S18: momentum's change, kg m/s", -DRIFT_MOST, DRIFT_MOST,
-                   motion_value(&m, "momentum") - p);
-    expect_between("S18: centre of mass off the momentum's way, m", -DRIFT_MOST, DRIFT_MOST,
-                   motion_value(&m, "x_cm") - x_cm - 5.0 * p / ALL_KG);
-    TEST_ASSERT_TRUE(p > 1.0);
-    motion_close(&m);
-}
-
-TEST(contact_devices, started_at_the_stop_it_walks_away_too) {
-    motion m;
-    double least;
-    double most;
-    double nearest = 0.0;
-    motion_open(&m, "carriage_stop_start", IN_DOUBLE);
-    for (unsigned i = 0; i < 58000; i++) {
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
-        nearest = fmin(nearest, motion_value(&m, "X"));
-    }
-    swing(&m, 8.0, &least, &most);
-    expect_between("S18, from rest: nearest to the stop, m", -1e-12, 0.0, nearest);
-    expect_between("S18, from rest: swing over m r/(m + M)", 1.0 - 1e-3, 1.0 + 1e-3,
-                   (most - least) / 2.0 / (MOMENT_KG_M / ALL_KG));
-    TEST_ASSERT_TRUE(least > MOMENT_KG_M / ALL_KG);
-    motion_close(&m);
-}
-
 /* --- S10 ------------------------------------------------------------------------------------------------- */
 
 /* Kinetic energy of one unit with the spin of disc 33, from the velocities of the discs' centres. */
@@ -392,38 +356,6 @@ TEST(contact_devices, magnet_moves_no_centre_of_mass) {
 }
 
 /* --- S12 ------------------------------------------------------------------------------------------------- */
-
-/* Mean velocity from 5 to 10 s. */
-static double creep(double h) {
-    motion m;
-    motion_open(&m, "halvorson_ground", IN_DOUBLE_STEP(h));
-    motion_to(&m, 5.0);
-    const double X = motion_value(&m, "X");
-    motion_to(&m, 10.0);
-    const double speed = (motion_value(&m, "X") - X) / 5.0;
-    motion_close(&m);
-    return speed;
-}
-
-TEST(contact_devices, vehicle_creeps_on_the_ground) {
-    const double reference = (contacts_reference("halvorson_ground", "10.0", "X") -
-                              contacts_reference("halvorson_ground", "5.0", "X")) /
-                             5.0;
-    double before = 0.0;
-    for (unsigned i = 0; i < 3; i++) {
-        const double h = 4e-4 / (double)(1U << i);
-        const double speed = creep(h);
-        const double off = fabs(speed / reference - 1.0);
-        printf("  %g ms: %.10g mm/s, off the reference by %.1e\n", 1e3 * h, 1e3 * speed, off);
-        /* forwards, by millimetres per second, at any step */
-        expect_between("S12: mean velocity on the ground, mm/s", 16.0, 18.0, 1e3 * speed);
-        if (i > 0) {
-            expect_between("  order", 3.0, 6.0, log2(before / off));
-        }
-        before = off;
-    }
-    expect_between("S12: off the reference at 0.1 ms", 0.0, 1e-7, before); /* chosen here */
-}
 
 static void check_creep_in_float(void) {
     motion m;

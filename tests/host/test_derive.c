@@ -42,32 +42,17 @@ static derived mechanism_file(const char *name) {
 /* Solves the n by n equations for the highest derivatives by elimination with pivots. */
 static void dense_solution(const equations *e, state_values *s, double x[UNKNOWNS]) {
     const int n = e->count;
-    double a[UNKNOWNS][UNKNOWNS + 1];
+    long double a[UNKNOWNS][UNKNOWNS + 1];
+    long double solved[UNKNOWNS];
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
-            a[i][j] = poly_evaluate(e->mass[i * n + j], state_value, s);
+            a[i][j] = (long double)poly_evaluate(e->mass[i * n + j], state_value, s);
         }
-        a[i][n] = poly_evaluate(equations_force(e, i), state_value, s);
+        a[i][n] = (long double)poly_evaluate(equations_force(e, i), state_value, s);
     }
+    dense_solve(n, UNKNOWNS + 1, a[0], solved);
     for (int k = 0; k < n; k++) {
-        int pivot = k;
-        for (int i = k + 1; i < n; i++) {
-            pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
-        }
-        for (int j = 0; j <= n; j++) {
-            const double swap = a[k][j];
-            a[k][j] = a[pivot][j];
-            a[pivot][j] = swap;
-        }
-        for (int i = 0; i < n; i++) {
-            const double part = i == k ? 0.0 : a[i][k] / a[k][k];
-            for (int j = k; j <= n; j++) {
-                a[i][j] -= part * a[k][j];
-            }
-        }
-    }
-    for (int k = 0; k < n; k++) {
-        x[k] = a[k][n] / a[k][k];
+        x[k] = (double)solved[k];
     }
 }
 

@@ -62,17 +62,7 @@ static void by_hand(const links *of, const state_values *s, long double *accel) 
             m[i][of->n] -= both * sinl(between) * rate * rate;
         }
     }
-    for (int c = 0; c < of->n; c++) { /* positive definite: no pivoting */
-        for (int i = 0; i < of->n; i++) {
-            const long double share = i != c ? m[i][c] / m[c][c] : 0.0L;
-            for (int j = c; j <= of->n && i != c; j++) {
-                m[i][j] -= share * m[c][j];
-            }
-        }
-    }
-    for (int i = 0; i < of->n; i++) {
-        accel[i] = m[i][of->n] / m[i][i];
-    }
+    dense_solve(of->n, LINKS_MOST + 1, m[0], accel);
 }
 
 TEST(links, pendulums_of_so_many_links) {

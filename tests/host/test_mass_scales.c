@@ -22,26 +22,7 @@ static void solve(const long double *mass, const long double *b, int n, long dou
         }
         a[i][n] = b[i];
     }
-    for (int k = 0; k < n; k++) {
-        int best = k;
-        for (int i = k; i < n; i++) {
-            best = fabsl(a[i][k]) > fabsl(a[best][k]) ? i : best;
-        }
-        for (int j = 0; j <= n; j++) {
-            const long double swap = a[k][j];
-            a[k][j] = a[best][j];
-            a[best][j] = swap;
-        }
-        for (int i = 0; i < n; i++) {
-            const long double part = i == k ? 0.0L : a[i][k] / a[k][k];
-            for (int j = k; j <= n; j++) {
-                a[i][j] -= part * a[k][j];
-            }
-        }
-    }
-    for (int i = 0; i < n; i++) {
-        x[i] = a[i][n] / a[i][i];
-    }
+    dense_solve(n, MOST + 1, a[0], x);
 }
 
 /* Bodies with speeds that are integer combinations of the coordinates' rates, and their masses. */

@@ -76,7 +76,8 @@ static void name_value(named_file *f, const char *name, double value) {
 
 /* x = A \ b, by elimination with partial pivoting; elements without a line are 0. */
 static void solve_named(named_file *f, const char *x, const char *A, const char *b, int n) {
-    double m[UNKNOWNS][UNKNOWNS + 1];
+    long double m[UNKNOWNS][UNKNOWNS + 1];
+    long double solved[UNKNOWNS];
     char name[80];
     for (int i = 0; i < n; i++) {
         for (int j = 0; j <= n; j++) {
@@ -85,30 +86,14 @@ static void solve_named(named_file *f, const char *x, const char *A, const char 
             } else {
                 snprintf(name, sizeof name, "%s(%d)", b, i + 1);
             }
-            m[i][j] = named_lookup(f, name, (int)strlen(name));
-            m[i][j] = isnan(m[i][j]) ? 0.0 : m[i][j];
+            const double known = named_lookup(f, name, (int)strlen(name));
+            m[i][j] = isnan(known) ? 0.0L : (long double)known;
         }
     }
-    for (int k = 0; k < n; k++) {
-        int best = k;
-        for (int i = k + 1; i < n; i++) {
-            best = fabs(m[i][k]) > fabs(m[best][k]) ? i : best;
-        }
-        for (int j = 0; j <= n; j++) {
-            const double swap = m[k][j];
-            m[k][j] = m[best][j];
-            m[best][j] = swap;
-        }
-        for (int i = 0; i < n; i++) {
-            const double factor = i == k ? 0.0 : m[i][k] / m[k][k];
-            for (int j = k; j <= n; j++) {
-                m[i][j] -= factor * m[k][j];
-            }
-        }
-    }
+    dense_solve(n, UNKNOWNS + 1, m[0], solved);
     for (int k = 0; k < n; k++) {
         snprintf(name, sizeof name, "%s(%d)", x, k + 1);
-        name_value(f, name, m[k][n] / m[k][k]);
+        name_value(f, name, (double)solved[k]);
     }
 }
 
