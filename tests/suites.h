@@ -13,8 +13,10 @@ struct suite {
 extern const struct suite suites[]; /* [suite_count] */
 extern const unsigned suite_count;
 
-/* A test of a suite; tests/suites.sh makes the table of these lines. What a suite needs first does its function, if it has one:
- * `void suite_NAME(void) {`. */
+/* A test of a suite; tests/suites.sh makes the table of these lines. What a suite does first, or by itself, is its SUITE(name). */
+#define SUITE(name) \
+    void suite_##name(void); \
+    void suite_##name(void)
 #define TEST(suite, name) \
     void test_##suite##_##name(void); \
     void test_##suite##_##name(void)

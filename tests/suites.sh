@@ -1,17 +1,17 @@
 #!/bin/sh
 # suites.sh FILE...: the table of the suites that these test files define, as C on standard output. `suites.sh list FILE...`:
-# a line "SUITE FILE" for each. A suite is its `TEST(SUITE, NAME) {` lines, or a function `void suite_SUITE(void) {`, or both:
-# the function is then called before the tests.
+# a line "SUITE FILE" for each. A suite is its `TEST(SUITE, NAME) {` lines, or `SUITE(SUITE) {`, or both: this
+# is then called before the tests.
 set -eu
 
 list=
 [ "$1" != list ] || { list=1; shift; }
 
 # "SUITE FILE", and " TEST LINE" for a test; suites in order, tests in the order of their file.
-lines=$(awk '/^(TEST\(|void suite_)[a-z0-9_]+(, [A-Za-z0-9_]+\)|\(void\)) *\{/ {
+lines=$(awk '/^(TEST\(|SUITE\(|void suite_)[a-z0-9_]+(, [A-Za-z0-9_]+\)|\)|\(void\)) *\{/ {
     split($0, part, /[(,) ]+/)
     if (/^TEST/) print part[2], FILENAME, part[3], FNR
-    else print substr(part[2], 7), FILENAME
+    else print (/^SUITE/ ? part[2] : substr(part[2], 7)), FILENAME
 }' "$@" | sort -s -k 1,1)
 [ -n "$lines" ] || { echo "suites.sh: no suite in: $*" >&2; exit 1; }
 if [ -n "$list" ]; then

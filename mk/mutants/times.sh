@@ -72,9 +72,9 @@ told() { # told KIND NAME KEY PROGRAM...: a line of one; a name in .failed where
 if [ $# -gt 2 ]; then
     case $3 in
     cli) told cli "$4" "$common.$pages.$(sum_of "$4")" sh "$4" ;;
-    host) told host "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|TEST\()$4[(,]" tests/host/test_*.c)")" build/tests/host "$4" ;;
+    host) told host "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|SUITE\(|TEST\()$4[(,)]" tests/host/test_*.c)")" build/tests/host "$4" ;;
     last) told last "$4" "$common" sh -c "$LAST" ;;
-    *) told "$3" "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|TEST\()$4[(,]" tests/core/test_*.c)")" "build/tests/${CORE}_$3" "$4" ;;
+    *) told "$3" "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|SUITE\(|TEST\()$4[(,)]" tests/core/test_*.c)")" "build/tests/${CORE}_$3" "$4" ;;
     esac
     exit 0
 fi

@@ -37,7 +37,7 @@ for page in README.md CONTRIBUTING.md docs/*.md docs/dev/*.md; do
     grep -ohE 'build/tests/(host|core_float|core_double) [a-z0-9_ ]+' "$page" | sed 's|build/tests/||; s/_float\|_double//' |
         while read -r kind suites; do
             for suite in $suites; do
-                grep -qE "^(void suite_|TEST\()${suite#suite_}[(,]" tests/"$kind"/test_*.c || echo "$page: $kind $suite"
+                grep -qE "^(void suite_|SUITE\(|TEST\()${suite#suite_}[(,)]" tests/"$kind"/test_*.c || echo "$page: $kind $suite"
             done
         done
 done >"$scratch/err"

@@ -18,7 +18,7 @@ for name in host chip_netduinoplus2 core_double core_float; do
     *) sources=tests/core ;;
     esac
     listed=$(sed -n 's/^hint: one of //p' "$scratch/err" | tr -d ',' | tr ' ' '\n' | sort)
-    there=$(sed -nE 's/^(void suite_|TEST\()([a-z0-9_]*)[(,].*\{.*/\2/p' "$sources"/test_*.c | sort -u)
+    there=$(sed -nE 's/^(void suite_|SUITE\(|TEST\()([a-z0-9_]*)[(,)].*\{.*/\2/p' "$sources"/test_*.c | sort -u)
     [ -n "$there" ] && [ "$listed" = "$there" ]
     verdict $? "$name lists the suites of $sources"
 
@@ -35,7 +35,7 @@ done
 verdict $? "lines name the file of their suite"
 for kind in core host chip; do
     sh tests/suites.sh tests/$kind/test_*.c | sed -n 's/^    {"suite_\(.*\)", "\(.*\)", .*/\2:\1/p' >"$scratch/table"
-    grep -oHE '^(void suite_|TEST\()[a-z0-9_]*' tests/$kind/test_*.c | sed -E 's/(void suite_|TEST\()//' | sort -u >"$scratch/there"
+    grep -oHE '^(void suite_|SUITE\(|TEST\()[a-z0-9_]*' tests/$kind/test_*.c | sed -E 's/(void suite_|SUITE\(|TEST\()//' | sort -u >"$scratch/there"
     [ -s "$scratch/there" ] && sort "$scratch/table" | diff "$scratch/there" - >"$scratch/err"
     verdict $? "the suites of tests/$kind have their own files"
 done

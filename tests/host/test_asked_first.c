@@ -7,8 +7,6 @@
 #include "host/show/show_equations.h"
 #include "mechanism.h"
 
-void suite_asked_first(void);
-
 enum { POOL = 24, QUESTIONS = 60, SIZE_MAX_ASKED = 60, MECHANISMS_FEW = 10, MECHANISMS = 30 };
 
 static uint64_t seed = 20261122;
@@ -217,4 +215,4 @@ TEST(asked_first, among_others) {
     }
 }
 
-void suite_asked_first(void) { printf("asked_first: seed %" PRIu64 "\n", seed); }
+SUITE(asked_first) { printf("asked_first: seed %" PRIu64 "\n", seed); }

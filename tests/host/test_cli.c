@@ -9,8 +9,6 @@
 #include "command.h"
 #include "derived.h"
 
-void suite_firstlight(void);
-
 /* === counts =================================================================================== */
 
 __extension__ typedef unsigned __int128 wide;
@@ -568,4 +566,4 @@ TEST(firstlight, command) {
     model_drop();
 }
 
-void suite_firstlight(void) { drawn = dice_of("firstlight", 1); }
+SUITE(firstlight) { drawn = dice_of("firstlight", 1); }

@@ -6,8 +6,6 @@
 
 #include "parsed.h"
 
-void suite_contact_lang(void);
-
 #define BASE \
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n" \
     "parameter m = 2 [kg]\nparameter e = 0.5\nparameter mu = 0.3\ninput push = 3 [N]\n" \
@@ -280,7 +278,7 @@ static void test_words_of_the_statements_may_be_names(void) {
     TEST_ASSERT_EQUAL_UINT32(5, m->noises[0].seed);
 }
 
-void suite_contact_lang(void) {
+SUITE(contact_lang) {
     RUN_TEST(test_a_stop_is_the_distance_left);
     RUN_TEST(test_friction_takes_a_force_or_a_torque);
     RUN_TEST(test_conditions_are_true_where_they_should);

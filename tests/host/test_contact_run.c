@@ -3,8 +3,6 @@
 #include "parsed.h"
 #include "test.h"
 
-void suite_contact_run(void);
-
 #define BASE \
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate phi [rad]\n" \
     "parameter m = 2 [kg]\nparameter e = 0.5\nparameter mu = 0.3\ninput push = 3 [N]\n" \
@@ -179,7 +177,7 @@ static void test_how_many_values_one_run_sets(void) {
            "the whens of one run set more than 128 values");
 }
 
-void suite_contact_run(void) {
+SUITE(contact_run) {
     RUN_TEST(test_the_ledger_is_called_for_like_an_effect);
     RUN_TEST(test_noise_comes_with_its_effect);
     RUN_TEST(test_effects_bring_their_events);

@@ -4,8 +4,6 @@
 #include "host/image/image.h"
 #include "test.h"
 
-void suite_emitted_c(void);
-
 /* Values of a list's operations with c_read.h's made-up values; waves[] numbers the pairs. */
 static double phase_value(const op_list *t, const op *o, const double *x) {
     double phase = o->value;
@@ -268,4 +266,4 @@ static void check_linkage(const image *im) {
 
 TEST(emitted_c, long_lists_are_not_inlined) { each_emitted(check_linkage); }
 
-void suite_emitted_c(void) { emitted_die = dice_of("emitted_c", 4100); }
+SUITE(emitted_c) { emitted_die = dice_of("emitted_c", 4100); }

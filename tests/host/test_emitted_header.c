@@ -7,8 +7,6 @@
 #include "host/emit/c_header.h"
 #include "host/emit/emit.h"
 
-void suite_emitted_header(void);
-
 static dice die;
 static drawn_scene drawn;
 
@@ -405,7 +403,7 @@ TEST(emitted_header, a_fixed_state_has_every_name) {
     }
 }
 
-void suite_emitted_header(void) {
+SUITE(emitted_header) {
     die = dice_of("emitted_header", 4130);
     make_turning();
 }

@@ -5,8 +5,6 @@
 #include "host/image/image.h"
 #include "test.h"
 
-void suite_emitted_heads(void);
-
 static const op_list *moving(const image *im) {
     return im->list[im->settings.matrix != MATRIX_NONE ? IMAGE_MATRIX : IMAGE_STEP];
 }
@@ -213,4 +211,4 @@ static void check_tables(const image *im) {
 
 TEST(emitted_heads, tables_are_read_back) { each_emitted(check_tables); }
 
-void suite_emitted_heads(void) { emitted_die = dice_of("emitted_heads", 4120); }
+SUITE(emitted_heads) { emitted_die = dice_of("emitted_heads", 4120); }

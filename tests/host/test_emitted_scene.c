@@ -4,8 +4,6 @@
 #include "host/image/image.h"
 #include "test.h"
 
-void suite_emitted_scene(void);
-
 /* ".NAME = VALUE," in the object that begins after word `at`. */
 static void expect_field(int at, const char *name, const char *value) {
     char words[300];
@@ -278,4 +276,4 @@ static void check_observer(const image *im) {
 
 TEST(emitted_scene, observers_have_what_they_read) { each_emitted(check_observer); }
 
-void suite_emitted_scene(void) { emitted_die = dice_of("emitted_scene", 4110); }
+SUITE(emitted_scene) { emitted_die = dice_of("emitted_scene", 4110); }

@@ -12,9 +12,6 @@
 #include "faults.h"
 #include "motion.h"
 
-void suite_lockstep(void);
-void suite_replay(void);
-
 /* === faults =================================================================================== */
 
 /* --- the judge -------------------------------------------------------------------------------------------------------*/
@@ -596,7 +593,7 @@ static void test_interrupt(void) {
     TEST_ASSERT_EQUAL_INT(3, report.status.status); /* HAL_LINK_GONE */
 }
 
-void suite_lockstep(void) {
+SUITE(lockstep) {
     find_firmware();
     motion_open_file(&cart, "docs/plants/cart.whirl", "", "leaning", IN_DOUBLE_STEP(50e-6));
     RUN_TEST(test_listening);
@@ -754,4 +751,4 @@ TEST(replay, reset_on_tape) {
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "nothing that resets it"), told);
 }
 
-void suite_replay(void) { talk_die(dice_of("replay", 50)); }
+SUITE(replay) { talk_die(dice_of("replay", 50)); }

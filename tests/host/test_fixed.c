@@ -671,8 +671,6 @@ TEST(fixed_ranges, inputs_must_declare_ranges) {
  * double. The steps are so long and few that the difference is round-off, while a stage other than Runge-Kutta's would
  * be visible. Also other queries of a run. test_fixed.c has whole runs. */
 
-void suite_engine_fixed(void);
-
 enum { ENGINE_TEXT_SIZE = 1500, ENGINE_KINDS = 5, ENGINE_MOST = 16 };
 
 static dice die;
@@ -886,4 +884,4 @@ TEST(engine_fixed, asked) {
     }
 }
 
-void suite_engine_fixed(void) { die = dice_of("engine_fixed", 52); }
+SUITE(engine_fixed) { die = dice_of("engine_fixed", 52); }

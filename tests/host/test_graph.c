@@ -8,10 +8,6 @@
 #include "derived.h"
 #include "drawn_graph.h"
 
-void suite_graph(void);
-void suite_reader(void);
-void suite_taylor(void);
-
 /* === graph ==================================================================================== */
 
 enum { NODES_MOST = 4000 };
@@ -399,7 +395,7 @@ TEST(graph, inverse_functions_of_numbers) {
     }
 }
 
-void suite_graph(void) { die = dice_of("graph", 41); }
+SUITE(graph) { die = dice_of("graph", 41); }
 
 /* === reader =================================================================================== */
 /* A model's expressions as nodes of a graph (host/prove/graph.h). Random formulas have their long double values, and
@@ -721,7 +717,7 @@ TEST(reader, outputs) {
     close_text();
 }
 
-void suite_reader(void) { die = dice_of("reader", 53); }
+SUITE(reader) { die = dice_of("reader", 53); }
 
 /* === taylor =================================================================================== */
 /* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, against
@@ -958,4 +954,4 @@ TEST(taylor, products) {
     graph_free(c.graph);
 }
 
-void suite_taylor(void) { die = dice_of("taylor", 42); }
+SUITE(taylor) { die = dice_of("taylor", 42); }

@@ -5,8 +5,6 @@
 #include "host/prove/containment.h"
 #include "test.h"
 
-void suite_held_text(void);
-
 static dice die;
 static drawn_image drawn;
 static exact_state states[DRAWN_STATES];
@@ -260,4 +258,4 @@ TEST(held_text, rows) {
     }
 }
 
-void suite_held_text(void) { die = dice_of("held_text", 45); }
+SUITE(held_text) { die = dice_of("held_text", 45); }

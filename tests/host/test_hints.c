@@ -3,8 +3,6 @@
 #include "host/lang/hints.h"
 #include "parsed.h"
 
-void suite_hints(void);
-
 /* The line of the reported Q, or 0. The first Q is in line 9. */
 static int told(const char *forces) {
     char text[900];
@@ -66,7 +64,7 @@ static void test_what_only_looks_like_it_is_not(void) {
     TEST_ASSERT_EQUAL_INT(0, told("friction x static mu kinetic mu normal N\n"));
 }
 
-void suite_hints(void) {
+SUITE(hints) {
     RUN_TEST(test_friction_by_hand_is_told);
     RUN_TEST(test_losses_with_a_kink_are_told);
     RUN_TEST(test_what_only_looks_like_it_is_not);

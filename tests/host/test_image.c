@@ -21,8 +21,6 @@
 #include "json_check.h"
 #include "mechanism.h"
 
-void suite_described_drawn(void);
-
 /* === image ==================================================================================== */
 
 enum { STEPS = 20 };
@@ -566,7 +564,7 @@ TEST(described_drawn, what_is_no_number_is_null) {
     }
 }
 
-void suite_described_drawn(void) { die = dice_of("described_drawn", 4140); }
+SUITE(described_drawn) { die = dice_of("described_drawn", 4140); }
 
 /* === generated texts ========================================================================== */
 /* Tests over any mechanism cover every function: the writers of random expressions and mechanisms know each row of

@@ -6,8 +6,6 @@
 #include "parsed.h"
 #include "ranges.h"
 
-void suite_influence(void);
-
 #define CART \
     "mechanism cart\ncoordinate x [m]\ncoordinate y [m]\ninput push = 0 [N]\n" \
     "T = 2 [kg]*(x'^2 + y'^2 + (x' + y')^2)/2\nV = 1 [N/m]*y^2/2\n" \
@@ -137,7 +135,7 @@ static void test_a_contact_without_a_number_is_refused(void) {
     }
 }
 
-void suite_influence(void) {
+SUITE(influence) {
     RUN_TEST(test_a_contact_that_names_it_keeps_it_in_the_state);
     RUN_TEST(test_a_contact_without_a_number_is_refused);
     RUN_TEST(test_what_acts_is_named_with_its_line);

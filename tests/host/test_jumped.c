@@ -7,8 +7,6 @@
 #include "jumps.h"
 #include "test.h"
 
-void suite_jumped(void);
-
 static dice die;
 
 static char *no_more[JUMPS_WORDS];
@@ -269,4 +267,4 @@ TEST(jumped, far_away) {
     }
 }
 
-void suite_jumped(void) { die = dice_of("jumped", 51); }
+SUITE(jumped) { die = dice_of("jumped", 51); }

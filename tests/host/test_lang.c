@@ -4,8 +4,6 @@
 #include "host/lang/value.h"
 #include "parsed.h"
 
-void suite_lang(void);
-
 #define PI 3.14159265358979323846
 
 static double value_of(const char *expression) {
@@ -433,7 +431,7 @@ static void test_units_come_through_names(void) {
     }
 }
 
-void suite_lang(void) {
+SUITE(lang) {
     RUN_TEST(test_a_value_without_its_unit_is_refused);
     RUN_TEST(test_a_bare_number_beside_an_angle);
     RUN_TEST(test_units_come_through_names);

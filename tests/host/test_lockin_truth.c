@@ -9,8 +9,6 @@
 #include "rig_orbit.h"
 #include "tests/scattered.h"
 
-void suite_lockin_truth(void);
-
 static void check_below(double bound, double value) {
     if (!(value < bound)) {
         printf("%.6g is not below %.6g\n", value, bound);
@@ -398,4 +396,4 @@ TEST(lockin_truth, no_fault_is_called_good) {
     TEST_ASSERT_TRUE(good > 0 && doubtful > 0);
 }
 
-void suite_lockin_truth(void) { rig_measure_config(&judged, &rotor, &cell); }
+SUITE(lockin_truth) { rig_measure_config(&judged, &rotor, &cell); }

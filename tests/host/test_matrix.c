@@ -14,8 +14,6 @@
 #include "linear.h"
 #include "motion.h"
 
-void suite_matrix_printed(void);
-
 /* === matrix =================================================================================== */
 
 enum { TEXT_SIZE = 4096 };
@@ -454,7 +452,7 @@ TEST(matrix_printed, latex) {
     }
 }
 
-void suite_matrix_printed(void) { die = dice_of("matrix_printed", 44); }
+SUITE(matrix_printed) { die = dice_of("matrix_printed", 44); }
 
 /* === matrix runs ============================================================================= */
 /* Steps as one matrix in use: built-in linear scenes, a million steps, turn angles, systems of

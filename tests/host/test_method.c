@@ -10,8 +10,6 @@
 #include "derived.h"
 #include "motion.h"
 
-void suite_rk4(void);
-
 /* === first order ============================================================================== */
 
 enum { COORDINATES_MOST = 5, NAME = 24, COMPONENTS = 2 * COORDINATES_MOST };
@@ -493,4 +491,4 @@ TEST(rk4, all_paths_step_as_the_plain_one) {
     TEST_ASSERT_TRUE(compared > 500);
 }
 
-void suite_rk4(void) { seed = 20261129; }
+SUITE(rk4) { seed = 20261129; }

@@ -6,8 +6,6 @@
 
 #include "command.h"
 
-void suite_recording(void);
-
 /* === recording ================================================================================ */
 
 enum { PAYLOAD_MOST = 400, PULSES_MOST = 200 };
@@ -477,7 +475,7 @@ TEST(recording, without_files) {
     }
 }
 
-void suite_recording(void) { die = dice_of("recording", 48); }
+SUITE(recording) { die = dice_of("recording", 48); }
 
 /* === schema =================================================================================== */
 /* Schema lines of a rig (host/monitor/recording.h): drawn channels, states and rates are parsed as written. A line with

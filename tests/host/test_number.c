@@ -7,8 +7,6 @@
 #include "host/number/ratio.h"
 #include "tests/scattered.h"
 
-void suite_number(void);
-
 #define MANY 400000
 
 /* Any bits, small and large integers, halves and their neighbours. */
@@ -283,7 +281,7 @@ static void test_counts_are_nearest(void) {
     TEST_ASSERT_FALSE(ratio_count(most, (whole_ratio){1, 17}, &count));
 }
 
-void suite_number(void) {
+SUITE(number) {
     RUN_TEST(test_whole_numbers);
     RUN_TEST(test_roots);
     RUN_TEST(test_exponents);

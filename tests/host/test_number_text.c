@@ -8,8 +8,6 @@
 #include "host/base/spelling.h"
 #include "host/number/decimal.h"
 
-void suite_number_text(void);
-
 enum { TEXT = 2048 };
 
 static uint64_t seed = 20261121;
@@ -277,4 +275,4 @@ TEST(number_text, every_pair_of_bytes) {
     TEST_ASSERT_GREATER_THAN_UINT(100000, characters);
 }
 
-void suite_number_text(void) { printf("number_text: seed %" PRIu64 "\n", seed); }
+SUITE(number_text) { printf("number_text: seed %" PRIu64 "\n", seed); }

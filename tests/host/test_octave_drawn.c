@@ -9,8 +9,6 @@
 #include "host/emit/matrix.h"
 #include "test.h"
 
-void suite_octave_drawn(void);
-
 static dice die;
 static drawn_scene drawn;
 static double x[SCENE_OPS]; /* results of the list so far */
@@ -373,4 +371,4 @@ TEST(octave_drawn, matrix_files_have_each_entry) {
     }
 }
 
-void suite_octave_drawn(void) { die = dice_of("octave_drawn", 4160); }
+SUITE(octave_drawn) { die = dice_of("octave_drawn", 4160); }

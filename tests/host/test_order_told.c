@@ -4,8 +4,6 @@
 #include "command.h"
 #include "host/cli/commands.h"
 
-void suite_order_told(void);
-
 static dice die;
 
 enum { DECLARED_MOST = 4, WORDS_MOST = 6, LINES_MOST = 80, TEXT_SIZE = 2000 };
@@ -266,4 +264,4 @@ TEST(order_told, orders) {
     model_drop();
 }
 
-void suite_order_told(void) { die = dice_of("order_told", 91); }
+SUITE(order_told) { die = dice_of("order_told", 91); }

@@ -2,8 +2,6 @@
 #include "parsed.h"
 #include "test.h"
 
-void suite_override(void);
-
 #define PI 3.14159265358979323846
 
 static const char sample[] = "mechanism epicyclic\n"
@@ -183,7 +181,7 @@ static void test_the_same_error_again_is_refused_again(void) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(2, diags_count(said));
 }
 
-void suite_override(void) {
+SUITE(override) {
     RUN_TEST(test_overrides);
     RUN_TEST(test_effects_added_and_taken_away);
     RUN_TEST(test_step_in_all_its_spellings);

@@ -9,8 +9,6 @@
 
 #include "command.h"
 
-void suite_recording_plot(void);
-
 /* === plot ===================================================================================== */
 
 #define PICTURE "build/tests/drawn.svg"
@@ -588,4 +586,4 @@ TEST(recording_plot, nothing_to_plot) {
     recording_end(&r);
 }
 
-void suite_recording_plot(void) { die = dice_of("recording_plot", 54); }
+SUITE(recording_plot) { die = dice_of("recording_plot", 54); }

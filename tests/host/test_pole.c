@@ -4,8 +4,6 @@
 #include "host/check/pole.h"
 #include "host/number/functions.h"
 
-void suite_pole(void);
-
 static dice die;
 
 enum { SIGNS = 2, VALUES = 2 };
@@ -248,4 +246,4 @@ TEST(pole, what_changes_twice) {
     }
 }
 
-void suite_pole(void) { die = dice_of("pole", 61); }
+SUITE(pole) { die = dice_of("pole", 61); }

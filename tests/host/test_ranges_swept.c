@@ -17,9 +17,6 @@
 #include "blocks.h"
 #include "command.h"
 
-void suite_ranges_swept(void);
-void suite_sheet(void);
-
 /* === ranges swept ============================================================================= */
 
 static const char sample[] =
@@ -446,7 +443,7 @@ static void test_given_back(void) {
     }
 }
 
-void suite_ranges_swept(void) {
+SUITE(ranges_swept) {
     die = dice_of("ranges_swept", 61);
     RUN_TEST(test_values);
     RUN_TEST(test_states);
@@ -811,4 +808,4 @@ TEST(sheet, no_file) {
     TEST_ASSERT_FALSE(exists("-.sweep"));
 }
 
-void suite_sheet(void) { die = dice_of("sheet", 47); }
+SUITE(sheet) { die = dice_of("sheet", 47); }

@@ -6,8 +6,6 @@
 #include "host/study/cost.h"
 #include "rated.h"
 
-void suite_rated(void);
-
 enum { ROWS = 3, WORDS = 20 };
 #define RECORDS_FILE "build/tests/rated.columns"
 
@@ -441,7 +439,7 @@ static void test_the_same_run_says_the_same(void) {
     TEST_ASSERT_EQUAL_STRING("", quiet.out);
 }
 
-void suite_rated(void) {
+SUITE(rated) {
     RUN_TEST(test_rows_are_right);
     if (few_or_all(0, 1) > 0) { /* tables take seconds each */
         RUN_TEST(test_rows_are_those_of_price);

@@ -5,8 +5,6 @@
 #include "rig_orbit.h"
 #include "tests/scattered.h"
 
-void suite_repeats_truth(void);
-
 #define PI 3.14159265358979323846
 #define LEAD_RAD (PI / 180.0)
 #define BEFORE 20U
@@ -165,7 +163,7 @@ TEST(repeats_truth, healthy_benches_with_few_samples_are_good) {
     check_healthy(UINT64_C(0x5eed0a36), 4U);
 }
 
-void suite_repeats_truth(void) {
+SUITE(repeats_truth) {
     wh_result_config unused;
     wh_cell_config unused_cell;
     rig_measure_config(&unused, &rotor, &unused_cell);

@@ -4,8 +4,6 @@
 #include "command.h"
 #include "rig_orbit.h"
 
-void suite_slope_truth(void);
-
 #define LEAD_RAD (3.14159265358979323846 / 180.0)
 #define BEFORE 14U
 #define TURNS 7U
@@ -82,7 +80,7 @@ TEST(slope_truth, other_slopes) {
     TEST_ASSERT_TRUE(prevented > 10U);
 }
 
-void suite_slope_truth(void) {
+SUITE(slope_truth) {
     wh_result_config unused;
     wh_cell_config unused_cell;
     rig_measure_config(&unused, &rotor, &unused_cell);

@@ -5,8 +5,6 @@
 #include "command.h"
 #include "motion.h"
 
-void suite_stabilized(void);
-
 /* === stabilized =============================================================================== */
 
 enum { LINKS = 3, TEXT = 4096, GO = 41, WINDOW = 25 }; /* steps; iterations that make about 1024 */
@@ -375,7 +373,7 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     TEST_ASSERT_TRUE(2 * wrong >= cases);
 }
 
-void suite_stabilized(void) { UnitySetTestFile(__FILE__); }
+SUITE(stabilized) { UnitySetTestFile(__FILE__); }
 
 /* === stabilized beside ======================================================================== */
 /* Effect of --stabilized on a slow motion next to a swing: a free wheel or cart with little energy. The swing loses

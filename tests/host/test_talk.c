@@ -12,9 +12,6 @@
 #include "drawn_talk.h"
 #include "test.h"
 
-void suite_talk(void);
-void suite_taped(void);
-
 /* === talk ===================================================================================== */
 
 static void expect_same(const stream *wanted, const uint8_t *bytes, size_t length) {
@@ -323,7 +320,7 @@ TEST(talk, same_hello) {
     }
 }
 
-void suite_talk(void) { talk_die(dice_of("talk", 49)); }
+SUITE(talk) { talk_die(dice_of("talk", 49)); }
 
 /* === taped ==================================================================================== */
 /* Invalid tapes: channels missing in their hello, words that would break a row, times beyond a wrap of the timer. */
@@ -479,7 +476,7 @@ static void test_channels_that_are_none(void) {
     TEST_ASSERT_TRUE(show());
 }
 
-void suite_taped(void) {
+SUITE(taped) {
     const int file = mkstemp(name);
     TEST_ASSERT_TRUE(file >= 0);
     close(file);

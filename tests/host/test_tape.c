@@ -8,10 +8,6 @@
 #include "command.h"
 #include "evaluated.h"
 
-void suite_tape_entered(void);
-void suite_tape_freed(void);
-void suite_tape_gauged(void);
-
 /* === tape entered ============================================================================= */
 
 enum { ANGLES = 2, LEAVES = 3, POOL = 400, ENTERED = 330 };
@@ -380,7 +376,7 @@ TEST(tape_entered, functions_of_constants) {
     op_list_free(list);
 }
 
-void suite_tape_entered(void) { die = dice_of("tape_entered", 4170); }
+SUITE(tape_entered) { die = dice_of("tape_entered", 4170); }
 
 /* === tape freed =============================================================================== */
 /* Parts of op_list_scale() (host/image/op_list_scale.h). The effect of rounded constants on results has a closed
@@ -765,7 +761,7 @@ TEST(tape_freed, operands_are_entered_in_one_order) {
     }
 }
 
-void suite_tape_freed(void) { die = dice_of("tape_freed", 4190); }
+SUITE(tape_freed) { die = dice_of("tape_freed", 4190); }
 
 /* === tape gauged ============================================================================== */
 /* Gauges that op_list_scale() must find (host/image/op_list_scale.h). The lists have a factor that makes all
@@ -915,4 +911,4 @@ TEST(tape_gauged, what_a_better_list_may_cost) {
     op_list_free(t);
 }
 
-void suite_tape_gauged(void) { die = dice_of("tape_gauged", 4200); }
+SUITE(tape_gauged) { die = dice_of("tape_gauged", 4200); }

@@ -6,8 +6,6 @@
 #include "host/base/alloc.h"
 #include "test.h"
 
-void suite_tape_used(void);
-
 static dice die;
 static drawn_scene drawn;
 
@@ -362,4 +360,4 @@ TEST(tape_used, images_are_given_back) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-void suite_tape_used(void) { die = dice_of("tape_used", 4180); }
+SUITE(tape_used) { die = dice_of("tape_used", 4180); }

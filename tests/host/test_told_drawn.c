@@ -4,8 +4,6 @@
 #include "host/emit/description.h"
 #include "host/image/image.h"
 
-void suite_told_drawn(void);
-
 static dice die;
 static drawn_scene drawn;
 
@@ -221,4 +219,4 @@ TEST(told_drawn, readers_are_told_everything) {
     }
 }
 
-void suite_told_drawn(void) { die = dice_of("told_drawn", 4150); }
+SUITE(told_drawn) { die = dice_of("told_drawn", 4150); }

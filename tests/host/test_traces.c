@@ -13,8 +13,6 @@
 #include "command.h"
 #include "derived.h"
 
-void suite_traces(void);
-
 /* === traces =================================================================================== */
 
 enum { POWERS = 16, NAME = 60, VALUE = 40, CHANGES = 4000, SIGNALS = 60 };
@@ -449,7 +447,7 @@ TEST(traces, moments) {
     TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
-void suite_traces(void) { die = dice_of("traces", 64); }
+SUITE(traces) { die = dice_of("traces", 64); }
 
 /* === vcd ====================================================================================== */
 /* Value change dumps (host/io/vcd.h), parsed by the test: drawn changes of many signals, slightly out of order, come

@@ -3,8 +3,6 @@
 #include "jumps.h"
 #include "test.h"
 
-void suite_unjumped(void);
-
 static dice die;
 
 static char *no_more[JUMPS_WORDS];
@@ -131,4 +129,4 @@ TEST(unjumped, places_at_events) {
     }
 }
 
-void suite_unjumped(void) { die = dice_of("unjumped", 52); }
+SUITE(unjumped) { die = dice_of("unjumped", 52); }

@@ -4,8 +4,6 @@
 #include "command.h"
 #include "host/prove/flowpipe.h"
 
-void suite_zonotope(void);
-
 enum { SIZE = 4, MOST = 24, DIRECTIONS = 12 };
 
 static dice die;
@@ -351,4 +349,4 @@ TEST(zonotope, frame) {
     }
 }
 
-void suite_zonotope(void) { die = dice_of("zonotope", 43); }
+SUITE(zonotope) { die = dice_of("zonotope", 43); }
