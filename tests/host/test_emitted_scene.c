@@ -121,10 +121,9 @@ static void check_step(const image *im) {
                  "wh_%s_ledger ( & ledger , NULL , accelerations ,%s %s , %s ,",
                  turns ? "turn" : "step", waves, method, compensated);
     } else {
-        snprintf(words, sizeof words, "wh_%s_%s ( NULL , %s ,%s%s %s , %s , %dU , %dU ,",
-                 turns ? "turn" : "step", second ? "second" : "first", list, waves,
-                 turns && second ? " NULL ," : "", method, compensated, im->angles,
-                 second ? im->coordinates : im->reals);
+        snprintf(words, sizeof words, "wh_%s_%s ( NULL , %s ,%s %s , %s , %dU , %dU ,",
+                 turns ? "turn" : "step", second ? "second" : "first", list, waves, method,
+                 compensated, im->angles, second ? im->coordinates : im->reals);
     }
     TEST_ASSERT_TRUE_MESSAGE(c_need(&emitted.file, at, words) - at < 40, words);
     at = expect_span(at, im->step_s);
