@@ -56,6 +56,12 @@ function finish(    i, one, names, count) {
     if (index(known, " " key " ") == 0) fail("no such field: " key)
     if (key == "section" || (key == "claim" && "theirs" in f)) finish()
     if (key == "section") { section = text; next }
+    if (key == "claim" && match(text, / = [^=]*$/)) {
+        if ("claim" in f) f["claim"] = f["claim"] " " substr(text, 1, RSTART - 1)
+        else f["claim"] = substr(text, 1, RSTART - 1)
+        key = "theirs"
+        text = substr(text, RSTART + 3)
+    }
     if (key == "theirs" && match(text, / within /)) {
         f["within"] = substr(text, RSTART + RLENGTH)
         text = substr(text, 1, RSTART - 1)
