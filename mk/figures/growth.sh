@@ -10,7 +10,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$whirl" run "$scene" "$@" --quiet --columns "$scratch/one"
 "$whirl" run "$scene" --start "$change" "$@" --quiet --columns "$scratch/other"
 paste -d ' ' "$scratch/one" "$scratch/other" | awk -v size="$size" '
-    NR == 2 { next }
+    NR > 1 && /^%/ { next }
     NR == 1 { # a percent sign, the names, and both again
         for (i = 3; i <= NF / 2; i++) {
             if ($i ~ /^der\(/) last = i - 1
