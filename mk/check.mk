@@ -1,7 +1,5 @@
-# check.mk: the quality gates of `make check`. Each is a target of its own, gate-NAME; tests/gates.sh
-# runs them, keeps what they say in build/check/NAME.log and prints a line for each.
-
-# Those joined by a plus run at the same time.
+# check.mk: the quality gates of `make check`, gate-NAME each. tests/gates.sh runs them, keeps what they say in
+# build/check/NAME.log and prints a line for each. Those joined by a plus run at the same time.
 GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware size boards$(FAMILY_GATES:%=+%)
 GATES += libm cycles hashes+flashed hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
@@ -221,21 +219,19 @@ flashed-tests: $(FLASHED_TESTS) $(STATION) $(LIGHT) build/tools/f405
 gate-size:
 	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done
 
-# --- no mathematical library ----------------------------------------------------------------------
-# Unoptimised, where compilers put in nothing of their own for a library's function.
+# No mathematical library: unoptimised, where compilers put in nothing of their own for a library's function.
 gate-libm:
-	@$(MAKE) B=build/libm/gcc CC=gcc OPT=-O0 build/libm/gcc/whirl
-	@$(MAKE) B=build/libm/clang CC=clang OPT=-O0 build/libm/clang/whirl
+	@for cc in gcc clang; do $(MAKE) B=build/libm/$$cc CC=$$cc OPT=-O0 build/libm/$$cc/whirl || exit 1; done
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
-# --- boards that `make test` does not take: the suites without the rig's runs, and what guards the stack ----
-# mps2-an505 has the instructions of the board that `make test` takes: its suites are left to `make test-boards`.
+# Boards that `make test` does not take: the suites without the rig's runs, and what guards the stack. mps2-an505 has the instructions
+# of the board that `make test` takes: its suites are left to `make test-boards`.
 BOARDS_CHECKED = $(filter-out mps2-an505 $(BOARDS_TEST) $(boards_without_suites),$(BOARDS))
 gate-boards: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS_CHECKED),$(call on_board,$(b),SUITES=less board-tests) &&) true
 	@SUITES=less sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
 
-# --- both ways to estimate a Cortex-M's cycles say the same ------------------------------------------
+# Both ways to estimate a Cortex-M's cycles say the same.
 gate-cycles: $(GEN)/.stamp
 	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
 	    $(call on_board,$(b),cycles-agree) &&) true

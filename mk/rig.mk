@@ -75,8 +75,8 @@ $(B)/tests/rig_suites.c: tests/suites.sh $(B)/tests/rig_suites.list $(RIG_TEST_C
 	$(Q)sh $< $(RIG_SUITES:%=tests/core/test_%.c) >$@
 rig_tests = $(call objects,$(1),$(RIG_TEST_C) $(B)/tests/rig_suites.c $(UNITY_DIR)/unity.c) $(call libraries,$(1),scenes station rig $(2) whirl)
 $(B)/tests/rig_float: $(call rig_tests,float,virtual)
-	$(link)
 $(B)/tests/rig_double: $(call rig_tests,double)
+$(B)/tests/rig_float $(B)/tests/rig_double:
 	$(link)
 
 # Thirty bugs as somebody would write them, and who notices: the rig's suites, else a small campaign of faults.

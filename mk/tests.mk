@@ -1,5 +1,4 @@
 # tests.mk: the test programs and running them.
-#
 # tests/core   portable suites: run here in double and in float, and on the emulated board
 # tests/host   suites of the program's own parts, on this machine
 # tests/chip   drivers of the STM32F405, on a chip that is played from its manual
@@ -63,11 +62,9 @@ HOST_TEST_PARTS := $(HOST_TEST_C) $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
 $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS) tests/tools/long_runs.c)): \
     | $(UNITY_DIR)/unity.c
 
-$(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) \
-    $(call libraries,float,scenes station rig virtual whirl)
-	$(link)
-
+$(B)/tests/core_float: $(call objects,float,$(CORE_TEST_PARTS)) $(call libraries,float,scenes station rig virtual whirl)
 $(B)/tests/core_double: $(call objects,double,$(CORE_TEST_PARTS)) $(call libraries,double,scenes station rig whirl)
+$(B)/tests/core_float $(B)/tests/core_double:
 	$(link)
 
 $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
