@@ -205,8 +205,8 @@ static int first_off(const run_checks *v, const horizon *h) {
     return found;
 }
 
-/* The position with an error that grew RUN_CHECKS_SUDDEN times to the tolerance of trust in few steps, or -1: the steps do not
- * resolve a place of the motion, as one where the coordinates are singular. No chaotic motion that they resolve does that. */
+/* The position with an error that grew RUN_CHECKS_SUDDEN times to the tolerance of trust in few steps, or -1. Then the steps do
+ * not resolve a place of the motion, such as a singularity of the coordinates. A resolved chaotic motion does not do that. */
 static int first_sudden(const run_checks *v, const horizon *h) {
     int found = -1;
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;

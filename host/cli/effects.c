@@ -34,7 +34,7 @@ static const command_usage usage = {
         "                       (default: mps2-an386, a Cortex-M4F, also for an STM32F405)\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run with all effects diverged",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as a scene without effects"}};
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "also a scene without effects"}};
 
 typedef struct effects_options {
     common_options common;

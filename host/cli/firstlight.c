@@ -241,7 +241,7 @@ static const command_usage firstlight_usage = {
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "no field differs",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
                 "a field differs, no record came, or the row could not be written",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as an incomplete record",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "also an incomplete record",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 /* --- the record ------------------------------------------------------------------------------------------------- */

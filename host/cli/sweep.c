@@ -61,7 +61,7 @@ static const command_usage sweep_usage = {
         [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
             "a point failed (its measures are empty), a warning applies (see --strict), or the\n"
             "       file could not be written",
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "such as a FILE from another sweep",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "also a FILE from another sweep",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static const command_usage map_usage = {

@@ -1,5 +1,5 @@
 /* test_turned_errors.c: errors of rotated sines by method, a table for docs/dev/numerics.md, compared with lookup at each
- * stage: a pendulum, in double with compensated sums, so that the errors are the method's. */
+ * stage. It is a pendulum in double with compensated sums, so that the errors are the method's. */
 #include "command.h"
 #include "motion.h"
 

@@ -1,6 +1,6 @@
 /* functions_exhaustive.c: the float functions of core/function.h and the square root, against the library's in
  * double, in float ulps. Functions of one argument run over all 2^32 floats, those of two over 2^32 scattered pairs. The root
- * in integers and the one that scenes use are always the nearest float: double has more than twice a float's bits plus two
+ * in integers and the one that scenes use are always the nearest float. Double has more than twice a float's bits plus two
  * (Figueroa, When is double rounding innocuous?, SIGNUM Newsletter 30 (1995) 3).
  *
  *     functions_exhaustive [STRIDE [FUNCTION]]
