@@ -52,7 +52,7 @@ CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
 # Those that boards leave to mps2-an386, but for `make test-boards`: whole runs of the rig, whose bits are those of every board
 # (gate-hashes); what differs between processors, conversions, roots, functions and the core's steps, they keep.
 CORE_RUNS := rig_gravity rig_lead rig_motor rig_observer rig_off rig_pulses rig_run rig_slope rig_swing rig_swing_pulses \
-    virtual_rig_faults virtual_rig_halts
+    virtual_rig_faults
 CORE_LESS_C := $(filter-out $(CORE_RUNS:%=tests/core/test_%.c),$(CORE_TEST_C))
 CORE_LESS_PARTS := $(CORE_LESS_C) $(B)/tests/less_suites.c $(UNITY_DIR)/unity.c
 $(B)/tests/less_suites.c: tests/suites.sh mk/tests.mk $(CORE_LESS_C)

@@ -8,7 +8,9 @@
 
 #include "conf_rows.h"
 #include "core/rig/rig.h"
+#include "core/text.h"
 #include "errors.h"
+#include "line.h"
 #include "store.h"
 
 #ifdef __cplusplus
@@ -96,6 +98,13 @@ wh_station_error wh_conf_save(wh_conf *conf);
 
 /* A choice's word for a value, from a list (answer.h); NULL for a number. */
 const char *wh_conf_text(wh_conf_id id, wh_real value);
+
+/* === the console's command `conf` ============================================================ */
+
+#define wh_conf_answer WH_NAME(wh_conf_answer)
+
+/* Answer the words after `conf` into *answer, which is empty; or return the error. `idle`: settings may change. */
+wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer);
 
 #ifdef __cplusplus
 }

@@ -2,9 +2,9 @@
 #include "station.h"
 
 #include "answer.h"
-#include "conf_answer.h"
+#include "conf.h"
 #include "selftest.h"
-#include "tel_answer.h"
+#include "telemetry.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
 /* `measure` takes up to 380, with the longest reason against a result. */

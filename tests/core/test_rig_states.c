@@ -1,8 +1,12 @@
-/* test_rig_states.c: the rig's life cycle: every state and event, every named refusal, and how `arm` ends. */
+/* test_rig_states.c: the life cycle of the rig, the trips, and random orders. */
 #include <stddef.h>
 
+#include "draw.h"
 #include "even_rig.h"
 #include "tests/suites.h"
+
+/* === rig states ============================================================================== */
+/* The rig's life cycle: every state and event, every named refusal, and how `arm` ends. */
 
 static even_rig even;
 static even_rig stood;
@@ -287,4 +291,566 @@ TEST(rig_states, armed_ends_when_the_rotor_turns) {
         even_rest(&even);
         TEST_ASSERT_TRUE(arm() == WH_ALLOWED);
     }
+}
+
+/* === rig states trips ======================================================================== */
+/* A tripped or stopped rig stays stopped. Trips in each phase, their record through a reset,
+ * `clear`, `stop`, the stop input, a lost host, a rotor that turns at the controller's start. */
+
+static void check_off(void) {
+    TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.command.volts);
+}
+
+static void check_tripped(wh_trip trip) {
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED && even.rig.run.phase == WH_PHASE_NONE);
+    TEST_ASSERT_EQUAL_INT(trip, even.rig.guard.trip);
+    TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
+    check_off();
+}
+
+/* Each order but `clear` and `stop` is refused by the trip, and nothing moves. */
+static void check_latched(wh_trip trip) {
+    static const wh_rig_event orders[] = {WH_EVENT_ARM, WH_EVENT_START, WH_EVENT_SET};
+    for (unsigned i = 0; i < 3; i++) {
+        TEST_ASSERT_TRUE(even_order(&even, orders[i], WH_R(330.0) * EVEN_RPM) ==
+                         WH_REFUSED_TRIPPED);
+        check_tripped(trip);
+    }
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
+    check_tripped(trip);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_HOST_LOST, WH_R(0.0)) == WH_ALLOWED);
+    check_tripped(trip);
+}
+
+static wh_refusal clear(void) { return even_order(&even, WH_EVENT_CLEAR, WH_R(0.0)); }
+
+/* `clear` waits for rest and leads to idle only: the next run needs `arm` and `start`. */
+static void check_clears(void) {
+    for (unsigned i = 0; i < 20000U && !even.rig.rested; i++) {
+        TEST_ASSERT_TRUE(i % 1000U != 0 || clear() == WH_REFUSED_TURNING);
+        even_step(&even);
+        check_off();
+    }
+    even_rest(&even);
+    TEST_ASSERT_TRUE(clear() == WH_ALLOWED);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
+    check_off();
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) ==
+                     WH_REFUSED_NOT_ARMED);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+}
+
+/* --- trips ------------------------------------------------------------------------------------------ */
+
+/* Causes that trip the rig in any state, and their effects. */
+static void break_supply(bool broken) {
+    even.inputs.supply_V = broken ? WH_R(9.0) : WH_RIG_RATED_V;
+}
+static void break_watchdog(bool broken) { even.inputs.watchdog_has_cut = broken; }
+static void break_cell(bool broken) {
+    even.fails =
+        (even_failure){.in = broken ? WH_PHASE_NONE : EVEN_NEVER, .status = WH_LOAD_DISCONNECTED};
+    even.failing = broken;
+}
+
+typedef struct fault {
+    void (*breaks)(bool broken);
+    wh_trip trip;
+    wh_refusal while_broken; /* `clear` of a rig at rest */
+} fault;
+
+static const fault faults[] = {
+    {break_supply, WH_TRIP_SUPPLY, WH_REFUSED_SUPPLY},
+    {break_watchdog, WH_TRIP_WATCHDOG, WH_REFUSED_WATCHDOG},
+    {break_cell, WH_TRIP_LOAD_CELL, WH_REFUSED_LOAD_CELL},
+};
+
+static void check_record(const wh_trip_record *record, wh_trip trip, wh_rig_phase phase) {
+    TEST_ASSERT_TRUE(record->trip == trip && record->phase == phase);
+    TEST_ASSERT_EQUAL_UINT32(even.inputs.now_ticks, record->ticks);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.inputs.supply_V, (float)record->supply_V);
+    const bool drives = phase >= WH_PHASE_SPIN_UP && phase <= WH_PHASE_RAMP_DOWN;
+    TEST_ASSERT_TRUE(drives ? record->volts > WH_R(5.0) : !(record->volts > WH_R(0.0)));
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.rig.pulses.speed.turn_radps,
+                             (float)record->speed_radps);
+    TEST_ASSERT_TRUE((record->speed_radps > WH_R(100.0) * EVEN_RPM) ==
+                     (phase >= WH_PHASE_RAMP && drives));
+}
+
+/* The record goes through a reset, at another timer value, and is latched again. */
+static void check_reset(wh_trip trip) {
+    const wh_trip_record record = even.rig.record;
+    const uint32_t now = even.inputs.now_ticks + 12345678U;
+    const even_rig before = even;
+    even_start(&even);
+    even.inputs = before.inputs;
+    even.inputs.now_ticks = now;
+    even.fails = before.fails;
+    even.failing = before.failing;
+    wh_rig_start(&even.config, &even.rig, now, &record);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED && even.rig.guard.trip == trip);
+    TEST_ASSERT_TRUE(even.rig.record.ticks == record.ticks && !even.rig.rested);
+    even_step(&even);
+    check_tripped(trip);
+    check_latched(trip);
+    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* the rotor's motion is unknown */
+}
+
+/* In each phase of a run, and armed: off in the same step, latched, through a reset, until rest and the cause is gone. */
+TEST(rig_states_trips, trips_latch) {
+    for (unsigned i = 0; i < 3; i++) {
+        for (wh_rig_phase phase = WH_PHASE_NONE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
+            if (phase == WH_PHASE_NONE) {
+                even_arm(&even);
+            } else {
+                even_reach(&even, phase);
+            }
+            faults[i].breaks(true);
+            even_step(&even);
+            check_tripped(faults[i].trip);
+            check_record(&even.rig.record, faults[i].trip, phase);
+            check_latched(faults[i].trip);
+            check_reset(faults[i].trip);
+            even_go_on_until(&even, EVEN_NEVER);
+            TEST_ASSERT_TRUE(clear() == faults[i].while_broken);
+            check_tripped(faults[i].trip);
+            faults[i].breaks(false);
+            check_clears();
+        }
+    }
+}
+
+TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
+    const wh_trip_record none = {.trip = WH_TRIP_NONE, .ticks = 7};
+    even_start(&even);
+    wh_rig_start(&even.config, &even.rig, even.inputs.now_ticks, &none);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
+    even_rest(&even);
+    TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
+}
+
+/* Implausible pulses cannot show rest: that trip waits only for its time. */
+TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
+    even_failure failing = {.in = WH_PHASE_SETTLE};
+    failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
+    even_begin(&even, WH_R(330.0), &failing);
+    for (unsigned i = 0; i < 20000U && even.rig.state != WH_RIG_TRIPPED; i++) {
+        even_step(&even);
+    }
+    check_tripped(WH_TRIP_PULSES);
+    even_steps(&even, 20U * 500U - 1U);
+    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING && !even.rig.rested);
+    even_step(&even);
+    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING); /* unknown */
+    even_steps(&even, 100U * 500U);
+    TEST_ASSERT_TRUE(clear() == WH_ALLOWED && even.rig.state == WH_RIG_IDLE);
+}
+
+/* The wait is over, but `clear` is still refused while the rotor turns. */
+TEST(rig_states_trips, a_turning_rotor_is_not_cleared) {
+    even_arm(&even);
+    break_supply(true);
+    even_step(&even);
+    break_supply(false);
+    even_turn_by_hand(&even, WH_R(60.0));
+    even_steps(&even, 25U * 500U);
+    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING);
+    check_tripped(WH_TRIP_SUPPLY);
+    even_turn_by_hand(&even, WH_R(0.0));
+    check_clears();
+}
+
+/* --- stop ------------------------------------------------------------------------------------------ */
+
+typedef enum stop_way { STOP_ORDER, STOP_INPUT, STOP_HOST_LOST, STOP_WAYS } stop_way;
+
+static void stop(stop_way way) {
+    if (way == STOP_INPUT) {
+        even.inputs.stop_pressed = true;
+        even_step(&even);
+    } else {
+        (void)even_order(&even, way == STOP_ORDER ? WH_EVENT_STOP : WH_EVENT_HOST_LOST, WH_R(0.0));
+    }
+}
+
+/* In every phase the motor is off in the same step until the rotor rests. Then `arm` is allowed unless stop is still pressed. */
+TEST(rig_states_trips, stop_is_at_once) {
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
+        even_reach(&even, phase);
+        stood = even;
+        for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) {
+            for (unsigned brakes = 0; brakes < 2; brakes++) {
+                even = stood;
+                even.config.stop_brakes = brakes == 1;
+                stop(way);
+                check_off();
+                TEST_ASSERT_TRUE(even.rig.state == WH_RIG_STOPPING &&
+                                 even.rig.run.phase == WH_PHASE_OFF);
+                /* a stop never switches the enable on */
+                const bool enabled = phase != WH_PHASE_TARE && phase != WH_PHASE_OFF;
+                TEST_ASSERT_TRUE(even.command.way == (brakes == 1 && enabled && way != STOP_INPUT
+                                                          ? WH_MOTOR_BRAKES
+                                                          : WH_MOTOR_COASTS));
+                TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) ==
+                                 WH_REFUSED_STOPPING);
+                unsigned steps = 0;
+                for (; steps < 1000U && even.rig.state == WH_RIG_STOPPING; steps++) {
+                    even_step(&even);
+                    check_off();
+                }
+                TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && steps >= 700U);
+                TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE);
+                TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) ==
+                                 (way == STOP_INPUT ? WH_REFUSED_STOP_INPUT : WH_ALLOWED));
+            }
+        }
+    }
+    for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) { /* no longer armed */
+        even_arm(&even);
+        stop(way);
+        check_off();
+        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
+    }
+}
+
+/* As configured: without a host a run goes on to its end. */
+TEST(rig_states_trips, a_run_may_outlive_its_host) {
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
+        even_reach(&even, phase);
+        even.config.host_loss_stops = false;
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_HOST_LOST, WH_R(0.0)) == WH_ALLOWED);
+        TEST_ASSERT_TRUE(even.rig.run.phase == phase);
+        even_go_on_until(&even, EVEN_NEVER);
+        TEST_ASSERT_TRUE(even_is_done(&even));
+    }
+}
+
+/* --- the controller's start -------------------------------------------------------------------------- */
+
+/* The rotor still turns: no trip, `arm` is refused, and the rotor is watched. */
+TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
+    static const wh_real speeds_rpm[] = {WH_R(60.0), WH_R(170.0), WH_R(330.0), WH_R(390.0)};
+    for (unsigned i = 0; i < 4; i++) {
+        even_start(&even);
+        even_turn_by_hand(&even, speeds_rpm[i]);
+        for (unsigned step = 0; step < 3000U; step++) {
+            even_step(&even);
+            check_off();
+            TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
+        }
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_REFUSED_TURNING);
+        even_turn_by_hand(&even, WH_R(0.0));
+        even_rest(&even);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+    }
+    even_start(&even); /* faster than the shaft can take */
+    even_turn_by_hand(&even, WH_R(410.0));
+    even_steps(&even, 1000);
+    check_tripped(WH_TRIP_OVERSPEED);
+    even_start(&even); /* from rest, with the motor off: a stage drives it */
+    even_rest(&even);
+    even_turn_by_hand(&even, WH_R(300.0));
+    even_steps(&even, 1000);
+    check_tripped(WH_TRIP_RUNS_ON);
+}
+
+/* --- a rotor turned by hand -------------------------------------------------------------------------- */
+
+/* Armed, a rotor may shiver: two pulses. The third is a hand that turns it. */
+TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
+    for (unsigned i = 0; i < 8U; i++) { /* of either sensor */
+        even_arm(&even);
+        for (unsigned pulses = 1; pulses <= 3U; pulses++) {
+            wh_rig_pulse(&even.config, &even.rig, i >> (pulses - 1U) & 1U, even.inputs.now_ticks);
+            even_steps(&even, 3);
+            TEST_ASSERT_TRUE(even.rig.state == (pulses <= 2U ? WH_RIG_ARMED : WH_RIG_IDLE));
+        }
+    }
+}
+
+/* After any rest a hand's pulses are not compared with earlier ones: the timer wraps after 72 minutes, half of which is future. */
+TEST(rig_states_trips, rest_may_last_any_time) {
+    for (unsigned i = 0; i < 24U; i++) {
+        even_start(&even);
+        even_rest(&even);
+        even_turn_by_hand(&even, WH_R(60.0));
+        even_steps(&even, 800);
+        even_turn_by_hand(&even, WH_R(0.0));
+        const uint32_t last = even.rig.pulses.speed.ticks;
+        const uint32_t rejected = even.rig.pulses.rejected;
+        even_rest(&even);
+        TEST_ASSERT_FALSE(even.rig.pulses.speed.running);
+        const uint32_t wakes =
+            last + (i % 3U == 0 ? UINT32_C(0x80000000) : 0U) + UINT32_C(5000) * i;
+        for (unsigned s = 0; s < 4294U; s++) { /* a second each */
+            even.inputs.now_ticks += 1000000U - EVEN_STEP_TICKS;
+            even_step(&even);
+            if (s > 5U && wakes - even.inputs.now_ticks < 2000000U) {
+                break;
+            }
+        }
+        even.inputs.now_ticks = wakes;
+        even_turn_by_hand(&even, WH_R(60.0));
+        even_steps(&even, 1600);
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE && even.rig.state == WH_RIG_IDLE);
+        TEST_ASSERT_EQUAL_UINT32(rejected, even.rig.pulses.rejected);
+        TEST_ASSERT_FLOAT_WITHIN(0.1f, 60.0f, (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
+    }
+}
+
+/* === rig states random ======================================================================= */
+/* The rig's controller under random orders and inputs, new set-points, and a result that
+ * outlives a trip. */
+
+static uint32_t result_end_ticks;
+static uint64_t seed;
+
+/* In any phase before the result: it settles at the new one, and the record restarts. */
+TEST(rig_states_random, another_set_point_while_it_runs) {
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
+        even_reach(&even, phase);
+        even_steps(&even, 100); /* the earlier record is dropped */
+        TEST_ASSERT_TRUE(even.rig.run.phase == phase);
+        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
+        TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));
+        even_go_on_until(&even, WH_PHASE_RECORD);
+        const uint32_t begin = even.inputs.now_ticks;
+        TEST_ASSERT_FLOAT_WITHIN(0.5f, 250.0f,
+                                 (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
+        even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
+        TEST_ASSERT_TRUE(even.inputs.now_ticks - begin >= 2000000U);
+        even_go_on_until(&even, EVEN_NEVER);
+        TEST_ASSERT_TRUE(even_is_done(&even));
+        const wh_measured *force = &even.rig.result.force;
+        TEST_ASSERT_FLOAT_WITHIN(0.01f, 250.0f, (float)(force->speed_radps / EVEN_RPM));
+        /* whole turns of 2 s at 250 rpm; those at 330 rpm are not among them */
+        TEST_ASSERT_TRUE(force->turns == 7U || force->turns == 8U);
+        TEST_ASSERT_FLOAT_WITHIN(0.02f, (float)EVEN_LOAD_N, (float)force->amplitude_N);
+    }
+}
+
+/* The next run counts from zero, not from the pulses that the last one lost or rejected before its loop was closed. */
+TEST(rig_states_random, the_run_before_does_not_count) {
+    even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+    TEST_ASSERT_TRUE(even_is_done(&even));
+    even.rig.guard.lost_before = 2;
+    even.rig.guard.rejected_before = 5;
+    even_rest(&even);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+    even_go_on_until(&even, EVEN_NEVER);
+    TEST_ASSERT_TRUE(even_is_done(&even));
+}
+
+/* A record that leaves its speed band ends in a trip without a result, whether there was an earlier one or not. */
+TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
+    for (unsigned before = 0; before < 2U; before++) {
+        for (unsigned i = 0; i < 6U; i++) {
+            even_start(&even);
+            if (before > 0) {
+                even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+            }
+            even_rest(&even);
+            TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+            TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(250.0) * EVEN_RPM) ==
+                             WH_ALLOWED);
+            even_go_on_until(&even, WH_PHASE_RECORD);
+            even_steps(&even, 300U + 60U * i);
+            even_turn_by_hand(&even, i % 2U == 0 ? WH_R(235.0) : WH_R(265.0));
+            even_steps(&even, 600);
+            TEST_ASSERT_TRUE(even.rig.state == WH_RIG_TRIPPED &&
+                             even.rig.guard.trip == WH_TRIP_UNSETTLED);
+            TEST_ASSERT_FALSE(even.rig.has_result);
+        }
+    }
+}
+
+/* A rotor at rest has no speed to lead by. */
+TEST(rig_states_random, rest_leaves_no_speed) {
+    even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
+    even_rest(&even);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.run.off_radps);
+}
+
+static wh_real any_value(void) {
+    const wh_real values[] = {WH_R(330.0) * EVEN_RPM,
+                              WH_R(200.0) * EVEN_RPM,
+                              WH_R(360.0) * EVEN_RPM,
+                              WH_R(500.0) * EVEN_RPM,
+                              WH_R(0.0),
+                              WH_R(-35.0),
+                              WH_R(1e30),
+                              (wh_real)__builtin_inff(),
+                              (wh_real)-__builtin_inff(),
+                              (wh_real)__builtin_nanf("")};
+    return values[draw_one_of(&seed, sizeof values / sizeof values[0])];
+}
+
+static wh_real any_supply_V(void) {
+    const wh_real supplies_V[] = {WH_RIG_RATED_V,
+                                  WH_R(12.0),
+                                  WH_R(36.0),
+                                  WH_R(14.0),
+                                  WH_R(0.0),
+                                  WH_R(-24.0),
+                                  WH_R(1e30),
+                                  (wh_real)__builtin_inff(),
+                                  (wh_real)-__builtin_inff(),
+                                  (wh_real)__builtin_nanf("")};
+    return supplies_V[draw_one_of(&seed, sizeof supplies_V / sizeof supplies_V[0])];
+}
+
+typedef struct asked {
+    bool arm;
+    bool start;
+    bool clear;
+} asked;
+
+static asked order_anything(void) {
+    asked of = {.arm = false};
+    const unsigned orders = draw_one_in(&seed, 3) ? 1U + draw_one_of(&seed, 5) : 0U;
+    for (unsigned i = 0; i < orders; i++) {
+        const int event = (int)draw_one_of(&seed, (unsigned)WH_EVENTS + 3U) - 1;
+        const bool posted = wh_rig_post(&even.rig, (wh_rig_event)event, any_value());
+        TEST_ASSERT_TRUE(posted == (i < WH_RIG_ORDERS_MOST));
+        of.arm = of.arm || (posted && event == (int)WH_EVENT_ARM);
+        of.start = of.start || (posted && event == (int)WH_EVENT_START);
+        of.clear = of.clear || (posted && event == (int)WH_EVENT_CLEAR);
+    }
+    return of;
+}
+
+static void disturb_anything(void) {
+    even.inputs.supply_V = draw_one_in(&seed, 30) ? any_supply_V() : WH_RIG_RATED_V;
+    even.inputs.stop_pressed = draw_one_in(&seed, 60);
+    even.inputs.clock_is_fallback = draw_one_in(&seed, 20);
+    even.inputs.watchdog_has_cut = draw_one_in(&seed, 300);
+    if (draw_one_in(&seed, 40)) {
+        wh_rig_pulse(&even.config, &even.rig, draw_one_of(&seed, 3),
+                     even.inputs.now_ticks + (uint32_t)(draw_bits(&seed) % EVEN_STEP_TICKS));
+    }
+    if (draw_one_in(&seed, 60)) {
+        wh_rig_load(&even.config, &even.rig, even.inputs.now_ticks,
+                    (int32_t)(draw_bits(&seed) % 70000U) - 35000,
+                    (wh_load_status)draw_one_of(&seed, WH_LOAD_STATUSES));
+    }
+}
+
+static void check_what_always_holds(wh_rig_state before, asked of) {
+    const wh_rig *rig = &even.rig;
+    const wh_rig_command *command = &even.command;
+    const bool drives = command->way == WH_MOTOR_DRIVES;
+    TEST_ASSERT_TRUE(rig->state < WH_RIG_STATES && rig->run.phase < WH_PHASES);
+    TEST_ASSERT_TRUE((rig->state == WH_RIG_TRIPPED) == (rig->guard.trip != WH_TRIP_NONE));
+    TEST_ASSERT_TRUE(!drives ||
+                     ((rig->state == WH_RIG_RUNNING || rig->state == WH_RIG_STOPPING) &&
+                      rig->run.phase >= WH_PHASE_SPIN_UP && rig->run.phase <= WH_PHASE_RAMP_DOWN));
+    TEST_ASSERT_TRUE(rig->state != WH_RIG_TRIPPED || command->way == WH_MOTOR_COASTS);
+    TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
+    TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* NaN is not */
+    TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
+    /* allowed sequences */
+    TEST_ASSERT_TRUE(rig->state != WH_RIG_ARMED || before == WH_RIG_ARMED || of.arm);
+    TEST_ASSERT_TRUE(rig->state != WH_RIG_RUNNING || before == WH_RIG_RUNNING ||
+                     (of.start && (before == WH_RIG_ARMED || of.arm)));
+    TEST_ASSERT_TRUE(before != WH_RIG_TRIPPED || rig->state == WH_RIG_TRIPPED || of.clear);
+    TEST_ASSERT_TRUE(before != WH_RIG_TRIPPED || !drives);
+    TEST_ASSERT_TRUE(before != WH_RIG_STOPPING || rig->state != WH_RIG_RUNNING);
+}
+
+#define SEQUENCES 500U /* from each phase */
+#define STEPS 24U
+
+static void go_through_anything(void) {
+    const wh_rig_phase phase = even.rig.run.phase;
+    stood = even;
+    unsigned left = 0; /* sequences that ended elsewhere, or not at all */
+    unsigned drove = 0;
+    for (unsigned sequence = 0; sequence < SEQUENCES; sequence++) {
+        even = stood;
+        even_steps(&even, draw_one_of(&seed, 20));
+        for (unsigned step = 0; step < STEPS; step++) {
+            const wh_rig_state before = even.rig.state;
+            const asked of = order_anything();
+            disturb_anything();
+            even_step(&even);
+            check_what_always_holds(before, of);
+            drove += even.command.way == WH_MOTOR_DRIVES ? 1U : 0U;
+        }
+        left += even.rig.run.phase != phase ? 1U : 0U;
+    }
+    const bool runs = phase > WH_PHASE_NONE && phase < WH_PHASE_OFF;
+    TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U)); /* the drawn sequences were not idle */
+    TEST_ASSERT_TRUE(!runs || phase == WH_PHASE_TARE || drove > SEQUENCES);
+}
+
+/* A result belongs to the last start, from its record's end on, and its age grows with the clock. */
+static void check_result(const wh_rig *before) {
+    const wh_rig *rig = &even.rig;
+    const uint32_t now = even.inputs.now_ticks;
+    TEST_ASSERT_TRUE(rig->runs - before->runs <= 1U);
+    if (rig->runs != before->runs) {
+        TEST_ASSERT_FALSE(rig->has_result);
+    } else if (rig->has_result && !before->has_result) {
+        result_end_ticks = now;
+        TEST_ASSERT_TRUE(before->run.phase == WH_PHASE_RECORD &&
+                         rig->settings == even.config.settings);
+    } else {
+        TEST_ASSERT_TRUE(rig->has_result == before->has_result);
+    }
+    TEST_ASSERT_TRUE(!rig->has_result || wh_rig_result_age_s(rig, now) ==
+                                             (now - result_end_ticks) / WH_RIG_TICKS_PER_S);
+}
+
+TEST(rig_states_random, what_holds_whatever_is_ordered) {
+    seed = 11;
+    even_start(&even);
+    even_rest(&even);
+    go_through_anything();
+    even_arm(&even);
+    go_through_anything();
+    for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
+        even_reach(&even, phase);
+        go_through_anything();
+    }
+    even_arm(&even); /* tripped, at rest */
+    even.inputs.supply_V = WH_R(0.0);
+    even_step(&even);
+    even.inputs.supply_V = WH_RIG_RATED_V;
+    even_go_on_until(&even, EVEN_NEVER);
+    go_through_anything();
+}
+
+/* Long sequences, in which runs get far. */
+TEST(rig_states_random, what_holds_for_hours) {
+    seed = 12;
+    even_start(&even);
+    unsigned results = 0;
+    unsigned trips = 0;
+    for (uint32_t step = 0; step < 150000U; step++) {
+        const wh_rig_state before = even.rig.state;
+        asked of = {.arm = false};
+        even.inputs.supply_V = draw_one_in(&seed, 6000) ? any_supply_V() : WH_RIG_RATED_V;
+        even.inputs.stop_pressed = draw_one_in(&seed, 20000);
+        if (draw_one_in(&seed, 20000)) {
+            of = order_anything();
+        } else if (even.rig.state != WH_RIG_RUNNING && step % 50U == 0) {
+            static const wh_rig_event orders[] = {WH_EVENT_CLEAR, WH_EVENT_ARM, WH_EVENT_START};
+            for (unsigned i = 0; i < 3; i++) {
+                TEST_ASSERT_TRUE(wh_rig_post(&even.rig, orders[i], draw_whole(&seed, 18, 37)));
+            }
+            of = (asked){true, true, true};
+        }
+        if (draw_one_in(&seed, 2000)) {
+            wh_rig_pulse(&even.config, &even.rig, draw_one_of(&seed, 2), even.inputs.now_ticks);
+        }
+        const wh_rig before_step = even.rig;
+        even_step(&even);
+        check_what_always_holds(before, of);
+        trips += before != WH_RIG_TRIPPED && even.rig.state == WH_RIG_TRIPPED ? 1U : 0U;
+        results += before == WH_RIG_RUNNING && even.rig.run.phase == WH_PHASE_RAMP_DOWN ? 1U : 0U;
+        check_result(&before_step);
+    }
+    TEST_ASSERT_TRUE(results >= 3U && trips >= 3U);
 }

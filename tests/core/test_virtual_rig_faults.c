@@ -1,7 +1,12 @@
-/* test_virtual_rig_faults.c: the whole rig on its model, with failures. */
-#include "on_plant.h"
+/* test_virtual_rig_faults.c: faults of the virtual rig, and halts at every place of a run. */
+#include <stddef.h>
 
+#include "draw.h"
+#include "on_plant.h"
 #include "unity.h"
+
+/* === virtual rig faults ====================================================================== */
+/* The whole rig on its model, with failures. */
 
 void suite_virtual_rig_faults(void);
 
@@ -192,5 +197,317 @@ void suite_virtual_rig_faults(void) {
     RUN_TEST(test_a_short_stop_is_seen);
     RUN_TEST(test_watchdog_cuts_the_motor);
     RUN_TEST(test_too_slow_and_too_fast_targets_are_refused);
+#endif
+}
+
+/* === virtual rig halts ======================================================================= */
+/* The rig on its model, from each state: stop, reset, lost host. A halted rig stays halted. */
+
+void suite_virtual_rig_halts(void);
+
+#if !WH_DOUBLE
+
+static on_plant stood;
+static hal_virtual_rig stood_rig;
+static uint64_t seed;
+
+/* --- states ------------------------------------------------------------------------------------------- */
+
+enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* then the phases from the tare on */
+#define PLACES ((unsigned)AT_PHASES + (unsigned)WH_PHASES - (unsigned)WH_PHASE_TARE)
+
+static void stand_at(unsigned place) {
+    if (place == AT_IDLE) {
+        plant_start(&on);
+    } else if (place == AT_ARMED) {
+        plant_arm(&on);
+    } else {
+        plant_begin(&on, 330.0f);
+        plant_go_on_until(&on, (wh_rig_phase)((unsigned)WH_PHASE_TARE + place - AT_PHASES));
+    }
+    stood = on;
+    stood_rig = *hal_virtual_rig_instance();
+}
+
+/* Brings the rig there again, and some steps on. */
+static void stand_again(void) {
+    on = stood;
+    *hal_virtual_rig_instance() = stood_rig;
+    for (unsigned i = draw_one_of(&seed, 120); i > 0; i--) {
+        plant_control(&on);
+    }
+}
+
+static void check_off(void) {
+    const hal_virtual_rig *rig = hal_virtual_rig_instance();
+    TEST_ASSERT_TRUE(on.command.way != WH_MOTOR_DRIVES && !(rig->volts > 0.0f));
+}
+
+/* It does not start by itself, nor by orders out of sequence. */
+static void check_stays_off(unsigned steps, wh_rig_state state) {
+    for (unsigned i = 0; i < steps; i++) {
+        if (i % 100U == 7) {
+            const wh_refusal answer = plant_order(&on, WH_EVENT_START, 330.0f * RPM);
+            TEST_ASSERT_TRUE(answer == (on.rig.state == WH_RIG_TRIPPED    ? WH_REFUSED_TRIPPED
+                                        : on.rig.state == WH_RIG_STOPPING ? WH_REFUSED_STOPPING
+                                                                          : WH_REFUSED_NOT_ARMED));
+        } else {
+            plant_control(&on);
+        }
+        check_off();
+        TEST_ASSERT_TRUE(on.rig.state == state ||
+                         (state == WH_RIG_STOPPING && on.rig.state == WH_RIG_IDLE));
+    }
+}
+
+/* --- stop -------------------------------------------------------------------------------------------- */
+
+/* Off in the next step, in any state; no start while it is pressed or afterwards. */
+static void test_stop_in_every_state(void) {
+    seed = 21;
+    for (unsigned place = 0; place < PLACES; place++) {
+        stand_at(place);
+        for (unsigned round = 0; round < 6; round++) {
+            stand_again();
+            const wh_rig_state before = on.rig.state;
+            hal_virtual_rig_instance()->stop_pressed = true;
+            plant_control(&on);
+            check_off();
+            const wh_rig_state then =
+                before == WH_RIG_IDLE || before == WH_RIG_ARMED ? WH_RIG_IDLE : WH_RIG_STOPPING;
+            TEST_ASSERT_TRUE(on.rig.state == then && on.rig.guard.trip == WH_TRIP_NONE);
+            TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) ==
+                             (then == WH_RIG_IDLE ? WH_REFUSED_STOP_INPUT : WH_REFUSED_STOPPING));
+            check_stays_off(draw_one_of(&seed, 400), then);
+            hal_virtual_rig_instance()->stop_pressed = false;
+            check_stays_off(600, then);
+        }
+        plant_go_on_to_the_end(&on);
+        plant_check_stopped(&on);
+        TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_ALLOWED);
+    }
+}
+
+/* A stage stuck at a share of the supply, with the motor off: the enable is off within 1.5 s; a turning rotor trips by name. */
+static void test_a_stuck_stage_in_every_off_state(void) {
+    seed = 25;
+    for (unsigned i = 0; i < draw_cases(24); i++) {
+        hal_virtual_rig *rig = hal_virtual_rig_instance();
+        const bool brakes = i % 3U == 0;
+        stand_at(brakes ? AT_PHASES + 2U : i % 2U == 0 ? AT_IDLE : AT_ARMED);
+        on.config.stop_brakes = true;
+        rig->supply_V = draw_whole(&seed, 18, 36);
+        rig->faults.stuck = draw_whole(&seed, 60, 100) / 100.0f;
+        rig->faults.deaf = !brakes;
+        if (brakes) {
+            TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_STOP, 0.0f) == WH_ALLOWED);
+            TEST_ASSERT_TRUE(rig->enabled);
+        }
+        for (unsigned k = 0; k < 750U; k++) {
+            plant_control(&on);
+        }
+        TEST_ASSERT_FALSE(rig->enabled);
+        TEST_ASSERT_TRUE(on.rig.guard.trip == (brakes ? WH_TRIP_UNBRAKED : WH_TRIP_RUNS_ON));
+    }
+}
+
+static void test_stop_of_a_tripped_rig(void) {
+    stand_at(AT_PHASES + 3);
+    hal_virtual_rig_instance()->supply_V = 9.0f;
+    plant_control(&on);
+    TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_SUPPLY);
+    hal_virtual_rig_instance()->stop_pressed = true;
+    check_stays_off(50, WH_RIG_TRIPPED);
+    TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_REFUSED_TRIPPED);
+    hal_virtual_rig_instance()->stop_pressed = false;
+    check_stays_off(50, WH_RIG_TRIPPED);
+    TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_SUPPLY);
+}
+
+/* --- the supply ------------------------------------------------------------------------------------------ */
+
+/* Supply out of range or missing: `arm` is refused, and an armed or running rig trips in the next step with the reading. */
+static void test_supplies_out_of_range(void) {
+    seed = 24;
+    for (unsigned place = 0; place < PLACES; place++) {
+        stand_at(place);
+        for (unsigned i = 0; i < 6; i++) {
+            const unsigned kind = draw_one_of(&seed, 6);
+            const float part = (float)draw_one_of(&seed, 1000) / 1000.0f;
+            const float supply_V = kind == 0   ? HAL_MOTOR_SUPPLY_BEYOND
+                                   : kind == 1 ? __builtin_nanf("")
+                                   : kind == 2 ? 10.79f * part
+                                               : 37.21f + 30.0f * part;
+            stand_again();
+            const bool drives = on.rig.state == WH_RIG_ARMED || on.command.way == WH_MOTOR_DRIVES;
+            hal_virtual_rig_instance()->supply_V = supply_V;
+            if (on.rig.state == WH_RIG_IDLE) {
+                TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_REFUSED_SUPPLY);
+            }
+            plant_control(&on);
+            TEST_ASSERT_TRUE(!drives || on.rig.guard.trip == WH_TRIP_SUPPLY);
+            TEST_ASSERT_TRUE(!drives || __builtin_memcmp(&on.rig.record.supply_V, &supply_V,
+                                                         sizeof supply_V) == 0);
+            check_stays_off(40, drives ? WH_RIG_TRIPPED : on.rig.state);
+        }
+    }
+}
+
+/* --- resets ------------------------------------------------------------------------------------------ */
+
+typedef enum breakage { NOTHING, BLIND, DEAF, WEAK, SILENT, BREAKAGES } breakage;
+
+/* A cause of a trip in a run, and perhaps the trip. Returns the latched one. */
+static wh_trip break_something(breakage what) {
+    hal_virtual_rig *rig = hal_virtual_rig_instance();
+    switch (what) {
+    case BLIND: rig->faults.dead_sensor[0] = rig->faults.dead_sensor[1] = true; break;
+    case DEAF: rig->faults.lose_samples = ~0U; break;
+    case WEAK: rig->supply_V = 9.0f; break;
+    case SILENT: hal_clock_wait_until(hal_clock_ticks() + 12U * CONTROL_TICKS); break;
+    case NOTHING:
+    case BREAKAGES: break;
+    }
+    for (unsigned i = draw_one_of(&seed, 300); i > 0; i--) {
+        plant_control(&on);
+    }
+    return on.rig.guard.trip;
+}
+
+static void check_same_record(const wh_trip_record *one, const wh_trip_record *other) {
+    TEST_ASSERT_TRUE(one->trip == other->trip && one->phase == other->phase);
+    TEST_ASSERT_EQUAL_UINT32(one->ticks, other->ticks);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, one->speed_radps, other->speed_radps);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, one->volts, other->volts);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, one->supply_V, other->supply_V);
+}
+
+static void check_reset(wh_trip trip) {
+    const wh_trip_record record = on.rig.record;
+    const hal_reset cause = draw_one_in(&seed, 2) ? HAL_RESET_WATCHDOG : HAL_RESET_OTHER;
+    const float speed_radps = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
+    const bool tripped = trip != WH_TRIP_NONE;
+    plant_reset(&on, cause);
+    TEST_ASSERT_FALSE(hal_virtual_rig_instance()->enabled || hal_watchdog_has_cut());
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, speed_radps,
+                             hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
+    TEST_ASSERT_TRUE(hal_reset_cause() == cause);
+    TEST_ASSERT_TRUE(on.rig.state == (tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE));
+    TEST_ASSERT_TRUE(on.rig.guard.trip == trip);
+    if (tripped) {
+        check_same_record(&record, &on.rig.record);
+    }
+    TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) ==
+                         (tripped ? WH_REFUSED_TRIPPED : WH_REFUSED_LOAD_CELL) ||
+                     (!tripped && on.rig.answer == WH_REFUSED_TURNING) ||
+                     (!tripped && on.rig.answer == WH_REFUSED_SUPPLY));
+    TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_CLEAR, 0.0f) ==
+                     (tripped ? WH_REFUSED_TURNING : WH_REFUSED_NO_TRIP));
+    check_stays_off(300, tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE);
+}
+
+/* At any instant, with a trip latched or not: off, then idle or tripped as before, and the same after the next reset. */
+static void test_resets_in_every_state(void) {
+    unsigned latched = 0;
+    unsigned none = 0;
+    seed = 22;
+    for (unsigned place = 0; place < PLACES; place++) {
+        stand_at(place);
+        for (unsigned what = 0; what < BREAKAGES; what++) {
+            stand_again();
+            const wh_trip trip = break_something((breakage)what);
+            latched += trip != WH_TRIP_NONE ? 1U : 0U;
+            none += trip == WH_TRIP_NONE ? 1U : 0U;
+            check_reset(trip);
+            check_reset(trip);
+        }
+    }
+    TEST_ASSERT_TRUE(latched >= 15U && none >= PLACES);
+}
+
+/* A cleared trip does not return, nor one from before a power-on; `clear` never arms. */
+static void test_what_is_cleared_is_forgotten(void) {
+    stand_at(AT_PHASES + 1);
+    seed = 23;
+    TEST_ASSERT_TRUE(break_something(WEAK) == WH_TRIP_SUPPLY);
+    check_reset(WH_TRIP_SUPPLY);
+    plant_go_on_to_the_end(&on);
+    TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_CLEAR, 0.0f) == WH_REFUSED_SUPPLY);
+    hal_virtual_rig_instance()->supply_V = HAL_VIRTUAL_RATED_V;
+    TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_CLEAR, 0.0f) == WH_ALLOWED);
+    check_stays_off(800, WH_RIG_IDLE);
+    check_reset(WH_TRIP_NONE);
+    stand_at(AT_PHASES + 1);
+    TEST_ASSERT_TRUE(break_something(WEAK) == WH_TRIP_SUPPLY);
+    plant_start(&on); /* power-on */
+    TEST_ASSERT_TRUE(hal_reset_cause() == HAL_RESET_POWER_ON);
+    TEST_ASSERT_TRUE(on.rig.state == WH_RIG_IDLE && on.rig.guard.trip == WH_TRIP_NONE);
+    TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_ALLOWED);
+}
+
+/* --- the host ---------------------------------------------------------------------------------------- */
+
+/* As configured: the motor is off in that step, and the rotor comes to rest; or the run goes on to its result. */
+static void test_a_lost_host_in_every_phase(void) {
+    seed = 24;
+    for (unsigned place = AT_PHASES; place + 1U < PLACES; place++) {
+        stand_at(place);
+        for (unsigned stops = 0; stops < 2; stops++) {
+            stand_again();
+            on.config.host_loss_stops = stops == 1;
+            const wh_rig_phase phase = on.rig.run.phase;
+            TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_HOST_LOST, 0.0f) == WH_ALLOWED);
+            if (stops == 1) {
+                check_off();
+                check_stays_off(100, WH_RIG_STOPPING);
+                plant_go_on_to_the_end(&on);
+                TEST_ASSERT_TRUE(on.rig.has_result == (phase >= WH_PHASE_RAMP_DOWN));
+            } else {
+                plant_go_on_to_the_end(&on);
+                TEST_ASSERT_TRUE(plant_is_done(&on));
+                TEST_ASSERT_FLOAT_WITHIN(0.2f, 42.15f, on.rig.result.force.amplitude_N);
+            }
+            plant_check_stopped(&on);
+        }
+    }
+}
+
+#endif
+
+/* Every trip, from its bytes: latched with all its data, and `arm` is refused with its name. */
+static void test_a_record_is_latched_from_its_bytes(void) {
+    static const wh_trip trips[] = {
+#define TRIP(name, number, words) name,
+        WH_TRIP_ROWS(TRIP)
+#undef TRIP
+    };
+    static wh_rig rig;
+    for (unsigned i = 0; i < sizeof trips / sizeof trips[0]; i++) {
+        const wh_trip_record before = {.trip = trips[i], .phase = WH_PHASE_SETTLE, .ticks = 7U + i};
+        wh_trip_record after;
+        uint8_t bytes[WH_TRIP_RECORD_BYTES];
+        const wh_rig_inputs inputs = {.now_ticks = 2000U, .supply_V = WH_RIG_RATED_V};
+        wh_trip_record_put(&before, bytes);
+        const bool is = wh_trip_record_get(&after, bytes, sizeof bytes);
+        TEST_ASSERT_TRUE(is == (trips[i] != WH_TRIP_NONE));
+        wh_rig_start(&wh_rig_standard, &rig, 0, is ? &after : NULL);
+        TEST_ASSERT_TRUE(rig.guard.trip == trips[i] && (!is || rig.record.ticks == 7U + i));
+        TEST_ASSERT_TRUE(wh_rig_post(&rig, WH_EVENT_ARM, WH_R(0.0)));
+        TEST_ASSERT_TRUE(wh_rig_step(&wh_rig_standard, &rig, &inputs).way == WH_MOTOR_COASTS);
+        TEST_ASSERT_TRUE(rig.answer == (is ? WH_REFUSED_TRIPPED : WH_REFUSED_LOAD_CELL));
+        TEST_ASSERT_TRUE(rig.state == (is ? WH_RIG_TRIPPED : WH_RIG_IDLE));
+    }
+}
+
+void suite_virtual_rig_halts(void) {
+    RUN_TEST(test_a_record_is_latched_from_its_bytes);
+#if !WH_DOUBLE
+    RUN_TEST(test_stop_in_every_state);
+    RUN_TEST(test_a_stuck_stage_in_every_off_state);
+    RUN_TEST(test_stop_of_a_tripped_rig);
+    RUN_TEST(test_supplies_out_of_range);
+    RUN_TEST(test_resets_in_every_state);
+    RUN_TEST(test_what_is_cleared_is_forgotten);
+    RUN_TEST(test_a_lost_host_in_every_phase);
 #endif
 }
