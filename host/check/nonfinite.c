@@ -215,10 +215,11 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     static char hint[200];
     const diagnostics_node *n = &v->image->blame.node[i];
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
-    snprintf(
-        hint, sizeof hint,
-        "keep the argument smaller: it is %s() of %.6g rad, and sine and cosine are computed up to %g rad only",
-        function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at));
+    snprintf(hint, sizeof hint,
+             "it is %s() of %.6g rad, and sine and cosine are computed up to %g rad only: start it within "
+             "a turn%s",
+             function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at),
+             at->turns ? "" : ", or --number float, whose angles count turns");
     return sine ? hint : hint_domain;
 }
 
@@ -269,52 +270,6 @@ void nonfinite_contact(const nonfinite_at *at, int k, diags *errors) {
     }
 }
 
-/* --- angles ------------------------------------------------------------------------------------*/
-
-/* The largest argument of a sine in the list, among those kept as turn angles. */
-static double largest_phase(const op_list *t, const double *angle_rad) {
-    double most = 0.0;
-    for (int i = 0; i < t->count; i++) {
-        const op *o = &t->ops[i];
-        double sum = o->code == OP_PHASE ? o->value : 0.0;
-        for (int k = 0; k < t->angles && o->code == OP_PHASE && o->turns != NULL; k++) {
-            sum += o->turns[k] * angle_rad[k];
-        }
-        most = number_most(most, fabs(sum));
-    }
-    return most;
-}
-
-bool nonfinite_angle(const nonfinite_at *at, diags *errors) {
-    const image *im = at->image;
-    const double limit = sine_limit_rad(at);
-    const bool phase =
-        !at->turns && largest_phase(im->list[IMAGE_BOOKS], at->angle_rad) >= limit * (1.0 - 1e-6);
-    const image_unknown *worst = NULL;
-    double most = 0.0;
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        const double value = i < im->angles ? at->angle_rad[i] : at->real[i - im->angles];
-        const image_unknown *u = &im->unknown[c.unknown];
-        const bool counts =
-            i < im->angles ? phase : u->is_angle && fabs(value) >= limit * (1.0 - 1e-6);
-        if (c.primes == 0 && counts && fabs(value) > most) {
-            worst = u;
-            most = fabs(value);
-        }
-    }
-    if (worst == NULL) {
-        return false;
-    }
-    diag_error(errors, worst->at,
-               at->turns ? "start it within a turn: whole turns change nothing in a sine"
-                         : "start it within a turn: whole turns change nothing in a sine; or "
-                           "--number float, whose angles count turns as integers",
-               "%s the angle '%s' is at %.9g rad: sine and cosine are computed up to %g rad only",
-               at->when, worst->name, most, limit);
-    return true;
-}
-
 bool nonfinite_energies(const image *im, const engine_kind *kind, const double *angle_rad,
                         const double *real, double time_s, diags *errors) {
     char when[60];
@@ -324,7 +279,7 @@ bool nonfinite_energies(const image *im, const engine_kind *kind, const double *
                              .real = real,
                              .turns = kind == &engine_float,
                              .when = when};
-    return nonfinite_angle(&at, errors) || nonfinite_term(&at, errors);
+    return nonfinite_term(&at, errors);
 }
 
 /* --- a step that failed ------------------------------------------------------------------------*/
@@ -355,9 +310,6 @@ bool nonfinite_step(const image *im, const engine_kind *kind, const void *run, w
                              .turns = kind == &engine_float,
                              .ahead_steps = 1.0,
                              .when = when};
-    if (nonfinite_angle(&at, errors)) {
-        return true;
-    }
     if (status == WH_E_UNDEFINED) {
         nonfinite_contact(&at, fault, errors);
         return true;

@@ -45,8 +45,6 @@ typedef struct nonfinite_at {
 
 /* Each reports the first one that it finds, with its place and its statement's text; false: not found. */
 
-/* An angle with an unknown sine. */
-bool nonfinite_angle(const nonfinite_at *at, diags *errors);
 /* A kinetic or stored energy, a loss, a force or an equation, or its slope. */
 bool nonfinite_term(const nonfinite_at *at, diags *errors);
 /* The value that a crossing sets. */

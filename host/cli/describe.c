@@ -59,7 +59,7 @@ static void tell_undefined(const image *im, const char *file) {
     diags *errors = diags_new();
     const nonfinite_at at = {
         .image = im, .angle_rad = im->start_rad, .real = im->start_real, .when = "at this state"};
-    if (!nonfinite_angle(&at, errors) && !nonfinite_term(&at, errors)) {
+    if (!nonfinite_term(&at, errors)) {
         fprintf(stderr,
                 "%s: error: at this state the accelerations of '%s' are not finite numbers\n"
                 "hint: look for a singular position: an inertia that vanishes there\n",

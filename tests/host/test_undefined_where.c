@@ -215,78 +215,6 @@ static void test_angles_that_it_is_made_of(void) {
     }
 }
 
-/* a, b and c turn, with sines of a and of b - 2 c; d is an angle that swings, e is not an angle. */
-static const char angles[] =
-    "mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\ncoordinate d [rad]\n"
-    "coordinate e [m]\nT = 1 [kg*m^2]*(a'^2 + b'^2 + c'^2 + d'^2)/2 + 1 [kg]*e'^2/2\n"
-    "V = 1 [J]*cos(a) + 1 [J]*sin(b - 2*c) + 1 [J]*d^2 + 1 [N/m]*e^2\n"
-    "scene s { start a = 1; step 1 [ms]; until 1 [s] }\n";
-
-/* Near the limit, a millionth below and above. */
-static double drawn_angle(double limit) {
-    static const double shares[] = {0.0, 0.5, 1.0 - 2e-6, 1.0 - 0.5e-6, 1.0, 1.0 + 0.5e-6, 1.7};
-    const double sign = dice_one_of(&die, 2) == 0 ? 1.0 : -1.0;
-    return sign * limit * shares[dice_one_of(&die, sizeof shares / sizeof shares[0])];
-}
-
-static void test_the_angle_that_is_too_far(void) {
-    derived d = scene_of(angles);
-    const image *im = d.image;
-    int named[6] = {0};
-    TEST_ASSERT_TRUE(im->angles == 3);
-    for (unsigned c = 0; c < dice_cases(usual_or(800, 200)); c++) {
-        const bool turns = c % 2U == 0;
-        const double limit = turns ? 1e9 : 5e8;
-        double value[5];
-        double angle_rad[3];
-        double real[8];
-        for (int i = 0; i < 5; i++) {
-            value[i] = dice_one_of(&die, 3) == 0 ? drawn_angle(limit) : dice_between(&die, -9, 9);
-        }
-        for (int i = 0; i < im->angles + im->reals; i++) {
-            const component at = image_component(im, i);
-            double *to = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
-            *to = at.primes == 0 ? value[at.unknown] : drawn_angle(2e9); /* rates may be any */
-        }
-        const double phase = fmax(fabs(value[0]), fabs(value[1] - 2.0 * value[2]));
-        int worst = -1;
-        for (int i = 0; i < 4; i++) {
-            const bool counts = i < 3 ? !turns && phase >= limit * (1.0 - 1e-6)
-                                      : fabs(value[i]) >= limit * (1.0 - 1e-6);
-            if (counts && fabs(value[i]) > (worst < 0 ? 0.0 : fabs(value[worst]))) {
-                worst = i;
-            }
-        }
-        const nonfinite_at at = {.image = im,
-                                 .angle_rad = angle_rad,
-                                 .real = real,
-                                 .turns = turns,
-                                 .when = "at t = 3 s"};
-        char wanted[400] = "";
-        if (worst >= 0) {
-            snprintf(
-                wanted, sizeof wanted,
-                ":%d:12: error: at t = 3 s the angle '%c' is at %.9g rad: sine and cosine are computed up to %g rad only\n",
-                worst + 2, 'a' + worst, fabs(value[worst]), limit);
-        }
-        char *told = told_of(&at, nonfinite_angle);
-        TEST_ASSERT_EQUAL(worst >= 0, told[0] != '\0');
-        if (worst >= 0) {
-            TEST_ASSERT_EQUAL_STRING_LEN(wanted, strchr(told, ':'), strlen(wanted));
-            TEST_ASSERT_EQUAL(!turns, strstr(told, "or --number float, whose angles count turns as "
-                                                   "integers\n") != NULL);
-            TEST_ASSERT_NOT_NULL(strstr(told, "hint: start it within a turn: whole turns change "
-                                              "nothing in a sine"));
-        }
-        named[worst + 1]++;
-        free(told);
-    }
-    for (int i = 0; i < 5; i++) {
-        TEST_ASSERT_TRUE(named[i] > 0);
-    }
-    derived_free(&d);
-}
-
 /* A sine anywhere in a formula with an argument near the limit. An angle that counts its turns has no limit. */
 static void test_the_sine_that_is_too_far(void) {
     unsigned told_of_sines = 0;
@@ -347,6 +275,5 @@ void suite_undefined_where(void) {
     RUN_TEST(test_the_places_on_the_way);
     RUN_TEST(test_what_it_is_made_of);
     RUN_TEST(test_angles_that_it_is_made_of);
-    RUN_TEST(test_the_angle_that_is_too_far);
     RUN_TEST(test_the_sine_that_is_too_far);
 }
