@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
-#include "slow.h"
 
 /* Round-offs of a whole step that a run of one step may be off by. N steps may be off by this times the root of
  * N. Up to a thousand steps this also covers N errors of one sign, as of an evenly growing rate. */
@@ -63,17 +62,13 @@ energy_residual energy_residual_of(books *b, const engine_kind *kind, const void
         made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;
     }
     made.saturated = kind->saturated != NULL && kind->saturated(run) > 0;
-    made.slow = slow_count(kind, b->image, run) > 0;
     made.left_J = made.energy.left;
     made.largest_J = larger(made.energy.largest, b->moving_J[1] - b->moving_J[0]);
     made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
     made.largest_J = larger(made.largest_J, books_swing_J(b));
     double computing_J;
     const double step_J = books_rounding_J(b, kind, run, &computing_J);
-    made.entry_J = made.largest_J;
-    made.size_J = b->size_J;
-    made.computing_J = 2.0 * computing_J;
-    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + made.computing_J;
+    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
     if (made.left_J != 0.0) { /* otherwise there is no residual to explain */
         made.rounding_J += books_lost_J(b);
     }

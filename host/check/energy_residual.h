@@ -42,17 +42,13 @@ typedef struct energy_residual {
     double contacts_J;
     double left_J;    /* residual, signed: energy.left */
     double largest_J; /* the largest entry, or its least value by round-off */
-    double entry_J;   /* the largest entry without that */
-    double size_J;    /* largest |T| + |V| */
     bool rounded;     /* it is rounding that sets it */
     double
         rounding_J; /* round-off: of a step, times the root of the steps, plus that of the energy's evaluation */
-    double computing_J; /* the part of the energy's own evaluation */
     double ratio;       /* |left| / largest, >= 0; infinite for a residual without entries */
     bool stabilized;    /* steps gave back (--stabilized) */
     double lost_J;      /* the size of the residual without them */
     bool saturated;     /* values were clamped to their range */
-    bool slow;          /* round-off took a share of the steps' increments (slow.h) */
     bool exact;         /* the steps are exact (--matrix exact) */
     double jump_s;      /* the time of a sudden loss of balance; below 0: not sudden */
 } energy_residual;

@@ -59,11 +59,8 @@ static void expect_measure(const energy_residual *made, books *b, const engine_k
     TEST_ASSERT_EQUAL(isfinite(left_J), made->known);
     TEST_ASSERT_EQUAL(exact, made->exact);
     TEST_ASSERT_EQUAL(least_J > entry_J, made->rounded);
-    expect_near(entry_J, made->entry_J, "entry");
     expect_near(fmax(entry_J, least_J), made->largest_J, "largest");
     expect_near(rounding_J, made->rounding_J, "rounding");
-    expect_near(2.0 * computing_J, made->computing_J, "computing");
-    expect_near(b->size_J, made->size_J, "size");
     expect_near(left_J == 0.0 ? 0.0 : fabs(left_J) / fmax(entry_J, least_J), made->ratio, "ratio");
 }
 
