@@ -45,12 +45,12 @@ typedef struct energy_residual {
     bool rounded;     /* it is rounding that sets it */
     double
         rounding_J; /* round-off: of a step, times the root of the steps, plus that of the energy's evaluation */
-    double ratio;       /* |left| / largest, >= 0; infinite for a residual without entries */
-    bool stabilized;    /* steps gave back (--stabilized) */
-    double lost_J;      /* the size of the residual without them */
-    bool saturated;     /* values were clamped to their range */
-    bool exact;         /* the steps are exact (--matrix exact) */
-    double jump_s;      /* the time of a sudden loss of balance; below 0: not sudden */
+    double ratio;    /* |left| / largest, >= 0; infinite for a residual without entries */
+    bool stabilized; /* steps gave back (--stabilized) */
+    double lost_J;   /* the size of the residual without them */
+    bool saturated;  /* values were clamped to their range */
+    bool exact;      /* the steps are exact (--matrix exact) */
+    double jump_s;   /* the time of a sudden loss of balance; below 0: not sudden */
 } energy_residual;
 
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run);
@@ -88,5 +88,15 @@ typedef struct kept_account {
 kept_account kept_account_read(const image *im, const engine_kind *kind, const void *run,
                                int account);
 void kept_account_free(kept_account *k);
+
+/* === the books in words ========================================================================== */
+
+/* The energy's account in a few entries, those that are judged (energy_residual.h), and the conserved momenta. */
+void books_print(FILE *out, const books *b, const energy_residual *balance);
+
+/* The energy's and the momenta's accounts by statement, from the run's own ledger (`with ledger`). `b` provides
+ * the levels. */
+void books_print_kept(FILE *out, const image *im, const engine_kind *kind, const void *run,
+                      const books *b);
 
 #endif

@@ -27,7 +27,7 @@ const finding_row finding_rows[FINDINGS] = {
                         "a contact or a force that no step met has not acted",
                         "passed, or may have passed, through a contact or over a force"},
     [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
-                         "as far as a run is trusted; aliasing.h adds what steps alone are off",
+                         "as far as a run is trusted; horizon.h adds what steps alone are off",
                          "alias a force or motion that is faster than the step"},
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
                         "what is left of such a step counts as rest or sticking",

@@ -19,4 +19,7 @@ void findings_say_failed(FILE *out, const run_checks *v);
 /* A step came back with `status`: the expression that was no number there, or the coordinate that left all bounds. */
 void failure_say(FILE *out, wh_status status, const run_checks *v);
 
+/* Is a run of this image without findings? */
+bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind);
+
 #endif

@@ -45,6 +45,11 @@ bool horizon_moves(const step_doubling *t, int k);
 double horizon_trusted_s(const horizon *h);
 void horizon_free(horizon *h);
 
+/* === aliasing ==================================================================================== */
+
+/* Fills in t->aliased, or t->unaliased, after the end of the runs. `of`: the budget to charge. */
+void aliasing_find(step_doubling *t, budget *of);
+
 /* === in words ================================================================================= */
 /* Until when a run can be trusted, in words and as comma-separated values. */
 

@@ -3,7 +3,7 @@
  * step are outside, so the core sees nothing of it. A step of half the length sees it no better.
  *
  * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of them.
- * Each gap and condition is bounded on it by Taylor forms (taylor_bounds.h). The way is halved until a place inside is found or
+ * Each gap and condition is bounded on it by Taylor forms. The way is halved until a place inside is found or
  * excluded. A contact that stays undecided after the last halving is reported as undecided.
  *
  * Accelerations with an exponential function are bounded in the same way. A step has passed over a force if the acceleration is far

@@ -215,11 +215,12 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     static char hint[200];
     const diagnostics_node *n = &v->image->blame.node[i];
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
-    snprintf(hint, sizeof hint,
-             "it is %s() of %.6g rad, and sine and cosine are computed up to %g rad only: start it within "
-             "a turn%s",
-             function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at),
-             at->turns ? "" : ", or --number float, whose angles count turns");
+    snprintf(
+        hint, sizeof hint,
+        "it is %s() of %.6g rad, and sine and cosine are computed up to %g rad only: start it within "
+        "a turn%s",
+        function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at),
+        at->turns ? "" : ", or --number float, whose angles count turns");
     return sine ? hint : hint_domain;
 }
 

@@ -4,8 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/contact.h"
 #include "host/base/alloc.h"
+#include "host/check/nonfinite.h"
+#include "host/engine/vector_field.h"
 #include "host/number/functions.h"
+
+/* === a pole on the way =========================================================================== */
 
 /* Halvings until a share of the way has no more digits. */
 enum { HALVINGS = 56 };
@@ -168,12 +173,12 @@ static part halve(const looker *l, int i, part p) {
 }
 
 /* Does value i change its sign again and again from `from` off the place to `most`? Then it is round-off. */
-static bool is_rounding(const looker *l, int i, double place, double from, double most) {
+static bool is_rounding(const looker *l, int i, double zero_at, double from, double most) {
     double before = 0.0;
     double off = from;
     int turns = 0;
     while (fabs(off) <= most) {
-        l->way->at(l->way->of, place + off, l->then, l->value);
+        l->way->at(l->way->of, zero_at + off, l->then, l->value);
         turns += before * l->value[i] < 0.0 || l->value[i] == 0.0;
         before = l->value[i];
         off *= FURTHER;
@@ -183,19 +188,19 @@ static bool is_rounding(const looker *l, int i, double place, double from, doubl
 
 /* The value overflows at `from` off the place. Was it very large before, up to the end of the way? A difference that cancels to
  * zero was not. */
-static bool overflows(const looker *l, int i, double place, double from) {
-    const double most = from < 0.0 ? place : 1.0 - place;
+static bool overflows(const looker *l, int i, double zero_at, double from) {
+    const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
     do {
         off *= FARTHER;
-        l->way->at(l->way->of, place + off, l->then, l->value);
+        l->way->at(l->way->of, zero_at + off, l->then, l->value);
     } while (isinf(l->value[i]) && fabs(off) * FARTHER <= most);
     return fabs(l->value[i]) > GROWTH_BEYOND;
 }
 
 typedef struct spot {
     part in;
-    double place;
+    double zero_at;
     double nearest; /* from so near on */
     int of;         /* the value with the sign change there, */
     bool touches;   /* or only touches zero */
@@ -230,24 +235,24 @@ static bool is_there(const spot *s, const double *over) {
 }
 
 /* The first value with a pole at the place, seen from `far` off on this side, or -1. */
-static int grows_from(const looker *l, const spot *s, double place, double far) {
+static int grows_from(const looker *l, const spot *s, double zero_at, double far) {
     const int values = l->way->values;
-    const double extent = far < 0.0 ? place - s->in.low : s->in.high - place;
+    const double extent = far < 0.0 ? zero_at - s->in.low : s->in.high - zero_at;
     double over[GROWTH_POINTS];
     double off = far;
     for (int k = 0; k < GROWTH_POINTS; k++) {
-        l->way->at(l->way->of, place + off, l->then, l->side + (ptrdiff_t)k * values);
+        l->way->at(l->way->of, zero_at + off, l->then, l->side + (ptrdiff_t)k * values);
         over[k] = 1.0 / fabs(l->then[s->of]);
         off = k + 1 < GROWTH_POINTS ? off / GROWTH_CLOSER : off;
     }
-    if (!is_there(s, over) || (s->touches && stands_off(size_at(l, s->of, place), over, far))) {
+    if (!is_there(s, over) || (s->touches && stands_off(size_at(l, s->of, zero_at), over, far))) {
         return -1;
     }
     for (int i = 0; i < values; i++) {
         const growth kind = l->done[i] ? GROWTH_NONE : growth_of(l->side + i, values);
-        const bool pole = isinf(l->side[i]) ? overflows(l, i, place, far)
+        const bool pole = isinf(l->side[i]) ? overflows(l, i, zero_at, far)
                                             : kind == GROWTH_POLE &&
-                                                  !is_rounding(l, i, place, off, NEAR * extent);
+                                                  !is_rounding(l, i, zero_at, off, NEAR * extent);
         l->done[i] = kind == GROWTH_NONE;
         if (pole) {
             return i;
@@ -262,12 +267,12 @@ static int grows_from(const looker *l, const spot *s, double place, double far) 
 /* The zero, from the sizes on both sides of the estimate: (a - e)^order and (a + e)^order differ by the part order*e/a. The place
  * of a simple zero is known already. */
 static double centred(const looker *l, const spot *s, double aside) {
-    const double before = size_at(l, s->of, s->place - aside);
-    const double behind = size_at(l, s->of, s->place + aside);
-    const double grows = size_at(l, s->of, s->place + 2.0 * aside) / behind;
+    const double before = size_at(l, s->of, s->zero_at - aside);
+    const double behind = size_at(l, s->of, s->zero_at + aside);
+    const double grows = size_at(l, s->of, s->zero_at + 2.0 * aside) / behind;
     const double order = grows > 11.0 ? 4.0 : grows > 5.6 ? 3.0 : grows > 2.8 ? 2.0 : 1.0;
     const double shift = aside / order * (before - behind) / (before + behind);
-    return order > 1.0 && isfinite(shift) ? s->place + shift : s->place;
+    return order > 1.0 && isfinite(shift) ? s->zero_at + shift : s->zero_at;
 }
 
 static bool all_done(const looker *l) {
@@ -284,9 +289,9 @@ static int pole_on_side(const looker *l, const spot *s, double side) {
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
     double far = GROWTH_REACH * s->nearest;
     while (far < 1.0 && found < 0 && !all_done(l)) {
-        const double place = centred(l, s, ASIDE / GROWTH_REACH * far);
-        const bool inside = side < 0.0 ? place - far >= s->in.low : place + far <= s->in.high;
-        found = inside ? grows_from(l, s, place, side * far) : -1;
+        const double zero_at = centred(l, s, ASIDE / GROWTH_REACH * far);
+        const bool inside = side < 0.0 ? zero_at - far >= s->in.low : zero_at + far <= s->in.high;
+        found = inside ? grows_from(l, s, zero_at, side * far) : -1;
         far *= FARTHER;
     }
     return found;
@@ -309,9 +314,9 @@ static int pole_in(const looker *l, part p, part *at) {
     }
     i = touches(l, p);
     if (i >= 0) {
-        const double place = least_of(l, i, p);
-        *at = (part){place, place};
-        return pole_at(l, &(spot){p, place, l->way->nearest[i], i, true});
+        const double zero_at = least_of(l, i, p);
+        *at = (part){zero_at, zero_at};
+        return pole_at(l, &(spot){p, zero_at, l->way->nearest[i], i, true});
     }
     *at = (part){p.high, p.high};
     return -1;
@@ -351,4 +356,519 @@ int pole_on(const pole_way *w) {
     free(l.done);
     free(l.touch);
     return found;
+}
+
+/* === divisors ==================================================================================== */
+/* Expressions with a sign change at a pole, and expressions that may grow there.
+ *
+ * Watched are divisors, and bases of negative powers, down to their factors. If a system has moving factors of a highest
+ * derivative, as in (k + s)*s' = -v*s, the divisors of its solution are watched, too. Values that depend on anything
+ * outside the state, such as a rate recovered from a momentum, are not. */
+
+typedef struct divisor {
+    int node;      /* of the blame list; if `derived`, an operation of the books list */
+    bool of_a_tan; /* its cosine changes its sign */
+    bool derived;
+    bool leaps;    /* an event may change it at once */
+    bool bends;    /* it is no straight line over the state, and may touch zero */
+    double before; /* the step, */
+    double aside;  /* hardly on its way, */
+    double now;    /* and after it */
+} divisor;
+
+typedef struct denominators {
+    blamed at;
+    unsigned char *is; /* [nodes] */
+    int *order;        /* [ordered] nodes that are needed for those watched, operands first */
+    int ordered;
+    divisor *divisor; /* [count] */
+    int count;
+    bool some_bend;
+    int *asked; /* [questions] those that may grow, of the image's */
+    int questions;
+    vector_field *field; /* of the derived divisors; NULL without any */
+    double *slope;       /* [field->n] */
+} denominators;
+
+enum {
+    MOVES = 1U,    /* depends on the state */
+    HIDDEN = 2U,   /* and on values outside the state: a highest derivative, a rate recovered from a
+             * momentum */
+    DIVIDES = 4U,  /* a factor of a divisor */
+    OF_A_TAN = 8U, /* the argument of a tangent */
+    NEEDED = 16U,
+    LEAPS = 32U, /* and on values that an event may change at once */
+    BENDS = 64U, /* and not in a straight line */
+};
+
+/* Places are continuous at an event, unless a crossing sets them. */
+static bool leaps(const image *im, const diagnostics_node *n) {
+    bool set = n->b > 0;
+    for (int i = 0; i < im->set_count; i++) {
+        const component c = image_component(im, im->target[i]);
+        set = set || (c.unknown == n->a && c.primes == n->b);
+    }
+    return set;
+}
+
+static unsigned moves_of(const image *im, const diagnostics_node *n) {
+    if (n->code != DIAGNOSTICS_STATE) {
+        return 0;
+    }
+    const bool known = n->b < im->unknown[n->a].order && image_find_component(im, n->a, n->b) >= 0;
+    return MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
+}
+
+/* Is it nonlinear in the moving values? */
+static bool bends(const denominators *d, const diagnostics_node *n, const int *of, int count) {
+    const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
+    const bool second = count > 1 && (d->is[of[1]] & MOVES) != 0;
+    if (n->code == DIAGNOSTICS_MUL) {
+        return first && second;
+    }
+    if (n->code == DIAGNOSTICS_DIV) {
+        return second;
+    }
+    return (n->code == DIAGNOSTICS_POW || n->code == DIAGNOSTICS_CALL) && (first || second);
+}
+
+static void find_what_moves(denominators *d) {
+    const image *im = d->at.image;
+    for (int i = 0; i < im->blame.nodes; i++) {
+        const diagnostics_node *n = &im->blame.node[i];
+        int of[2];
+        const int count = blamed_operands(n, of);
+        unsigned is = moves_of(im, n);
+        for (int k = 0; k < count; k++) {
+            is |= d->is[of[k]] & (MOVES | HIDDEN | LEAPS | BENDS);
+        }
+        is |= bends(d, n, of, count) ? BENDS : 0U;
+        d->is[i] = (unsigned char)is;
+        d->at.value[i] = blamed_node(&d->at, n); /* constants: once and for all */
+    }
+}
+
+static void mark(denominators *d, int node, unsigned as) { d->is[node] |= (unsigned char)as; }
+
+static bool is_size_or_root(const diagnostics_node *n) {
+    return n->code == DIAGNOSTICS_CALL && (n->function == FN_ABS || n->function == FN_SQRT);
+}
+
+/* Splits divisors into their factors. Starts at the last node, because operands precede their results. */
+static void find_factors(denominators *d) {
+    const image *im = d->at.image;
+    for (int i = im->blame.nodes - 1; i >= 0; i--) {
+        const diagnostics_node *n = &im->blame.node[i];
+        const unsigned is = d->is[i];
+        if (n->code == DIAGNOSTICS_DIV) {
+            mark(d, n->b, DIVIDES);
+        } else if (n->code == DIAGNOSTICS_POW && (d->is[n->b] & MOVES) == 0 &&
+                   d->at.value[n->b] < 0.0) {
+            mark(d, n->a, DIVIDES);
+        } else if (n->code == DIAGNOSTICS_CALL && n->function == FN_TAN) {
+            mark(d, n->a, OF_A_TAN);
+        }
+        if ((is & DIVIDES) == 0) {
+            continue;
+        }
+        const bool has_factors = n->code == DIAGNOSTICS_MUL || n->code == DIAGNOSTICS_DIV ||
+                                 n->code == DIAGNOSTICS_NEG || n->code == DIAGNOSTICS_SAME ||
+                                 n->code == DIAGNOSTICS_POW || is_size_or_root(n);
+        if (has_factors) { /* the divisors of a divisor have been marked above */
+            d->is[i] &= (unsigned char)~DIVIDES;
+            mark(d, n->a, DIVIDES);
+            if (n->code == DIAGNOSTICS_MUL) {
+                mark(d, n->b, DIVIDES);
+            }
+        }
+    }
+}
+
+static void find_order(denominators *d) {
+    const image_blame *b = &d->at.image->blame;
+    for (int i = b->nodes - 1; i >= 0; i--) {
+        const unsigned as = (d->is[i] & (MOVES | HIDDEN)) == MOVES ? d->is[i] : 0U;
+        const bool watched = (as & (DIVIDES | OF_A_TAN)) != 0;
+        if ((as & DIVIDES) != 0) {
+            d->divisor[d->count++] =
+                (divisor){.node = i, .leaps = (as & LEAPS) != 0, .bends = (as & BENDS) != 0};
+        }
+        if ((as & OF_A_TAN) != 0) {
+            d->divisor[d->count++] =
+                (divisor){.node = i, .of_a_tan = true, .leaps = (as & LEAPS) != 0};
+        }
+        if (watched || (d->is[i] & NEEDED) != 0) {
+            int of[2];
+            const int count = blamed_operands(&b->node[i], of);
+            mark(d, i, NEEDED);
+            for (int k = 0; k < count; k++) {
+                mark(d, of[k], NEEDED);
+            }
+        }
+    }
+    for (int i = 0; i < b->nodes; i++) {
+        if ((d->is[i] & (NEEDED | MOVES)) == (NEEDED | MOVES)) {
+            d->order[d->ordered++] = i;
+        }
+    }
+}
+
+/* Energies, losses, forces, equations, their slopes, and the normal forces of frictions. */
+static void find_questions(denominators *d) {
+    const image *im = d->at.image;
+    d->asked = alloc(im->blame.questions, sizeof *d->asked);
+    for (int i = 0; i < im->blame.terms; i++) {
+        d->asked[d->questions++] = i;
+    }
+    for (int c = 0; c < im->contacts; c++) {
+        const image_contact *of = &im->contact[c];
+        for (int i = 0; i < of->questions && of->kind == WH_FRICTION; i++) {
+            d->asked[d->questions++] = of->first_question + i;
+        }
+    }
+}
+
+/* Does a highest derivative of a system have a moving factor, so that the slope is divided by it? */
+static bool has_factors_that_move(const denominators *d) {
+    const image *im = d->at.image;
+    for (int i = 0; i < im->blame.nodes && !im->has_energies; i++) {
+        const diagnostics_node *n = &im->blame.node[i];
+        const bool factor = n->code == DIAGNOSTICS_MUL || n->code == DIAGNOSTICS_DIV;
+        if (factor && (d->is[i] & HIDDEN) != 0 && (d->is[n->a] & MOVES) != 0 &&
+            (d->is[n->b] & MOVES) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The factors of divisors in the list that solves for the slopes. */
+static void find_derived(denominators *d) {
+    const op_list *t = d->at.image->list[IMAGE_BOOKS];
+    bool *divides = alloc(t->count, sizeof *divides);
+    for (int i = t->count - 1; i >= 0; i--) {
+        const op *o = &t->ops[i];
+        if (o->code == OP_DIV) {
+            divides[o->b] = true;
+        }
+        if (divides[i] && (o->code == OP_MUL || o->code == OP_DIV)) {
+            divides[o->a] = true;
+            divides[o->b] = true;
+        } else if (divides[i] && (o->code == OP_NEG || o->code == OP_ABS || o->code == OP_SQRT)) {
+            divides[o->a] = true;
+        } else if (divides[i] && o->code != OP_CONSTANT) {
+            d->divisor[d->count++] = (divisor){.node = i, .derived = true, .bends = true};
+        }
+    }
+    free(divides);
+}
+
+/* --- at a state ---------------------------------------------------------------------------------------*/
+
+static denominators denominators_open(const image *im) {
+    const int nodes = im->blame.nodes;
+    denominators d = {
+        .at = blamed_open(im),
+        .is = alloc(nodes, sizeof *d.is),
+        .order = alloc(nodes, sizeof *d.order),
+        .divisor = alloc(2 * (int64_t)nodes + im->list[IMAGE_BOOKS]->count, sizeof *d.divisor)};
+    find_what_moves(&d);
+    find_factors(&d);
+    find_order(&d);
+    find_questions(&d);
+    if (has_factors_that_move(&d)) {
+        d.field = vector_field_open(im, &engine_float); /* which wraps angles: of either number */
+        find_derived(&d);
+        d.slope = alloc(d.field->n, sizeof *d.slope);
+    }
+    for (int i = 0; i < d.count; i++) {
+        d.some_bend = d.some_bend || d.divisor[i].bends;
+    }
+    return d;
+}
+
+static void denominators_close(denominators *d) {
+    blamed_close(&d->at);
+    vector_field_close(d->field);
+    free(d->is);
+    free(d->order);
+    free(d->divisor);
+    free(d->asked);
+    free(d->slope);
+}
+
+static void denominators_see(denominators *d, const double *state) {
+    const image *im = d->at.image;
+    blamed_place(&d->at, state, state + im->angles);
+    engine_operations += (uint64_t)(d->ordered + d->count);
+    for (int i = 0; i < d->ordered; i++) {
+        d->at.value[d->order[i]] = blamed_node(&d->at, &im->blame.node[d->order[i]]);
+    }
+    if (d->field != NULL) {
+        vector_field_slope(d->field, state, d->slope);
+    }
+}
+
+static void denominators_see_all(denominators *d, const double *state, double *value) {
+    const image *im = d->at.image;
+    blamed_place(&d->at, state, state + im->angles);
+    engine_operations += (uint64_t)im->blame.nodes;
+    for (int i = 0; i < im->blame.nodes; i++) {
+        if ((d->is[i] & MOVES) != 0) {
+            d->at.value[i] = blamed_node(&d->at, &im->blame.node[i]);
+        }
+    }
+    for (int i = 0; i < d->questions; i++) {
+        value[i] = d->at.value[im->blame.question[d->asked[i]].node];
+    }
+    if (d->field != NULL) {
+        vector_field_slope(d->field, state, value + d->questions);
+    }
+}
+
+static int denominators_values(const denominators *d) {
+    return d->questions + (d->field != NULL ? d->field->n : 0);
+}
+
+/* At the state that was seen last. */
+static double denominators_value(const denominators *d, const divisor *of) {
+    if (of->derived) {
+        return evaluator_value(d->field->evaluator, of->node);
+    }
+    const double value = d->at.value[of->node];
+    return of->of_a_tan ? number_cosine(value) : value;
+}
+
+/* Does this node depend on the highest derivative of that unknown? */
+static bool has_highest(const image *im, int node, int unknown) {
+    bool *of = blamed_parts(im, node);
+    bool has = false;
+    for (int i = 0; i <= node && !has; i++) {
+        const diagnostics_node *n = &im->blame.node[i];
+        has = of[i] && n->code == DIAGNOSTICS_STATE && n->a == unknown &&
+              n->b == im->unknown[unknown].order;
+    }
+    free(of);
+    return has;
+}
+
+/* The image's question of one of the values: for a slope, the first equation with it. */
+static int denominators_question(const denominators *d, int value) {
+    const image *im = d->at.image;
+    if (value < d->questions) {
+        return d->asked[value];
+    }
+    const int unknown = image_component(im, value - d->questions).unknown;
+    for (int i = 0; i < im->blame.terms; i++) {
+        if (has_highest(im, im->blame.question[i].node, unknown)) {
+            return i;
+        }
+    }
+    return 0;
+}
+
+/* === step by step ================================================================================ */
+
+/* No test if the way to a pole is less than this part of the moving value, where only round-off grows. */
+#define RESOLVED 2e-13
+
+struct pole_crossing {
+    const image *image;
+    int components;
+    denominators of;
+    double *from; /* [components] angles, then reals: the state before the step, */
+    double *to;   /* and after it */
+    uint64_t events;
+    bool leapt; /* in this step there were some */
+    bool blind; /* the state before it is not known */
+    uint64_t unseen;
+    missed *contacts;
+    int found; /* a question, or -1 */
+    missed_found through;
+    double found_s;
+};
+
+pole_crossing *pole_crossing_open(const image *im) {
+    pole_crossing *j = alloc(1, sizeof *j);
+    j->image = im;
+    j->components = im->angles + im->reals;
+    j->of = denominators_open(im);
+    j->contacts = missed_open(im);
+    j->found = -1;
+    j->through = MISSED_NOTHING;
+    j->from = alloc(j->components, sizeof *j->from);
+    j->to = alloc(j->components, sizeof *j->to);
+    if (j->of.count == 0 && j->contacts == NULL) {
+        pole_crossing_close(j);
+        return NULL;
+    }
+    return j;
+}
+
+void pole_crossing_close(pole_crossing *j) {
+    if (j != NULL) {
+        missed_close(j->contacts);
+        denominators_close(&j->of);
+        free(j->from);
+        free(j->to);
+        free(j);
+    }
+}
+
+/* --- the way of a step --------------------------------------------------------------------------------*/
+
+/* Rates that jump at an impact pass through no pole. */
+static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
+
+/* How far this component goes in the step: turn angles are given within a turn. */
+static double way_of(const pole_crossing *j, int i) {
+    const double way = j->to[i] - j->from[i];
+    return i < j->image->angles ? number_centred(way, 6.283185307179586) : way;
+}
+
+static void state_at(const pole_crossing *j, double share,
+                     double state[static 3 * IMAGE_COMPONENTS_MAX]) {
+    for (int i = 0; i < j->components; i++) {
+        state[i] = j->from[i] + share * way_of(j, i);
+    }
+}
+
+static void go_to(void *of, double share, double *sign, double *value) {
+    pole_crossing *j = of;
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    state_at(j, share, state);
+    denominators_see_all(&j->of, state, value);
+    for (int i = 0; i < j->of.count; i++) {
+        const divisor *d = &j->of.divisor[i];
+        sign[i] = counts(j, d) ? denominators_value(&j->of, d) : 0.0;
+    }
+}
+
+/* How far this component goes in the step, as a part of itself. */
+static double relative_way_of(const pole_crossing *j, int c) {
+    const double size = number_most(fabs(j->from[c]), fabs(j->to[c]));
+    return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
+}
+
+/* The largest relative way of the components that this divisor depends on; a derived divisor may
+ * depend on any. */
+static double relative_way(const pole_crossing *j, const divisor *d) {
+    double most = 0.0;
+    for (int c = 0; c < j->components && d->derived; c++) {
+        most = number_most(most, relative_way_of(j, c));
+    }
+    if (d->derived) {
+        return most;
+    }
+    bool *of = blamed_parts(j->image, d->node);
+    for (int i = 0; i <= d->node; i++) {
+        const diagnostics_node *n = &j->image->blame.node[i];
+        if (of[i] && n->code == DIAGNOSTICS_STATE) {
+            most =
+                number_most(most, relative_way_of(j, image_find_component(j->image, n->a, n->b)));
+        }
+    }
+    free(of);
+    return most;
+}
+
+/* The first question with a pole on the way, or -1. */
+static int pole_between(pole_crossing *j) {
+    double *nearest = alloc(j->of.count, sizeof *nearest);
+    for (int i = 0; i < j->of.count; i++) {
+        nearest[i] = RESOLVED / relative_way(j, &j->of.divisor[i]);
+    }
+    const int value = pole_on(&(pole_way){.of = j,
+                                          .signs = j->of.count,
+                                          .values = denominators_values(&j->of),
+                                          .nearest = nearest,
+                                          .at = go_to});
+    free(nearest);
+    return value >= 0 ? denominators_question(&j->of, value) : -1;
+}
+
+/* --- step by step ------------------------------------------------------------------------------------*/
+
+static bool had_events(pole_crossing *j, const engine_kind *kind, const void *run) {
+    uint64_t overruns = 0;
+    const uint64_t events = kind->events(run, &overruns) + overruns;
+    const bool some = events != j->events;
+    j->events = events;
+    return some;
+}
+
+static bool changes_sign(const divisor *d) {
+    return (d->before < 0.0 && d->now > 0.0) || (d->before > 0.0 && d->now < 0.0);
+}
+
+/* May a nonlinear one have touched zero without a change of sign? */
+static bool may_touch(pole_crossing *j) {
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    if (!j->of.some_bend) {
+        return false;
+    }
+    state_at(j, POLE_ASIDE, state);
+    denominators_see(&j->of, state);
+    for (int i = 0; i < j->of.count; i++) {
+        j->of.divisor[i].aside = denominators_value(&j->of, &j->of.divisor[i]);
+    }
+    state_at(j, 1.0 - POLE_ASIDE, state);
+    denominators_see(&j->of, state);
+    bool may = false;
+    for (int i = 0; i < j->of.count && !may; i++) {
+        const divisor *d = &j->of.divisor[i];
+        const double value[4] = {d->before, d->aside, denominators_value(&j->of, d), d->now};
+        may = d->bends && counts(j, d) && pole_may_touch(value);
+    }
+    return may;
+}
+
+void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *run) {
+    if (pole_crossing_some(j) || j == NULL) {
+        return;
+    }
+    const uint64_t steps = kind->steps(run);
+    bool changed = false;
+    j->leapt = had_events(j, kind, run);
+    j->through = missed_enter(j->contacts, kind, run, j->leapt, j->blind);
+    j->found_s = j->through.what >= 0 ? ratio_times(steps - 1, j->image->step) : 0.0;
+    memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);
+    kind->state(run, j->to, j->to + j->image->angles);
+    denominators_see(&j->of, j->to);
+    for (int i = 0; i < j->of.count; i++) {
+        divisor *d = &j->of.divisor[i];
+        d->before = d->now;
+        d->now = denominators_value(&j->of, d);
+        changed = changed || (changes_sign(d) && counts(j, d));
+    }
+    const bool looks = steps > 0 && !j->blind;
+    j->unseen += j->blind ? 1U : 0U;
+    j->blind = false;
+    if (looks && j->through.what < 0 && (changed || may_touch(j))) {
+        j->found = pole_between(j);
+        j->found_s = ratio_times(steps - 1, j->image->step);
+    }
+}
+
+void pole_crossing_pass(pole_crossing *j) {
+    if (j != NULL && !pole_crossing_some(j)) { /* the start is no step */
+        j->blind = true;
+        j->unseen++;
+    }
+}
+
+uint64_t pole_crossing_unseen(const pole_crossing *j) { return j != NULL ? j->unseen : 0; }
+
+bool pole_crossing_some(const pole_crossing *j) {
+    return j != NULL && (j->found >= 0 || j->through.what >= 0);
+}
+
+missed_found pole_crossing_through(const pole_crossing *j, double *begin_s) {
+    *begin_s = j != NULL ? j->found_s : 0.0;
+    return j != NULL ? j->through : MISSED_NOTHING;
+}
+
+const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s) {
+    *begin_s = j->found_s;
+    return &j->image->blame.question[j->found];
 }

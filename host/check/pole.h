@@ -1,4 +1,35 @@
-/* pole.h: finds a pole on the way from one state to the next.
+/* pole.h: steps that jump over a pole, or through a contact (missed.h). No motion passes a place of unbounded growth, such
+ * as x'/(v0 + x') at x' = -v0. But a step longer than the way there never sees it. Half the step does not either, so the two runs
+ * agree.
+ *
+ * Values that change their sign at a pole are evaluated after each step. After a sign change the way between the
+ * two states is tested for a pole. In steps with events only divisors that depend on places alone are tested, because an
+ * impact makes rates jump without passing through a pole. The same holds for values that a crossing sets. */
+#ifndef CHECK_POLE_H
+#define CHECK_POLE_H
+
+#include "missed.h"
+
+typedef struct pole_crossing pole_crossing;
+
+/* NULL without any moving divisor or contact to miss. */
+pole_crossing *pole_crossing_open(const image *im);
+void pole_crossing_close(pole_crossing *j); /* NULL is fine */
+/* Enters the state after each step, the start included. The search ends at the first pole. */
+void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *run);
+/* Skips a step, and the next state. And the number of skipped steps. */
+void pole_crossing_pass(pole_crossing *j);
+uint64_t pole_crossing_unseen(const pole_crossing *j);
+/* Has the run jumped over one? */
+bool pole_crossing_some(const pole_crossing *j);
+/* The contact that it passed through, as missed_enter() returns it, and the begin of that step; nothing: it was a
+ * pole. */
+missed_found pole_crossing_through(const pole_crossing *j, double *begin_s);
+/* The expression with the pole, and the begin of that step. */
+const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s);
+
+/* === a pole on the way =========================================================================== */
+/* Finds a pole on the way from one state to the next.
  *
  * Some values change their sign at a pole (divisors), others grow there (expressions). A sign change is located by halving. Each
  * expression is followed towards it on both sides, from the nearest distances at which both go on evenly. Nearer there is only
@@ -9,10 +40,6 @@
  * A value that only touches zero, such as 1 - cos(q), changes no sign. Its size must fall at the begin of a way and rise at the
  * end, steeply enough to touch. Then golden sections find its least point, which is tested in the same way. If the value is
  * beyond zero there, as k + s + s^2/m may be, the two sides are tested. */
-#ifndef CHECK_POLE_H
-#define CHECK_POLE_H
-
-#include <stdbool.h>
 
 typedef struct pole_way {
     void *of;

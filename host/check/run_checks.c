@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "aliasing.h"
 #include "apart.h"
+#include "horizon.h"
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
 #include "slow.h"

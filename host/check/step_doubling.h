@@ -10,7 +10,7 @@
 #include "energy_residual.h"
 #include "host/engine/loop.h"
 #include "host/io/records.h"
-#include "pole_crossing.h"
+#include "pole.h"
 
 /* Most evenly spaced step ends at which the two are compared. */
 enum { STEP_DOUBLING_LOOKS = 20000 };
@@ -63,7 +63,7 @@ typedef struct step_doubling_column {
     passages off;
 } step_doubling_column;
 
-/* Forcing that aliases with the step (aliasing.h). */
+/* Forcing that aliases with the step (horizon.h). */
 typedef struct step_doubling_aliased {
     int column;    /* with the largest difference; 0: no aliasing */
     double at_s;   /* then */
@@ -91,7 +91,7 @@ typedef struct step_doubling {
     double
         overrun_s; /* after this time one of them had too many events in a step; below 0: neither */
     double
-        jumped_s; /* in a step after this time one of them jumped over a pole (host/check/pole_crossing.h); below 0: neither */
+        jumped_s; /* in a step after this time one of them jumped over a pole (host/check/pole.h); below 0: neither */
     bool missed;  /* or passed through something (host/check/missed.h) */
     double
         cut_s; /* the last look before the first of these three: nothing is known after it; below 0: not cut */

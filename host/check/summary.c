@@ -9,7 +9,7 @@
 #include "core/version.h"
 #include "host/base/alloc.h"
 #include "host/base/diag.h"
-#include "host/check/books_text.h"
+#include "host/check/energy_residual.h"
 #include "host/check/horizon.h"
 #include "host/io/plot.h"
 #include "host/number/decimal.h"

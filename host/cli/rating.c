@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "host/base/alloc.h"
-#include "host/check/remedy.h"
+#include "host/check/findings.h"
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/number/functions.h"

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "host/check/aliasing.h"
 #include "host/check/apart.h"
 #include "host/check/horizon.h"
 #include "host/check/nonfinite.h"

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
-#include "host/check/aliasing.h"
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
 #include "host/check/horizon.h"

@@ -1,7 +1,7 @@
 #include "jumps.h"
 #include "test.h"
 
-#include "host/check/pole_crossing.h"
+#include "host/check/pole.h"
 #include "host/cli/commands.h"
 
 said jumps_said;

@@ -1,4 +1,4 @@
-/* jumps.h: runs that may step over a pole (host/check/pole_crossing.h) and their messages, for the suites `jumped` and
+/* jumps.h: runs that may step over a pole (host/check/pole.h) and their messages, for the suites `jumped` and
  * `unjumped`. */
 #ifndef TESTS_JUMPS_H
 #define TESTS_JUMPS_H

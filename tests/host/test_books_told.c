@@ -9,7 +9,7 @@
 
 #include "host/base/alloc.h"
 #include "host/check/books.h"
-#include "host/check/books_text.h"
+#include "host/check/energy_residual.h"
 #include "host/cli/commands.h"
 #include "host/derive/program.h"
 

@@ -4,7 +4,7 @@
 #include "test.h"
 
 #include "core/contact.h"
-#include "host/check/books_text.h"
+#include "host/check/energy_residual.h"
 #include "host/check/nonfinite.h"
 #include "host/check/slow.h"
 #include "host/check/summary.h"

@@ -1,8 +1,8 @@
-/* test_jumped.c: steps that jump over a pole (host/check/pole_crossing.h). The divisors of drawn equations and forces
+/* test_jumped.c: steps that jump over a pole (host/check/pole.h). The divisors of drawn equations and forces
  * come near zero and never reach it. A warning must appear if the run crossed the pole, and only then. The last state
  * alone shows whether it crossed. False alarms: test_unjumped.c. */
 #include "blocks.h"
-#include "host/check/pole_crossing.h"
+#include "host/check/pole.h"
 #include "host/cli/commands.h"
 #include "jumps.h"
 #include "test.h"

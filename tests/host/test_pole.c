@@ -84,18 +84,18 @@ TEST(pole, what_touches) {
 TEST(pole, what_may_touch) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         const double least = dice_between(&die, 0.01, 3.0) * (c % 3 == 0 ? 1.0 : 0.0);
-        const double place = dice_between(&die, -0.5, 1.5);
+        const double zero_at = dice_between(&die, -0.5, 1.5);
         const double size = c % 2 == 0 ? 1.0 : -dice_between(&die, 0.1, 1e6);
         static const double share[4] = {0.0, POLE_ASIDE, 1.0 - POLE_ASIDE, 1.0};
         double value[4];
         for (int k = 0; k < 4; k++) {
-            value[k] = size * ((share[k] - place) * (share[k] - place) + least);
+            value[k] = size * ((share[k] - zero_at) * (share[k] - zero_at) + least);
         }
-        const bool inside = place > 0.0 && place < 1.0;
+        const bool inside = zero_at > 0.0 && zero_at < 1.0;
         /* undecidable near the minimum if its tangents meet below zero */
-        const bool may = inside && least - place * (1.0 - place) < 0.0;
-        if (fabs(least - place * (1.0 - place)) > 0.01 && fabs(place - 0.5) < 0.98 &&
-            fabs(fabs(place - 0.5) - 0.5) > 0.01) {
+        const bool may = inside && least - zero_at * (1.0 - zero_at) < 0.0;
+        if (fabs(least - zero_at * (1.0 - zero_at)) > 0.01 && fabs(zero_at - 0.5) < 0.98 &&
+            fabs(fabs(zero_at - 0.5) - 0.5) > 0.01) {
             TEST_ASSERT_EQUAL_INT(may, pole_may_touch(value));
         }
     }

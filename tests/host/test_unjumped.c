@@ -1,4 +1,4 @@
-/* test_unjumped.c: false poles (host/check/pole_crossing.h): limits, tangents, losses, impacts and places at events.
+/* test_unjumped.c: false poles (host/check/pole.h): limits, tangents, losses, impacts and places at events.
  * A jump is reported only over a true pole. */
 #include "jumps.h"
 #include "test.h"
