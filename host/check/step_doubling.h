@@ -92,7 +92,7 @@ typedef struct step_doubling {
         overrun_s; /* after this time one of them had too many events in a step; below 0: neither */
     double
         jumped_s; /* in a step after this time one of them jumped over a pole (host/check/pole.h); below 0: neither */
-    bool missed;  /* or passed through something (host/check/missed.h) */
+    bool missed; /* or passed through something (host/check/missed.h) */
     double
         cut_s; /* the last look before the first of these three: nothing is known after it; below 0: not cut */
     const double *finer_end;       /* [columns] the finer run's, at the last look */

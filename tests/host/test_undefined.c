@@ -314,8 +314,7 @@ static void test_angles_beyond_what_a_run_knows(void) {
     command_say(command_run, in_double, &what);
     TEST_ASSERT_EQUAL_INT(1, what.status);
     TEST_ASSERT_NOT_NULL_MESSAGE(
-        strstr(what.err,
-               "() of 5.1e+08 rad, and sine and cosine are computed up to 5e+08"),
+        strstr(what.err, "() of 5.1e+08 rad, and sine and cosine are computed up to 5e+08"),
         what.err);
     model_drop();
 }
