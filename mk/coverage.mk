@@ -1,10 +1,4 @@
-# coverage.mk: which lines and branches of the core the portable suites reach. docs/dev/testing.md says what counts.
-#
-# Counted are the core's own files and the tests that include its headers: compiled without optimisation, no function
-# inlined (the attribute is taken away: else each copy would have conditions of its own), those that nobody calls kept, so
-# that they count as not reached. Generated scenes run, but are not counted: in them counts and methods are constants, and
-# most conditions are settled when they are compiled.
-
+# coverage.mk: which lines and branches of the core the portable suites reach. docs/dev/testing.md says what counts, and why.
 COVERAGE = build/coverage
 COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O2 LINK_EXTRA=--coverage \
     COUNTED="-O0 --coverage -fprofile-update=single -Dalways_inline=unused -fkeep-inline-functions -w"

@@ -2,21 +2,14 @@
 # update_files.sh NEW OLD [KEEP...]: make OLD's .c and .h files those of NEW, touching only those that
 # differ; files of OLD named KEEP stay. NEW is used up.
 set -eu
-
-new=$1
-old=$2
+new=$1 old=$2
 shift 2
-for file in "$old"/*.c "$old"/*.h; do
-    [ -e "$file" ] || continue
-    name=$(basename "$file")
-    case " $* " in
-    *" $name "*) continue ;;
-    esac
-    [ -e "$new/$name" ] || rm "$file"
+for file in "$old"/*.[ch]; do
+    name=${file##*/}
+    case " $* " in *" $name "*) continue ;; esac
+    [ -e "$new/$name" ] || rm -f "$file"
 done
-for file in "$new"/*.c "$new"/*.h; do
-    [ -e "$file" ] || continue
-    name=$(basename "$file")
-    cmp -s "$file" "$old/$name" || mv "$file" "$old/$name"
+for file in "$new"/*.[ch]; do
+    [ ! -e "$file" ] || cmp -s "$file" "$old/${file##*/}" || mv "$file" "$old/"
 done
 rm -rf "$new"
