@@ -55,14 +55,12 @@ ratios)
     done
     ;;
 speeds | radii)
-    [ "$what" = speeds ] && echo "speed,displacement_mm,frequency_Hz" || echo "radius,displacement_mm,frequency_Hz"
-    for value in $([ "$what" = speeds ] && echo 170 200 230 260 300 330 360 || echo 2 3 4 5 6 6.5 7); do
-        carriage --set "$([ "$what" = speeds ] && echo "speed=$value [rpm]" || echo "r_disc=$value [in]")" |
-            awk -v value="$value" '{ printf "%s,%.4f,%.5f\n", value, 1e3 * $2, $3 / 60 }'
+    name=speed set=speed unit=rpm values="170 200 230 260 300 330 360"
+    [ "$what" = speeds ] || { name=radius set=r_disc unit=in values="2 3 4 5 6 6.5 7"; }
+    echo "$name,displacement_mm,frequency_Hz"
+    for value in $values; do
+        carriage --set "$set=$value [$unit]" | awk -v value="$value" '{ printf "%s,%.4f,%.5f\n", value, 1e3 * $2, $3 / 60 }'
     done
     ;;
-*)
-    echo "rig.sh: samples, spikes, ratios, speeds or radii, not '$what'" >&2
-    exit 2
-    ;;
+*) echo "rig.sh: samples, spikes, ratios, speeds or radii, not '$what'" >&2; exit 2 ;;
 esac
