@@ -1,9 +1,7 @@
 /* test_contact_load.c: the parts of core/contact/contact_lcp.h against a dense solve and explicit sums; limits are met exactly. */
 #include "bench.h"
 
-#include "unity.h"
-
-void suite_contact_load(void);
+#include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 100 };
 
@@ -19,7 +17,7 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
 }
 
 /* A stop pushes from zero on, friction up to its limit, a hold without limit: up to the limit, and no further. */
-static void test_who_takes_how_much(void) {
+TEST(contact_load, who_takes_how_much) {
     uint64_t seed = 102;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -67,7 +65,7 @@ static wh_real size_of(const wh_contact_work *w, const uint8_t *member, unsigned
     return most;
 }
 
-static void test_sizes_beside_which_is_rounding(void) {
+TEST(contact_load, sizes_beside_which_is_rounding) {
     uint64_t seed = 103;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -112,7 +110,7 @@ static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, 
 }
 
 /* At the threshold, below it and above it, for every term alone. */
-static void test_what_contradicts_is_told_from_rounding(void) {
+TEST(contact_load, what_contradicts_is_told_from_rounding) {
     uint64_t seed = 104;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -193,7 +191,7 @@ static void test_what_contradicts_is_told_from_rounding(void) {
 }
 
 /* Two contacts of one row with nearly equal curvature: the difference counts relative to both and to the terms of one of them. */
-static void test_a_small_difference_of_bends_is_none(void) {
+TEST(contact_load, a_small_difference_of_bends_is_none) {
     uint64_t seed = 107;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         static const uint8_t member[2] = {0, 1};
@@ -260,7 +258,7 @@ static unsigned first_of(const uint8_t *member, unsigned count, const int8_t *at
     return first;
 }
 
-static void test_who_is_at_a_limit_first_gives_way(void) {
+TEST(contact_load, who_is_at_a_limit_first_gives_way) {
     uint64_t seed = 105;
     unsigned asked = 0;
     unsigned others = 0;
@@ -310,7 +308,7 @@ static void test_who_is_at_a_limit_first_gives_way(void) {
 }
 
 /* One round: contacts at a limit push with it, and the others take the remainder. */
-static void test_a_round_bears_what_limits_leave(void) {
+TEST(contact_load, a_round_bears_what_limits_leave) {
     uint64_t seed = 106;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -359,13 +357,4 @@ static void test_a_round_bears_what_limits_leave(void) {
             }
         }
     }
-}
-
-void suite_contact_load(void) {
-    RUN_TEST(test_who_takes_how_much);
-    RUN_TEST(test_sizes_beside_which_is_rounding);
-    RUN_TEST(test_what_contradicts_is_told_from_rounding);
-    RUN_TEST(test_a_small_difference_of_bends_is_none);
-    RUN_TEST(test_who_is_at_a_limit_first_gives_way);
-    RUN_TEST(test_a_round_bears_what_limits_leave);
 }

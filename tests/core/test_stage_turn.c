@@ -5,9 +5,7 @@
 #define WH_WAVES 3
 #include "core/step/stage_turn.h"
 
-#include "unity.h"
-
-void suite_stage_turn(void);
+#include "tests/suites.h"
 
 enum { ANGLES = 3, LINEARS = 1, COORDINATES = 4, REALS = 5, VALUES = 8 };
 
@@ -150,7 +148,7 @@ static bool turns(manner how) {
 }
 
 /* The two errors have the same leading term (stage_turn.h). The reference runs use a sixteenth of the step and lookups. */
-static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
+TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
         const unsigned order = wh_methods[how.method].order;
@@ -184,7 +182,7 @@ static void test_turning_has_the_order_of_the_row_and_about_its_error(void) {
 }
 
 /* The column .turns follows from the shares, or is absent. */
-static void test_turns_follow_from_the_shares(void) {
+TEST(stage_turn, turns_follow_from_the_shares) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const wh_tableau *by = wh_tableau_of(m);
         wh_real first = WH_R(0.0); /* of the step */
@@ -202,7 +200,7 @@ static void test_turns_follow_from_the_shares(void) {
 }
 
 /* With a single stage, or nothing that turns, rotating equals a lookup. */
-static void test_what_does_not_turn_has_the_same_bits(void) {
+TEST(stage_turn, what_does_not_turn_has_the_same_bits) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
         wh_real turned[VALUES];
@@ -218,7 +216,7 @@ static void test_what_does_not_turn_has_the_same_bits(void) {
 }
 
 /* A caller that asks for the phases gets the last stage's, and the run does not change. */
-static void test_phases_are_told(void) {
+TEST(stage_turn, phases_are_told) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
         if (!turns(how)) {
@@ -286,7 +284,7 @@ static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_
 }
 
 /* Up to half a turn per step the lean is small, so both steps agree to round-off. The waves turn up to three times as much. */
-static void test_fast_angles_step_as_looking_up_does(void) {
+TEST(stage_turn, fast_angles_step_as_looking_up_does) {
     const wh_real h = WH_R(0.0009765625);
     const wh_real most = WH_R(3.14) / h;
     const wh_real within = sizeof(wh_real) == 8 ? WH_R(4e-14) : WH_R(1e-6);
@@ -318,7 +316,7 @@ static void test_fast_angles_step_as_looking_up_does(void) {
 }
 
 /* A turn that a lookup refuses (half a turn and more, or NaN) is refused, and the state is unchanged. */
-static void test_what_is_no_turn_is_refused(void) {
+TEST(stage_turn, what_is_no_turn_is_refused) {
     const wh_real nan = (wh_real)__builtin_nan("");
     const wh_real rates[] = {WH_R(3200.0), WH_R(-1e5), WH_R(1e9), WH_R(-1e14), WH_R(1e30), nan};
     for (unsigned k = 0; k < MANNERS * sizeof rates / sizeof rates[0]; k++) {
@@ -344,7 +342,7 @@ static void test_what_is_no_turn_is_refused(void) {
 
 /* --- small turns ----------------------------------------------------------------------------------- */
 
-static void test_small_turns_are_sines(void) {
+TEST(stage_turn, small_turns_are_sines) {
     const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.8e-16) : WH_R(1.1e-7);
     for (int i = -4096; i <= 4096; i++) {
         const wh_real d = (wh_real)i * WH_R(0.0001220703125); /* 2^-13 */
@@ -363,7 +361,7 @@ static void test_small_turns_are_sines(void) {
 }
 
 /* Up to eight turns the error grows with each doubling. Beyond all turns the result is infinite or NaN, and no step accepts it. */
-static void test_far_turns_are_sines(void) {
+TEST(stage_turn, far_turns_are_sines) {
     const int32_t each = __STDC_HOSTED__ ? 1 : 9;
     for (int32_t i = -50000; i <= 50000; i += each) {
         const wh_real d = (wh_real)i * WH_R(0.0009765625); /* 2^-10 */
@@ -388,15 +386,4 @@ static void test_far_turns_are_sines(void) {
         TEST_ASSERT_FALSE(WH_ABS(turn.sine) < WH_R(1e15));
         TEST_ASSERT_FALSE(WH_ABS(turn.cosine) < WH_R(1e15));
     }
-}
-
-void suite_stage_turn(void) {
-    RUN_TEST(test_turning_has_the_order_of_the_row_and_about_its_error);
-    RUN_TEST(test_turns_follow_from_the_shares);
-    RUN_TEST(test_what_does_not_turn_has_the_same_bits);
-    RUN_TEST(test_phases_are_told);
-    RUN_TEST(test_fast_angles_step_as_looking_up_does);
-    RUN_TEST(test_what_is_no_turn_is_refused);
-    RUN_TEST(test_small_turns_are_sines);
-    RUN_TEST(test_far_turns_are_sines);
 }

@@ -8,9 +8,7 @@
 #define WH_UNROLL
 #include "core/step/stage_turn_ledger.h"
 
-#include "unity.h"
-
-void suite_stage_turn_ledger(void);
+#include "tests/suites.h"
 
 enum { STEPS = 128 };
 #define STEP_S WH_R(0.0078125)
@@ -121,7 +119,7 @@ static wh_real allowed(wh_method method) {
                         : rounding;
 }
 
-static void test_books_beside_turned_sines(void) {
+TEST(stage_turn_ledger, books_beside_turned_sines) {
     for (unsigned m = 0; m < 2 * WH_METHODS; m++) {
         const wh_method method = (wh_method)(m / 2);
         const wh_scene scene = scene_of(method, m % 2 == 1);
@@ -147,7 +145,7 @@ static void test_books_beside_turned_sines(void) {
     }
 }
 
-static void test_a_refused_step_enters_nothing(void) {
+TEST(stage_turn_ledger, a_refused_step_enters_nothing) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const wh_scene scene = scene_of((wh_method)m, false);
         wh_real before[4];
@@ -186,7 +184,7 @@ static void turned_slope(const void *model, const wh_wave *pair, const wh_real *
 }
 
 /* th' = 1/2, x' = cos th: x = 2 sin(t/2) after a second. Each stage refuses half a turn in a step. */
-static void test_first_order_unrolled_by_hand(void) {
+TEST(stage_turn_ledger, first_order_unrolled_by_hand) {
     for (unsigned m = 0; m < 2 * WH_METHODS; m++) {
         const wh_method method = (wh_method)(m / 2);
         wh_angle angle[1] = {wh_angle_from_rad(WH_R(0.0))};
@@ -213,10 +211,4 @@ static void test_first_order_unrolled_by_hand(void) {
             TEST_ASSERT_TRUE(of.fault == 0 && real[0] == before);
         }
     }
-}
-
-void suite_stage_turn_ledger(void) {
-    RUN_TEST(test_books_beside_turned_sines);
-    RUN_TEST(test_a_refused_step_enters_nothing);
-    RUN_TEST(test_first_order_unrolled_by_hand);
 }

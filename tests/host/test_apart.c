@@ -1,16 +1,8 @@
 /* test_apart.c: holds that close linkages and do not fit at the start (host/check/apart.h). On random four-bars, both
  * faults are reported with the vanishing energy. The proposed values fit after they are pasted. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "command.h"
 #include "host/check/apart.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_apart(void);
 
 enum { TEXT = 3000 };
 
@@ -90,7 +82,7 @@ static char *said_of(motion *m, const char *text) {
     return told;
 }
 
-static void test_four_bars(void) {
+TEST(apart, four_bars) {
     dice d = dice_of("apart", 1);
     const unsigned cases = dice_cases(40);
     for (unsigned k = 0; k < cases; k++) {
@@ -139,7 +131,7 @@ static void test_four_bars(void) {
 
 /* A rod between two balls keeps its present length, so any places fit. For a rod of given length the difference is
  * reported. */
-static void test_rods(void) {
+TEST(apart, rods) {
     dice d = dice_of("apart", 2);
     const unsigned cases = dice_cases(60);
     for (unsigned k = 0; k < cases; k++) {
@@ -166,9 +158,4 @@ static void test_rods(void) {
         motion_close(&m);
         free(told);
     }
-}
-
-void suite_apart(void) {
-    RUN_TEST(test_four_bars);
-    RUN_TEST(test_rods);
 }

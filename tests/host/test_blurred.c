@@ -2,18 +2,10 @@
  * digits of their mass matrix, also in double, so two runs can agree on a wrong result. The reference has no matrix:
  * each body by itself, in long double. Errors must be reported. Coordinates relative to the heavier body are accurate
  * and cause no warning. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "by_bodies.h"
 #include "command.h"
 #include "host/cli/commands.h"
 #include "motion.h"
-#include "unity.h"
-
-void suite_blurred(void);
 
 enum { MOST = BODIES_MOST, STEPS = 2000 };
 #define STEP_S 1e-3
@@ -182,7 +174,7 @@ static double against_the_grain(const line *l) {
     return most;
 }
 
-static void test_what_is_off_is_told(void) {
+TEST(blurred, what_is_off_is_told) {
     dice d = dice_of("blurred", 11);
     const unsigned cases = dice_cases(usual_or(few_or_all(40, 400), 6));
     unsigned refused = 0;
@@ -236,7 +228,7 @@ static void varying_text(double light_kg, double ratio, double spring_Npm, doubl
 }
 
 /* The two runs of `whirl trust` agree in any case. */
-static void test_no_trust_in_what_both_have_wrong(void) {
+TEST(blurred, no_trust_in_what_both_have_wrong) {
     dice d = dice_of("blurred", 13);
     for (int k = 0; k < 12; k++) {
         char text[2000];
@@ -270,7 +262,7 @@ static void test_no_trust_in_what_both_have_wrong(void) {
 }
 
 /* Two equations that differ by a small part of one of their terms. */
-static void test_equations_that_say_nearly_the_same(void) {
+TEST(blurred, equations_that_say_nearly_the_same) {
     dice d = dice_of("blurred", 12);
     for (int decade = 2; decade <= 14; decade++) {
         char text[400];
@@ -290,10 +282,4 @@ static void test_equations_that_say_nearly_the_same(void) {
                                  what.err);
         TEST_ASSERT_TRUE(said_owes(what.err) == 0 || strstr(what.out, "to the end: every") == NULL);
     }
-}
-
-void suite_blurred(void) {
-    RUN_TEST(test_what_is_off_is_told);
-    RUN_TEST(test_no_trust_in_what_both_have_wrong);
-    RUN_TEST(test_equations_that_say_nearly_the_same);
 }

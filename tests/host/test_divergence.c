@@ -1,10 +1,6 @@
 /* test_divergence.c: a diverging run stops, names the component, and keeps its last good state, in float and double,
  * with every method. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "core/method.h"
 #include "host/check/horizon.h"
@@ -17,13 +13,6 @@
 #include "horizons.h"
 #include "linear.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_divergence(void);
-void suite_horizon(void);
-void suite_trust_kinks(void);
-void suite_twins(void);
 
 /* === divergence =============================================================================== */
 
@@ -73,7 +62,7 @@ static uint64_t run_into_failure(motion *m, unsigned most) {
     return done;
 }
 
-static void test_motion_that_ends_in_infinity(void) {
+TEST(divergence, motion_that_ends_in_infinity) {
     for (unsigned k = 0; k < 2; k++) {
         for (unsigned compensated = 0; compensated < 2; compensated++) {
             motion m;
@@ -95,7 +84,7 @@ static void test_motion_that_ends_in_infinity(void) {
     }
 }
 
-static void test_every_method_stops(void) {
+TEST(divergence, every_method_stops) {
     for (unsigned k = 0; k < 2; k++) {
         for (unsigned i = 0; i < WH_METHODS; i++) {
             motion m;
@@ -111,7 +100,7 @@ static void test_every_method_stops(void) {
 
 /* A motor with an input that is no number: the step is refused, and the gear continues undisturbed with the next valid
  * torque. */
-static void test_an_input_that_is_no_number(void) {
+TEST(divergence, an_input_that_is_no_number) {
     for (unsigned k = 0; k < 2; k++) {
         motion m;
         motion undisturbed;
@@ -133,7 +122,7 @@ static void test_an_input_that_is_no_number(void) {
 }
 
 /* At half a turn per step the direction is lost: 3141.59 rad/s at 1 ms. */
-static void test_an_angle_that_turns_too_fast_for_the_step(void) {
+TEST(divergence, an_angle_that_turns_too_fast_for_the_step) {
     for (unsigned k = 0; k < 2; k++) {
         stepping how = {.kind = kinds[k], .method = WH_RK4, .start = "theta'=-3141"};
         motion m;
@@ -150,7 +139,7 @@ static void test_an_angle_that_turns_too_fast_for_the_step(void) {
 }
 
 /* A start beyond all bounds is reported without proposing a smaller step or another number format. */
-static void test_starts_beyond_all_bounds(void) {
+TEST(divergence, starts_beyond_all_bounds) {
     static const char *const units[] = {"m", "mm", "km"};
     static const double si[] = {1.0, 1e-3, 1e3};
     dice d = dice_of("starts beyond", 4141);
@@ -178,14 +167,6 @@ static void test_starts_beyond_all_bounds(void) {
     model_drop();
 }
 
-void suite_divergence(void) {
-    RUN_TEST(test_motion_that_ends_in_infinity);
-    RUN_TEST(test_every_method_stops);
-    RUN_TEST(test_an_input_that_is_no_number);
-    RUN_TEST(test_an_angle_that_turns_too_fast_for_the_step);
-    RUN_TEST(test_starts_beyond_all_bounds);
-}
-
 /* === horizon ================================================================================== */
 /* Time until which each part of a run is accurate. Passages of a level are compared with all entered differences, and
  * verdicts on random columns with their definition. Twins of growth and decay are compared with powers of their known
@@ -207,7 +188,7 @@ static double first_above_s(const double *time_s, const double *size, int count,
 
 /* Sizes that rise, fall, stay and end: a level is passed between the first size above it and the first above it by the
  * grain. */
-static void test_levels_and_when_they_were_passed(void) {
+TEST(horizon, levels_and_when_they_were_passed) {
     dice d = dice_of("horizon passages", 2312);
     for (unsigned k = 0; k < 60; k++) {
         double time_s[ENTERED];
@@ -336,7 +317,7 @@ static bool ends_it(const horizon_column *c) {
     return c->verdict == HORIZON_UNTIL || c->verdict == HORIZON_NOT_TOLD;
 }
 
-static void test_verdicts_on_drawn_columns(void) {
+TEST(horizon, verdicts_on_drawn_columns) {
     dice d = dice_of("horizon verdicts", 2313);
     unsigned seen[5] = {0};
     for (unsigned n = 0; n < 800; n++) {
@@ -458,7 +439,7 @@ static void hold_growth(dice *d, wh_method method, int order, bool events) {
     derived_free(&made);
 }
 
-static void test_twins_of_growths_and_decays(void) {
+TEST(horizon, twins_of_growths_and_decays) {
     dice d = dice_of("horizon growths", 2314);
     for (unsigned k = 0; k < few_or_all(40, 400); k++) {
         static const wh_method methods[] = {WH_RK4, WH_EULER, WH_HEUN, WH_RK38};
@@ -552,7 +533,7 @@ static void expect_words(const horizon *h) {
 
 /* The fast spring, at w h = 1/2, lags by w (w h)^4/120 = 0.026 rad per second. Its error reaches a hundredth of its
  * range, 2 m, at 0.02 rad, that is 0.77 s, or up to half a swing later. */
-static void test_words_and_rows(void) {
+TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
     const step_doubling_wish wish = {
@@ -567,13 +548,6 @@ static void test_words_and_rows(void) {
     step_doubling_free(t);
     step_doubling_free(NULL);
     derived_free(&made);
-}
-
-void suite_horizon(void) {
-    RUN_TEST(test_levels_and_when_they_were_passed);
-    RUN_TEST(test_verdicts_on_drawn_columns);
-    RUN_TEST(test_twins_of_growths_and_decays);
-    RUN_TEST(test_words_and_rows);
 }
 
 /* === trust kinks ============================================================================== */
@@ -643,7 +617,7 @@ static double right_until_s(const two_springs *start, const char *csv, double *m
     return first_s;
 }
 
-static void test_trust_beside_a_kink(void) {
+TEST(trust_kinks, trust_beside_a_kink) {
     static const char *const methods[] = {"rk4", "rk4", "rk38", "nystroem4", "nystroem5"};
     dice d = dice_of("trust beside a kink", 7103);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 15), 400));
@@ -736,7 +710,7 @@ static horizons one_of(uint64_t *seed, unsigned n, int ms, horizons_setting how)
     return horizons_of(text, "s", how, HORIZON_TOLERANCE);
 }
 
-static void test_exact_steps_are_right_to_the_end(void) {
+TEST(trust_kinks, exact_steps_are_right_to_the_end) {
     uint64_t seed = 1408;
     double worst = 0.0;
     for (unsigned n = 0; n < few_or_all(12, 48); n++) {
@@ -754,7 +728,7 @@ static void test_exact_steps_are_right_to_the_end(void) {
 }
 
 /* Two undamped masses on springs: phases drift from the truth, until both report it. */
-static void test_coarse_steps_until_the_reference_says_so(void) {
+TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
     dice d = dice_of("trust matrix", 1409);
     int ended = 0;
     double least = 1.0;
@@ -784,12 +758,6 @@ static void test_coarse_steps_until_the_reference_says_so(void) {
     TEST_ASSERT_TRUE(ended > 0 && ended < (int)cases);
 }
 
-void suite_trust_kinks(void) {
-    RUN_TEST(test_trust_beside_a_kink);
-    RUN_TEST(test_exact_steps_are_right_to_the_end);
-    RUN_TEST(test_coarse_steps_until_the_reference_says_so);
-}
-
 /* === twins ==================================================================================== */
 /* A run and its finer one (host/check/step_doubling.h): settings of the finer run, both ends, and the report, for
  * oscillators with known motion. */
@@ -813,7 +781,7 @@ static step_doubling *twins_of(const motion *m, const image *im) {
 /* --- the finer run -------------------------------------------------------------------------------------- */
 
 /* Exactly half the step, for any fraction; an exact matrix is used unchanged. */
-static void test_the_finer_run(void) {
+TEST(twins, the_finer_run) {
     dice d = dice_of("twins", 31);
     for (unsigned method = 0; method < WH_METHODS; method++) {
         for (unsigned of = 0; of < 3U; of++) {
@@ -866,7 +834,7 @@ static void test_the_finer_run(void) {
     }
 }
 
-static void test_plain_settings(void) {
+TEST(twins, plain_settings) {
     for (unsigned i = 0; i < 24U; i++) {
         const image_settings of = {.tables = i % 2U == 0 ? TABLES_NONE : TABLES_CUBIC,
                                    .cells = i % 2U == 0 ? 0 : 64,
@@ -890,7 +858,7 @@ static void test_plain_settings(void) {
 
 /* The extremes belong to the motion, and the difference at the end to two separate runs. A rate's round-off moves its
  * coordinate for the whole time. */
-static void test_what_is_told(void) {
+TEST(twins, what_is_told) {
     static const struct {
         const char *name;
         double per_m;
@@ -935,7 +903,7 @@ static void test_what_is_told(void) {
 }
 
 /* Of 1200 steps: before the next one. */
-static void test_an_end_from_outside(void) {
+TEST(twins, an_end_from_outside) {
     char text[TEXT];
     motion m;
     write_spring(text, "m", 1.0, 3.0, 1e-3, 1.2);
@@ -953,7 +921,7 @@ static void test_an_end_from_outside(void) {
 
 /* x'' = x^3 from x = s, x' = s^2/sqrt(2) is x = s/(1 - s t/sqrt(2)), which leaves all bounds at a known time. After
  * that nothing is reported of either run. */
-static void test_runs_that_fail(void) {
+TEST(twins, runs_that_fail) {
     dice d = dice_of("twins", 33);
     for (unsigned i = 0; i < 6U; i++) {
         char text[TEXT];
@@ -975,7 +943,7 @@ static void test_runs_that_fail(void) {
 }
 
 /* The predicted work of both runs equals the counted work, except for their first step and the samples of the state. */
-static void test_what_they_take(void) {
+TEST(twins, what_they_take) {
     dice d = dice_of("twins", 34);
     for (unsigned i = 0; i < 2U * WH_METHODS; i++) {
         char text[TEXT];
@@ -1002,13 +970,4 @@ static void test_what_they_take(void) {
         TEST_ASSERT_TRUE(told >= 0.99 * counted && told <= 1.02 * counted);
         motion_close(&m);
     }
-}
-
-void suite_twins(void) {
-    RUN_TEST(test_what_they_take);
-    RUN_TEST(test_the_finer_run);
-    RUN_TEST(test_plain_settings);
-    RUN_TEST(test_what_is_told);
-    RUN_TEST(test_an_end_from_outside);
-    RUN_TEST(test_runs_that_fail);
 }

@@ -3,11 +3,7 @@
  * number. Given by energies or equations, with parameters or numbers, with dampers or without, sometimes with a third
  * body between. The reference never adds quantities of two bodies: each by itself, in long double. Errors are reported;
  * accurate runs cause no report. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/cli/commands.h"
 #include "host/number/folding.h"
@@ -16,11 +12,6 @@
 #include "by_bodies.h"
 #include "command.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_folded(void);
-void suite_folded_numbers(void);
 
 /* === folded =================================================================================== */
 
@@ -279,7 +270,7 @@ static held draw(dice *d, double ratio) {
     return h;
 }
 
-static void test_what_is_lost_is_told(void) {
+TEST(folded, what_is_lost_is_told) {
     dice d = dice_of("folded", 1);
     const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 6));
     unsigned off = 0;
@@ -351,7 +342,7 @@ static void arm_text(dice *d, double k, char *text, size_t size) {
         m_kg, alpha, k_Npm, left, k_Npm, k);
 }
 
-static void test_rounding_alone_is_nothing_lost(void) {
+TEST(folded, rounding_alone_is_nothing_lost) {
     dice d = dice_of("folded", 2);
     const unsigned cases = dice_cases(usual_or(few_or_all(20, 200), 2));
     unsigned asked = 0;
@@ -369,7 +360,7 @@ static void test_rounding_alone_is_nothing_lost(void) {
 }
 
 /* The converse: numbers that vanish beside such residues are lost, and residues that vanish beside numbers are not. */
-static void test_numbers_beside_a_rest(void) {
+TEST(folded, numbers_beside_a_rest) {
     dice d = dice_of("folded", 3);
     for (unsigned k = 0; k < dice_cases(200); k++) {
         const double angle_rad = 1.5707963267948966 * (1.0 + 2.0 * dice_one_of(&d, 5));
@@ -388,7 +379,7 @@ static void test_numbers_beside_a_rest(void) {
 
 /* Two stiff springs, one pulling and one pushing, differ by 20 to 80 units in the last place. That is as small as
  * decimals' round-off in the nearest folding, but the whole force on the mass. */
-static void test_what_is_nearly_the_same(void) {
+TEST(folded, what_is_nearly_the_same) {
     dice d = dice_of("folded", 4);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 5)); k++) {
         char text[600];
@@ -410,13 +401,6 @@ static void test_what_is_nearly_the_same(void) {
         motion_close(&m);
         TEST_ASSERT_TRUE_MESSAGE(off < 1e-3 || strstr(what.out, "to the end: every") == NULL, text);
     }
-}
-
-void suite_folded(void) {
-    RUN_TEST(test_what_is_lost_is_told);
-    RUN_TEST(test_rounding_alone_is_nothing_lost);
-    RUN_TEST(test_numbers_beside_a_rest);
-    RUN_TEST(test_what_is_nearly_the_same);
 }
 
 /* === folded numbers =========================================================================== */
@@ -595,7 +579,7 @@ static double off_of(const drawn *w) {
     return fmax(fabs(x_m - wanted_m) / range_m(w), fabs(v_mps - wanted_mps) / range_mps(w));
 }
 
-static void test_what_numbers_lose_is_told(void) {
+TEST(folded_numbers, what_numbers_lose_is_told) {
     dice d = dice_of("folded_numbers", 1);
     const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 20));
     unsigned off = 0;
@@ -640,7 +624,7 @@ static void test_what_numbers_lose_is_told(void) {
 /* --- standstill for lack of digits --------------------------------------------------------------- */
 
 /* A force from a small change of a large number: at some lengths nothing of it remains, and the mass stands still. */
-static void test_what_stands_for_want_of_digits(void) {
+TEST(folded_numbers, what_stands_for_want_of_digits) {
     static const char *const force[] = {
         "%s [N]*(1 - exp(x/%s [m]))",          "%s [N]*(1 - sqrt(1 + 2*x/%s [m]))",
         "-%s [N]*log(1 + x/%s [m])",           "%s [N]*(1/(1 + x/%s [m]) - 1)",
@@ -678,7 +662,7 @@ static void test_what_stands_for_want_of_digits(void) {
 
 /* --- divergence under other rounding ------------------------------------------------------------- */
 
-static void test_what_leaves_all_bounds(void) {
+TEST(folded_numbers, what_leaves_all_bounds) {
     dice d = dice_of("folded_numbers", 3);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
         char text[500];
@@ -709,7 +693,7 @@ static int status_beside(const char *contact) {
     return what.status;
 }
 
-static void test_limits_that_decimals_miss(void) {
+TEST(folded_numbers, limits_that_decimals_miss) {
     static const char *const met[] = {
         "friction x static 0.3 kinetic 0.1+0.2 normal 1 [N]",
         "friction x static 0.3-0.2-0.1 kinetic 0.3-0.2-0.1 normal 1 [N]",
@@ -730,11 +714,4 @@ static void test_limits_that_decimals_miss(void) {
     for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(2, status_beside(beyond[i]), beyond[i]);
     }
-}
-
-void suite_folded_numbers(void) {
-    RUN_TEST(test_what_numbers_lose_is_told);
-    RUN_TEST(test_what_stands_for_want_of_digits);
-    RUN_TEST(test_what_leaves_all_bounds);
-    RUN_TEST(test_limits_that_decimals_miss);
 }

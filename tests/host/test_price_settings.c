@@ -1,11 +1,5 @@
 /* test_price_settings.c: priced settings (host/study/trial.h): their number, order, and options, read back.
  * Also reference rows and trials. */
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/options.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/os/system.h"
@@ -16,17 +10,11 @@
 #include "derived.h"
 #include "priced.h"
 
-#include "unity.h"
-
-void suite_price_settings(void);
-void suite_price_states(void);
-void suite_price_trials(void);
-
 /* === price settings =========================================================================== */
 
 /* Three numbers by every method, with sines rotated, looked up, in one of six tables, or in one of two matrices. Also
  * fixed point. */
-static void test_there_are_all_and_each_once(void) {
+TEST(price_settings, there_are_all_and_each_once) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
     int before = -1;
@@ -78,7 +66,7 @@ static setting read_back(const char *text, int *count) {
     return s;
 }
 
-static void test_words_and_options_say_the_setting_and_no_more(void) {
+TEST(price_settings, words_and_options_say_the_setting_and_no_more) {
     static const char *const headings[] = {"method", "number", "angles", "matrix", "tables"};
     static const char *const numbers[] = {"float", "float compensated", "double", "fixed"};
     for (int i = 0; i < AXES; i++) {
@@ -128,7 +116,7 @@ typedef struct owning {
     bool rates; /* accelerations depend on rates */
 } owning;
 
-static void test_a_setting_is_its_own_where_it_is_taken(void) {
+TEST(price_settings, a_setting_is_its_own_where_it_is_taken) {
     static const owning rows[] = {
         {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
          "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n",
@@ -169,12 +157,6 @@ static void test_a_setting_is_its_own_where_it_is_taken(void) {
     }
 }
 
-void suite_price_settings(void) {
-    RUN_TEST(test_there_are_all_and_each_once);
-    RUN_TEST(test_words_and_options_say_the_setting_and_no_more);
-    RUN_TEST(test_a_setting_is_its_own_where_it_is_taken);
-}
-
 /* === price states ============================================================================= */
 /* Rows of the reference (host/study/reference_run.h) and of fine steps; the columns and horizon of a reference, and
  * their report. Compared with records of a run, closed forms and a loop over the rows. */
@@ -206,7 +188,7 @@ static derived model_of(int n) {
     return d;
 }
 
-static void test_rows_are_the_records_of_a_run(void) {
+TEST(price_states, rows_are_the_records_of_a_run) {
     int recovered = 0;
     for (int n = 0; n < MODELS; n++) {
         derived d = model_of(n);
@@ -259,7 +241,7 @@ static const char *const flight =
     "scene s { start x = 0.3 [m], x' = 0.1 [m/s]; step 1 [ms]; until 1 [s] }\n";
 
 /* Flight without a force: the only error is round-off, which compensated sums carry with any settings of the scene. */
-static void test_fine_steps_keep_what_is_rounded_off(void) {
+TEST(price_states, fine_steps_keep_what_is_rounded_off) {
     derived d = derived_scene(flight, "s");
     derived_expect(&d, flight);
     const reference_wish w = {.image = d.image, .spacing = {1, 3}, .records = 4, .operations = 1e9};
@@ -280,7 +262,7 @@ static void test_fine_steps_keep_what_is_rounded_off(void) {
 }
 
 /* y' = y^2 from 1/t ends at t: the records end before. */
-static void test_fine_steps_end_with_the_motion(void) {
+TEST(price_states, fine_steps_end_with_the_motion) {
     for (int tenths = 2; tenths <= 9; tenths++) {
         char text[300];
         snprintf(text, sizeof text,
@@ -365,7 +347,7 @@ static const kind_row kind_rows[] = {
          "start x = 0.02 [m];"),
      6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long behind "}};
 
-static void test_references_are_of_the_kind_that_can_be_trusted(void) {
+TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
     for (size_t n = 0; n < sizeof kind_rows / sizeof kind_rows[0]; n++) {
         const kind_row *row = &kind_rows[n];
         derived d = derived_scene(row->text, "s");
@@ -398,7 +380,7 @@ static void test_references_are_of_the_kind_that_can_be_trusted(void) {
 }
 
 /* Round-off bounds the slope of a root at zero by nothing; errors must still be relative to the values. */
-static void test_a_root_at_zero_does_not_hide_errors(void) {
+TEST(price_states, a_root_at_zero_does_not_hide_errors) {
     dice d = dice_of("price_states", 451);
     for (int n = 0; n < 6; n++) {
         char text[400];
@@ -423,7 +405,7 @@ static void test_a_root_at_zero_does_not_hide_errors(void) {
     }
 }
 
-static void test_references_are_stopped(void) {
+TEST(price_states, references_are_stopped) {
     for (int n = 0; n < 2; n++) {
         derived d = derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s");
         derived_expect(&d, "a scene");
@@ -437,15 +419,6 @@ static void test_references_are_stopped(void) {
         TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
         derived_free(&d);
     }
-}
-
-void suite_price_states(void) {
-    RUN_TEST(test_rows_are_the_records_of_a_run);
-    RUN_TEST(test_fine_steps_keep_what_is_rounded_off);
-    RUN_TEST(test_fine_steps_end_with_the_motion);
-    RUN_TEST(test_references_are_of_the_kind_that_can_be_trusted);
-    RUN_TEST(test_a_root_at_zero_does_not_hide_errors);
-    RUN_TEST(test_references_are_stopped);
 }
 
 /* === price trials ============================================================================= */
@@ -477,7 +450,7 @@ static uint64_t drawn_up_to(dice *d, unsigned bits) {
 }
 
 /* spacing * records / steps in lowest terms, or the nearest double if 64 bits do not suffice. */
-static void test_steps_are_exact(void) {
+TEST(price_trials, steps_are_exact) {
     dice d = dice_of("price_trials steps", 11);
     int exact = 0;
     int rounded = 0;
@@ -513,7 +486,7 @@ static void test_steps_are_exact(void) {
 }
 
 /* No shorter decimal is the same fraction. */
-static void test_times_have_as_few_digits_as_they_can(void) {
+TEST(price_trials, times_have_as_few_digits_as_they_can) {
     dice d = dice_of("price_trials times", 12);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {
         const double value = (double)(1 + dice_one_of(&d, 500)) /
@@ -558,7 +531,7 @@ static const char *const places[] = {
 static const whole_ratio spacing = {1, 50};
 enum { RECORDS = 25 };
 
-static void test_operations_are_those_of_all_places(void) {
+TEST(price_trials, operations_are_those_of_all_places) {
     priced p;
     priced_open(&p, places, 3);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
@@ -595,7 +568,7 @@ static void test_operations_are_those_of_all_places(void) {
 
 /* --- which component ------------------------------------------------------------------------------------*/
 
-static void test_errors_have_the_unit_of_what_is_asked(void) {
+TEST(price_trials, errors_have_the_unit_of_what_is_asked) {
     static const struct {
         const char *of;
         const char *unit;
@@ -628,7 +601,7 @@ static int begin_of(int count, char **words) {
     return status;
 }
 
-static void test_what_is_no_component_is_told(void) {
+TEST(price_trials, what_is_no_component_is_told) {
     said what;
     command_say(begin_of, (const char *const[]){"twise", NULL}, &what);
     TEST_ASSERT_EQUAL_INT(3, what.status);
@@ -652,7 +625,7 @@ static void test_what_is_no_component_is_told(void) {
 /* --- the horizon -----------------------------------------------------------------------------------------*/
 
 /* y' = y^2 from y(0) ends at 1/y(0). */
-static void test_the_horizon_is_that_of_the_place_that_ends_first(void) {
+TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
     static const double from[] = {0.5, 1.25, 0.8};
     for (int turn = 0; turn < 3; turn++) {
         char text[3][200];
@@ -679,7 +652,7 @@ static void test_the_horizon_is_that_of_the_place_that_ends_first(void) {
 }
 
 /* If nothing moves at any place, the report says so. */
-static void test_places_where_nothing_moves_are_left_out(void) {
+TEST(price_trials, places_where_nothing_moves_are_left_out) {
     static const char *const texts[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
                                         "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",
                                         "mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
@@ -720,7 +693,7 @@ static void test_places_where_nothing_moves_are_left_out(void) {
     }
 }
 
-static void test_of_places_as_long_the_worst_agrees_least(void) {
+TEST(price_trials, of_places_as_long_the_worst_agrees_least) {
     priced p;
     priced_open(&p, places, 3);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
@@ -763,7 +736,7 @@ static trial_result each_by_itself(priced *p, const setting *s, deviation_pace p
     return r;
 }
 
-static void test_errors_are_the_worst_of_all_places(void) {
+TEST(price_trials, errors_are_the_worst_of_all_places) {
     static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4, WH_LEAPFROG};
     static const char *const of[] = {NULL, "x", "a'"};
     dice d = dice_of("price_trials errors", 13);
@@ -811,16 +784,4 @@ static void test_errors_are_the_worst_of_all_places(void) {
            at[0], at[1], at[2]);
     TEST_ASSERT_TRUE(usable > 0 && useless > 0 && bounds > 0 && at[0] > 0 && at[1] > 0 &&
                      at[2] > 0);
-}
-
-void suite_price_trials(void) {
-    RUN_TEST(test_steps_are_exact);
-    RUN_TEST(test_times_have_as_few_digits_as_they_can);
-    RUN_TEST(test_operations_are_those_of_all_places);
-    RUN_TEST(test_errors_have_the_unit_of_what_is_asked);
-    RUN_TEST(test_what_is_no_component_is_told);
-    RUN_TEST(test_the_horizon_is_that_of_the_place_that_ends_first);
-    RUN_TEST(test_places_where_nothing_moves_are_left_out);
-    RUN_TEST(test_of_places_as_long_the_worst_agrees_least);
-    RUN_TEST(test_errors_are_the_worst_of_all_places);
 }

@@ -1,11 +1,8 @@
 /* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. Rows have closed forms. The
  * report covers runs that are interrupted, diverge, have an output that ends, or are not trusted. Also write errors
  * and leaks. */
-#define _POSIX_C_SOURCE 200809L
+#include "test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "blocks.h"
@@ -14,9 +11,6 @@
 #include "host/check/finding.h"
 #include "host/check/simulate.h"
 #include "host/os/system.h"
-#include "unity.h"
-
-void suite_simulated(void);
 
 enum { TEXT = 200000 };
 
@@ -114,7 +108,7 @@ static void expect_rows(const char *text, const char *header, const char *betwee
     TEST_ASSERT_EQUAL_STRING("", at);
 }
 
-static void test_rows(void) {
+TEST(simulated, rows) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(12, 6)); c++) {
         char text[500];
@@ -145,7 +139,7 @@ static void test_rows(void) {
 }
 
 /* Free bodies, some integrated and some following from their momenta, each in its unit. */
-static void test_rows_of_what_follows_from_its_momentum(void) {
+TEST(simulated, rows_of_what_follows_from_its_momentum) {
     static const double of_si[] = {1e3, 1.0, 1e2};
     begin();
     for (unsigned set = 1; set < 8; set++) {
@@ -209,7 +203,7 @@ static const char *summary_of(const image *im) {
     return told;
 }
 
-static void test_summary_repeats(void) {
+TEST(simulated, summary_repeats) {
     static char first[TEXT];
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(12, 6)); c++) {
@@ -226,7 +220,7 @@ static void test_summary_repeats(void) {
 }
 
 /* The interrupt is checked before each step; the rows end there. */
-static void test_interrupted(void) {
+TEST(simulated, interrupted) {
     char text[500];
     begin();
     snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
@@ -271,7 +265,7 @@ static uint64_t held_values(const void *run) {
     return held;
 }
 
-static void test_held_values(void) {
+TEST(simulated, held_values) {
     char text[500];
     begin();
     snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
@@ -299,7 +293,7 @@ static void test_held_values(void) {
 
 /* sqrt(c - x) of x = t is undefined from the first step after c on. The report has the count and first time of such
  * records; without records it checks the end. */
-static void test_outputs_that_end(void) {
+TEST(simulated, outputs_that_end) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         char text[500];
@@ -355,7 +349,7 @@ static void test_outputs_that_end(void) {
 }
 
 /* x' = x^n diverges at a known time. The message names the unknown with its primes, and the records end there. */
-static void test_diverged(void) {
+TEST(simulated, diverged) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
         char text[500];
@@ -393,7 +387,7 @@ static void test_diverged(void) {
 }
 
 /* A spring by Runge-Kutta 4 with h w = 0.8 loses about 0.4 % of its energy a step. */
-static void test_strict(void) {
+TEST(simulated, strict) {
     begin();
     derived d = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2/2\n"
                          "scene s { start x = 1 [m]; step 800 [ms]; until 32 [s] }\n");
@@ -412,7 +406,7 @@ static void test_strict(void) {
     end();
 }
 
-static void test_files_that_cannot_be_written(void) {
+TEST(simulated, files_that_cannot_be_written) {
     begin();
     char text[500];
     snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
@@ -447,15 +441,4 @@ static void test_files_that_cannot_be_written(void) {
     end();
 }
 
-void suite_simulated(void) {
-    die = dice_of("simulated", 65);
-    RUN_TEST(test_rows);
-    RUN_TEST(test_rows_of_what_follows_from_its_momentum);
-    RUN_TEST(test_summary_repeats);
-    RUN_TEST(test_interrupted);
-    RUN_TEST(test_held_values);
-    RUN_TEST(test_outputs_that_end);
-    RUN_TEST(test_diverged);
-    RUN_TEST(test_strict);
-    RUN_TEST(test_files_that_cannot_be_written);
-}
+SUITE(simulated) { die = dice_of("simulated", 65); }

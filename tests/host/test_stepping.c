@@ -1,10 +1,5 @@
 /* test_stepping.c: measures of one run of a sweep (host/study/point.h), compared with the test's own samples and
  * closed forms. Covers the choice of samples, early stops, and runs without measures. Also settings of a sweep. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/base/alloc.h"
 #include "host/check/run_checks.h"
 #include "host/check/slow.h"
@@ -17,11 +12,6 @@
 #include "command.h"
 #include "derived.h"
 #include "made_sweep.h"
-
-#include "unity.h"
-
-void suite_stepping(void);
-void suite_sweep_settings(void);
 
 /* === stepping ================================================================================= */
 
@@ -118,7 +108,7 @@ static double worth(measure_kind kind, const double *sample, int from, int count
     return (double)NAN;
 }
 
-static void test_samples(void) {
+TEST(stepping, samples) {
     static double sample[MEASURES_MOST][SAMPLES_MOST];
     for (unsigned c = 0; c < dice_cases(usual_or(12, 5)); c++) {
         double omega_radps;
@@ -175,7 +165,7 @@ static void test_samples(void) {
 }
 
 /* The period is the spring's, with any other measures; slow float angles count. */
-static void test_period(void) {
+TEST(stepping, period) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         double omega_radps;
         derived s = drawn_swing(&omega_radps);
@@ -222,7 +212,7 @@ static void test_period(void) {
 #define CLOCK "mechanism m\nstate x [s]\nequation x' = 1\n"
 
 /* Measures without samples cover the steps until the stop. */
-static void test_given_up(void) {
+TEST(stepping, given_up) {
     derived longest =
         scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
     const gauged most = {MEASURE_MAX, "x", {FROM_REAL, 0}};
@@ -248,7 +238,7 @@ static void expect_failed(const char *text, const measuring *w, const char *reas
     derived_free(&s);
 }
 
-static void test_failed(void) {
+TEST(stepping, failed) {
     gauged list = {MEASURE_MEAN, "mean(x)", {FROM_REAL, 0}};
     measuring w = {.kind = &engine_double, .list = &list, .count = 1};
     w.from_s = 1.5;
@@ -283,7 +273,7 @@ static void test_failed(void) {
 
 /* x' = x^2 from 1/t1 is 1/(t1 - t): it ends in the step of t1 or the next. Also a root undefined from t1 on, reported
  * with its place. */
-static void test_diverged(void) {
+TEST(stepping, diverged) {
     const gauged list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
     for (int c = 0; c < 6; c++) {
         char text[400];
@@ -322,7 +312,7 @@ static void test_diverged(void) {
 }
 
 /* An energy becomes undefined while the motion goes on: reported with place and time. */
-static void test_energies(void) {
+TEST(stepping, energies) {
     const gauged list = {MEASURE_FINAL, "x", {FROM_REAL, 0}};
     for (int c = 0; c < 2; c++) {
         const measuring w = {
@@ -334,7 +324,7 @@ static void test_energies(void) {
     }
 }
 
-static void test_contacts(void) {
+TEST(stepping, contacts) {
     derived s = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9.81 [N]*x\n"
                          "stop x >= 0 [m] restitution 0.5\n"
                          "scene s { start x = 1 [m]; step 1 [ms]; until 2 [s] }\n");
@@ -387,7 +377,7 @@ static double wanted(int measure_stepping, double a, double v, double from_s, do
     }
 }
 
-static void test_measures_of_whole_runs(void) {
+TEST(stepping, measures_of_whole_runs) {
     dice d = dice_of("swept", 41);
     for (unsigned k = 0; k < 12U; k++) {
         char text[400];
@@ -432,17 +422,7 @@ static void test_measures_of_whole_runs(void) {
     model_drop();
 }
 
-void suite_stepping(void) {
-    die = dice_of("stepping", 51);
-    RUN_TEST(test_samples);
-    RUN_TEST(test_period);
-    RUN_TEST(test_given_up);
-    RUN_TEST(test_failed);
-    RUN_TEST(test_diverged);
-    RUN_TEST(test_energies);
-    RUN_TEST(test_contacts);
-    RUN_TEST(test_measures_of_whole_runs);
-}
+SUITE(stepping) { die = dice_of("stepping", 51); }
 
 /* === sweep settings =========================================================================== */
 /* A sweep's header, the settings stored with its file, and its points as run by workers: each way a point ends frees
@@ -623,7 +603,7 @@ static void test_given_back(void) {
     }
 }
 
-void suite_sweep_settings(void) {
+SUITE(sweep_settings) {
     die = dice_of("sweep_settings", 63);
     RUN_TEST(test_headers);
     RUN_TEST(test_settings);

@@ -3,12 +3,9 @@
  * springs, dampers, swings of systems, flights past a pole, fast forces, springs far from the origin, and balls
  * between stops. Steps range from fine to useless, with all methods. Rods that do not fit at the start get the same
  * words from `whirl trust`. Every kind of finding occurs, and many runs have no finding. */
+#include "test.h"
+
 #include <glob.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "command.h"
 #include "derived.h"
@@ -18,9 +15,6 @@
 #include "host/cli/load.h"
 #include "host/engine/loop.h"
 #include "json_check.h"
-#include "unity.h"
-
-void suite_verdict(void);
 
 enum { TEXT = 1200, SHAPES = 8 };
 
@@ -214,7 +208,7 @@ static void expect_rows(int (*command)(int, char **), const char *const *words, 
 }
 
 /* The findings and the sentence about the run; pairs of a map. */
-static void test_json_of_trust_and_map(void) {
+TEST(verdict, json_of_trust_and_map) {
     static const char *const columns[] = {"name",  "unit", "verdict", "until_s",
                                           "range", "off",  NULL};
     static const char *const pairs[] = {"values/0", "values/1",        "verdict", "until_s",
@@ -252,7 +246,7 @@ static void test_json_of_trust_and_map(void) {
 }
 
 /* The table of price in JSON; of choose the lines that run its answers. */
-static void test_json_of_price_and_choose(void) {
+TEST(verdict, json_of_price_and_choose) {
     static const char *const columns[] = {
         "front",       "error",     "error_unit",  "error_basis", "error_bound", "component",
         "price_per_s", "price_of",  "price_basis", "price_least", "price_most",  "step_s",
@@ -291,7 +285,7 @@ static void test_json_of_price_and_choose(void) {
 }
 
 /* Every built-in scene, and a title with all characters that need escapes. */
-static void test_json_of_all_scenes(void) {
+TEST(verdict, json_of_all_scenes) {
     said list;
     said what;
     char why[100];
@@ -326,7 +320,7 @@ static void test_json_of_all_scenes(void) {
 }
 
 /* A failed run has its reason in the object, as on standard error. Others have no reason. */
-static void test_json_of_failures(void) {
+TEST(verdict, json_of_failures) {
     dice d = dice_of("json_failed", 29112026);
     for (int i = 0; i < 12; i++) {
         static const char *const ways[] = {
@@ -377,7 +371,7 @@ static bool expect_statuses(dice *d, const char **run, const char **sweep, const
     return !failed && ran->status == 1;
 }
 
-static void test_a_limit_is_one_of_the_energy(void) {
+TEST(verdict, a_limit_is_one_of_the_energy) {
     dice d = dice_of("limit", 15005);
     unsigned of[2] = {0};
     for (unsigned i = 0; i < dice_cases(few_or_all(12, 100)); i++) {
@@ -409,7 +403,7 @@ static void test_a_limit_is_one_of_the_energy(void) {
     TEST_ASSERT_TRUE(of[0] > 1 && of[1] > 1);
 }
 
-static void test_a_point_is_judged_as_its_run(void) {
+TEST(verdict, a_point_is_judged_as_its_run) {
     static const char *const methods[] = {"rk4", "heun", "leapfrog", "semi-implicit-euler",
                                           "nystroem5"};
     dice d = dice_of("verdict", 15004);
@@ -503,7 +497,7 @@ static void write_chain(dice d, double speed, char text[TEXT]) {
              step_s * (20.0 + dice_one_of(&d, 200)));
 }
 
-static void test_a_common_speed_changes_nothing(void) {
+TEST(verdict, a_common_speed_changes_nothing) {
     dice d = dice_of("frames", 4701);
     const unsigned cases = dice_cases(few_or_all(20, 300));
     unsigned told = 0;
@@ -612,7 +606,7 @@ static int of_files(const char *pattern) {
 
 /* Checks take at most twice the run's steps and a fixed number of operations. All scenes, built in or of the
  * catalogue, run at 10 % of their time and, with all cases, at 1 and 100 %. */
-static void test_looks_take_what_they_may(void) {
+TEST(verdict, looks_take_what_they_may) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);
     expect_cost("tests/reference/stack.whirl", 1.0);
@@ -623,7 +617,7 @@ static void test_looks_take_what_they_may(void) {
 }
 
 /* A run of many steps leaves no time for the finer run, or for the third. Run, sweep and trust say so. */
-static void test_what_was_not_looked_at(void) {
+TEST(verdict, what_was_not_looked_at) {
     static const struct {
         const char *until;
         const char *names;
@@ -655,16 +649,4 @@ static void test_what_was_not_looked_at(void) {
     command_say(command_trust, shorter, &what);
     TEST_ASSERT_EQUAL_INT(0, json_length(what.out, "not_looked_at"));
     model_drop();
-}
-
-void suite_verdict(void) {
-    RUN_TEST(test_a_point_is_judged_as_its_run);
-    RUN_TEST(test_a_limit_is_one_of_the_energy);
-    RUN_TEST(test_json_of_all_scenes);
-    RUN_TEST(test_json_of_failures);
-    RUN_TEST(test_json_of_trust_and_map);
-    RUN_TEST(test_json_of_price_and_choose);
-    RUN_TEST(test_a_common_speed_changes_nothing);
-    RUN_TEST(test_looks_take_what_they_may);
-    RUN_TEST(test_what_was_not_looked_at);
 }
