@@ -591,7 +591,7 @@ static void test_failures(void) {
         TEST_ASSERT_EQUAL_UINT(failed > 0 ? 1 : 0, times_in(s.err, wanted));
         TEST_ASSERT_EQUAL_INT(failed > 0 ? EXIT_RUN_FAILED : EXIT_DONE, s.code);
         expect_end(s.err, rows, 0, (uint64_t)most < rows ? most : (int)rows);
-        TEST_ASSERT_EQUAL_STRING_LEN("start(y),start(x),x,energy_residual\r\n", s.rows, 38);
+        TEST_ASSERT_EQUAL_STRING_LEN("start(y),start(x),x,energy_residual\r\n", s.rows, 37);
 
         const uint64_t kept = c % 2U == 0 ? rows : dice_one_of(&die, (unsigned)rows + 1U);
         sessions_cut(kept < rows ? row_at(s.rows, kept) : strlen(s.rows));
