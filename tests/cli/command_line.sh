@@ -410,8 +410,8 @@ coordinate b [rad]
 T = 1 [kg*m^2]*(a'^2 + b'^2)/2
 scene drift { start a' = 1e-7 [rad/s], b' = 3 [rad/s]; step 1 [ms]; until 3 [s] }
 END
-says 0 "note: 'a' turns so slowly .* off by up to 3e-07 rad, 1e\+02 % of the 3e-07 rad" run "$scratch/rotor.whirl" --number float
-says 0 '^hint: --compensated carries' run "$scratch/rotor.whirl" --number float
+says 0 "note: 'a' turns so slowly .* an error of up to 3e-07 rad, 1e\+02 % of the 3e-07 rad" run "$scratch/rotor.whirl" --number float
+says 0 '^hint: use --compensated, or' run "$scratch/rotor.whirl" --number float
 says 0 "note: 'a' turns so slowly" run "$scratch/rotor.whirl" --number float --quiet
 prints 'float' run "$scratch/rotor.whirl" --number float --compensated
 prints 'float' run "$scratch/rotor.whirl" --number float --start "a'=0.1"
