@@ -1,8 +1,6 @@
 /* matrix.c: a whole step as one matrix, for readers, for LaTeX and for Octave. */
 #include "matrix.h"
 
-#include <string.h>
-
 #include "emit.h"
 
 /* Columns of a table next to each other. */

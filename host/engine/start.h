@@ -2,8 +2,6 @@
 #ifndef ENGINE_START_H
 #define ENGINE_START_H
 
-#include <stddef.h>
-
 #include "core/scene.h"
 #include "host/engine/engine.h"
 

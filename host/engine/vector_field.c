@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "host/base/alloc.h"
 #include "host/number/functions.h"

@@ -1,7 +1,6 @@
 /* declare.c: the parser of coordinate, state, parameter, input, let and output. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "host/lang/statements.h"
 

@@ -3,7 +3,6 @@
 #define STUDY_GRID_H
 
 #include <stdint.h>
-#include <stdio.h>
 
 #include "host/lang/model.h"
 

@@ -2,7 +2,6 @@
 #include "host/study/session.h"
 #include "host/os/system.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
