@@ -36,12 +36,12 @@ wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
     /* without load the motor's speed follows the voltage; once the loop is closed the set-point leads */
-    const wh_real led = run->volts / config->rated_V * config->no_load_radps;
+    const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
     const wh_real closed_s = wh_rig_since_s(run->closed_ticks, ticks);
-    const bool starts = opens || (led > setpoint && closed_s < WH_RUN_START_S);
-    const wh_real lead = starts ? led : setpoint;
+    const bool starts = opens || (unloaded > setpoint && closed_s < WH_RUN_START_S);
+    const wh_real lead = starts ? unloaded : setpoint;
     return (wh_setpoint){.setpoint_radps = lead,
                          .limit_radps = lead > run->left_radps ? lead : run->left_radps,
                          .jumps = opens || closed_s < JUMP_S};
