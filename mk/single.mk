@@ -47,7 +47,7 @@ $(SINGLE)/suite_%.elf: $(B)/$(BOARD)/tests/core/test_%.o $(call objects,$(BOARD)
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)sh tests/suites.sh tests/core/test_$*.c >$(@:.elf=.c)
-	$(Q)$(call single_link,$(@:.elf=.c))
+	$(Q)$(call single_link,$(@:.elf=.c),$(UNITY_FLAGS))
 
 LARGE_SCENES = $(patsubst scene_%,%,$(shell sed -n 's/^scene /scene_/p' $(TOO_LARGE) 2>/dev/null))
 LARGE_SUITES = $(patsubst suite_%,%,$(shell sed -n 's/^suite /suite_/p' $(TOO_LARGE) 2>/dev/null))
