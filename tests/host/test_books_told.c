@@ -1,11 +1,7 @@
 /* test_books_told.c: the report of `whirl run` on energy and momenta at the end, for random mechanisms with uncoupled
  * coordinates: free, pushed, sprung or damped. Conserved momenta, their values, and with the ledger the cause of each
  * change, all by closed form. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include "host/base/alloc.h"
 #include "host/check/books.h"
@@ -16,11 +12,6 @@
 #include "command.h"
 #include "derived.h"
 #include "motion.h"
-
-#include "unity.h"
-
-void suite_books_told(void);
-void suite_energy_integral(void);
 
 /* === books told =============================================================================== */
 
@@ -125,7 +116,7 @@ static void expect_number(const char *text, double wanted, const char *at) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 1e-8 * (1.0 + fabs(wanted)), at);
 }
 
-static void test_conserved_momenta(void) {
+TEST(books_told, conserved_momenta) {
     dice d = dice_of("books told", 4121);
     unsigned none = 0;
     for (unsigned k = 0; k < dice_cases(60); k++) {
@@ -164,7 +155,7 @@ static void test_conserved_momenta(void) {
 }
 
 /* For each coordinate: its causes, its change, and the mean over time. */
-static void test_ledgers(void) {
+TEST(books_told, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
                                               [SPRUNG] = "\n  of the energies: dL/d",
@@ -205,7 +196,7 @@ static void test_ledgers(void) {
 /* --- synthetic balances -------------------------------------------------------------------------- */
 
 /* Every line, for any combination of known values. */
-static void test_every_line(void) {
+TEST(books_told, every_line) {
     static const char *const texts[] = {
         "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
         "scene s { step 1 [ms]; until 1 [s] }\n",
@@ -291,7 +282,7 @@ static void test_every_line(void) {
 }
 
 /* Random stops, some of which the ball never reaches: those have no line in any account. */
-static void test_contacts_that_gave_nothing(void) {
+TEST(books_told, contacts_that_gave_nothing) {
     dice die = dice_of("books_told", 93);
     enum { STOPS = 4 };
     for (unsigned c = 0; c < dice_cases(4); c++) {
@@ -320,13 +311,6 @@ static void test_contacts_that_gave_nothing(void) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(reached[i], strstr(what.out, at[i]) != NULL, what.out);
         }
     }
-}
-
-void suite_books_told(void) {
-    RUN_TEST(test_conserved_momenta);
-    RUN_TEST(test_ledgers);
-    RUN_TEST(test_every_line);
-    RUN_TEST(test_contacts_that_gave_nothing);
 }
 
 /* === energy integral ========================================================================== */
@@ -463,14 +447,14 @@ static void expect_order(const char *text, by_hand *energy_J, double step_s) {
     }
 }
 
-static void test_the_turning_hoop(void) {
+TEST(energy_integral, the_turning_hoop) {
     static const char text[] = HOOP_AT_10 "scene s { start th = 0.1\nuntil 2 [s] }\n";
     expect_closed(text, hoop_at_10);
     expect_order(text, hoop_at_10, 4e-3);
 }
 
 /* With a torque and a damper, whose work and loss are entries of some 1e-2 J. */
-static void test_the_turning_hoop_with_motor_and_drag(void) {
+TEST(energy_integral, the_turning_hoop_with_motor_and_drag) {
     static const char text[] =
         HOOP_AT_10 "input M = 0.06 [N*m]\nQ(th) = M\n"
                    "F = 1e-3 [N*m*s]*th'^2/2\nscene s { start th = 0.1\nuntil 2 [s] }\n";
@@ -479,19 +463,19 @@ static void test_the_turning_hoop_with_motor_and_drag(void) {
     TEST_ASSERT_TRUE(fabs(book(text, hoop_at_10, 0.0).change_J) > 1e-2);
 }
 
-static void test_the_potential_with_rates(void) {
+TEST(energy_integral, the_potential_with_rates) {
     static const char text[] = FIELD "scene s { start x' = 1 [m/s]\nuntil 1 [s] }\n";
     expect_closed(text, field_J);
     expect_order(text, field_J, 0.2);
 }
 
-static void test_the_slot_in_a_turning_table(void) {
+TEST(energy_integral, the_slot_in_a_turning_table) {
     static const char text[] = SLOT "scene s { start x = 1 [m]\nuntil 1 [s] }\n";
     expect_closed(text, slot_J);
     expect_order(text, slot_J, 0.1);
 }
 
-static void test_the_fast_body(void) {
+TEST(energy_integral, the_fast_body) {
     static const char text[] = FAST "scene s { start x' = 1.5 [m/s]\nuntil 1 [s] }\n";
     expect_closed(text, fast_J);
     expect_order(text, fast_J, 0.1);
@@ -513,7 +497,7 @@ static double of_contact(const motion *m, int account, double *left_over) {
 
 /* The wall on the turning table takes the loss of the integral: half the mass times the difference of the squared
  * speeds. Terms linear in the rates do not matter. */
-static void test_a_wall_on_the_turning_table(void) {
+TEST(energy_integral, a_wall_on_the_turning_table) {
     static const char text[] =
         TABLE "scene s { start x = 0.1 [m], x' = 1 [m/s], y' = 0.4 [m/s]\nuntil 0.5 [s] }\n";
     motion m;
@@ -539,7 +523,7 @@ static void test_a_wall_on_the_turning_table(void) {
     motion_close(&m);
 }
 
-static void test_a_stop_on_the_turning_hoop(void) {
+TEST(energy_integral, a_stop_on_the_turning_hoop) {
     static const char text[] = HOOP_AT_10 "stop th <= 0.8 restitution 0.5\n"
                                           "scene s { start th = 0.1\nuntil 2 [s] }\n";
     motion m;
@@ -569,7 +553,7 @@ static image *image_of(const char *text, derived *d) {
 
 /* An impulse is not mass times the change of rates if the mass depends on them: such stops are refused. Others are
  * not. */
-static void test_impacts_of_fast_bodies_are_refused(void) {
+TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
     static const struct {
         const char *text;
         bool kept;
@@ -622,7 +606,7 @@ static void change_the_hoop(const char *text, bool stops) {
     motion_close(&m);
 }
 
-static void test_a_hoop_whose_rate_is_changed(void) {
+TEST(energy_integral, a_hoop_whose_rate_is_changed) {
     static const char run[] = "scene s { start th = 0.1\nuntil 2 [s] }\n";
     char text[1000];
     for (int stops = 0; stops < 2; stops++) {
@@ -634,7 +618,7 @@ static void test_a_hoop_whose_rate_is_changed(void) {
 }
 
 /* Two springs with input rates, in one T + V: each has its entry, (k2 - k1) x^2/2. A refused step does not lose it. */
-static void test_springs_whose_rates_are_changed(void) {
+TEST(energy_integral, springs_whose_rates_are_changed) {
     static const char text[] =
         "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"
         "input push = 0 [N]\ninput b = 4 [N/m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
@@ -664,7 +648,7 @@ static void test_springs_whose_rates_are_changed(void) {
 }
 
 /* Both energies at the start and the end, of oscillators with known states. */
-static void test_both_energies_at_both_ends(void) {
+TEST(energy_integral, both_energies_at_both_ends) {
     dice d = dice_of("energy_integral", 41);
     for (int i = 0; i < 20; i++) {
         const double k = dice_between(&d, 1.0, 20.0);
@@ -734,7 +718,7 @@ static void expect_told(const image *im) {
 }
 
 /* In every built-in scene with T + V as its integral, T + V is booked. */
-static void test_where_the_integral_is_the_energy(void) {
+TEST(energy_integral, where_the_integral_is_the_energy) {
     static const struct {
         const char *text;
         bool integral;
@@ -760,19 +744,4 @@ static void test_where_the_integral_is_the_energy(void) {
         derived_free(&d);
     }
     TEST_ASSERT_TRUE(each_builtin_scene(check_plain) > 40);
-}
-
-void suite_energy_integral(void) {
-    RUN_TEST(test_the_turning_hoop);
-    RUN_TEST(test_the_turning_hoop_with_motor_and_drag);
-    RUN_TEST(test_the_potential_with_rates);
-    RUN_TEST(test_the_slot_in_a_turning_table);
-    RUN_TEST(test_the_fast_body);
-    RUN_TEST(test_a_wall_on_the_turning_table);
-    RUN_TEST(test_a_stop_on_the_turning_hoop);
-    RUN_TEST(test_impacts_of_fast_bodies_are_refused);
-    RUN_TEST(test_a_hoop_whose_rate_is_changed);
-    RUN_TEST(test_springs_whose_rates_are_changed);
-    RUN_TEST(test_both_energies_at_both_ends);
-    RUN_TEST(test_where_the_integral_is_the_energy);
 }

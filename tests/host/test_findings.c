@@ -1,11 +1,5 @@
 /* test_findings.c: verdict on a run's energy residual (host/check/energy_residual.h), by formulas: for synthetic
  * balances, runs with contacts and synthetic totals, and powers too small for float. */
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/base/exit.h"
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
@@ -19,14 +13,6 @@
 #include "json_check.h"
 #include "made_run.h"
 #include "made_sweep.h"
-
-#include "unity.h"
-
-void suite_believed(void);
-void suite_short_runs(void);
-void suite_small_told(void);
-void suite_sweeps_told(void);
-void suite_thresholds(void);
 
 /* === believed ================================================================================= */
 
@@ -281,7 +267,7 @@ static void test_what_is_too_small(void) {
     }
 }
 
-void suite_believed(void) {
+SUITE(believed) {
     die = dice_of("believed", 95);
     const long before = blocks_in_use();
     RUN_TEST(test_made_up_books);
@@ -381,13 +367,8 @@ static void hold(const char *number) {
     TEST_ASSERT_TRUE(right > cases / 3 && wrong > cases / 20);
 }
 
-static void test_in_float(void) { hold("float"); }
-static void test_in_double(void) { hold("double"); }
-
-void suite_short_runs(void) {
-    RUN_TEST(test_in_float);
-    RUN_TEST(test_in_double);
-}
+TEST(short_runs, in_float) { hold("float"); }
+TEST(short_runs, in_double) { hold("double"); }
 
 /* === small told =============================================================================== */
 /* Figures in reports on small numbers: an angle with steps of a few of its units (host/check/slow.h), and a motion of a
@@ -398,7 +379,7 @@ static void expect_figure(double wanted, double is, const char *text) {
 }
 
 /* An angle moves by whole units of 2^-32 turn: each step is rounded to the nearest. */
-static void test_slow_angles(void) {
+TEST(small_told, slow_angles) {
     for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
         char text[400];
         double figure[3] = {0.0};
@@ -431,7 +412,7 @@ static void test_slow_angles(void) {
             TEST_ASSERT_NOT_NULL_MESSAGE(note, what.err);
             const char *at = said_exactly(
                 note, "whirl run: note: 'a' turns so slowly that rounding its steps to 1.5e-9 "
-                      "rad, as float does, put it off by up to ");
+                      "rad, as float does, causes an error of up to ");
             at = said_exactly(said_number(at, &figure[0]), " rad, ");
             at = said_exactly(said_number(at, &figure[1]), " % of the ");
             at = said_exactly(
@@ -450,7 +431,7 @@ static void test_slow_angles(void) {
 
 /* A body that moves by a few to some hundred of float's least numbers. Round-off must be reported above a fiftieth of
  * the way, and not below a thousandth. The same for a spring whose products of rates fall below the normal numbers. */
-static void test_small_numbers(void) {
+TEST(small_told, small_numbers) {
     unsigned told = 0;
     for (unsigned n = 0; n < dice_cases(usual_or(40, 20)); n++) {
         char text[400];
@@ -484,11 +465,7 @@ static void test_small_numbers(void) {
     model_drop();
 }
 
-void suite_small_told(void) {
-    die = dice_of("small told", 90);
-    RUN_TEST(test_slow_angles);
-    RUN_TEST(test_small_numbers);
-}
+SUITE(small_told) { die = dice_of("small told", 90); }
 
 /* === sweeps told ============================================================================== */
 /* Output of a whole sweep: its rows; the points that failed, overran their events, turned too slowly or cannot be
@@ -774,7 +751,7 @@ static void test_given_back(void) {
     }
 }
 
-void suite_sweeps_told(void) {
+SUITE(sweeps_told) {
     die = dice_of("sweeps_told", 62);
     RUN_TEST(test_failures);
     RUN_TEST(test_notes);
@@ -848,7 +825,7 @@ static double told_by(unsigned row, double parameter) {
     return (double)NAN;
 }
 
-static void test_both_sides_of_each_limit(void) {
+TEST(thresholds, both_sides_of_each_limit) {
     dice d = dice_of("thresholds", 4703);
     for (unsigned i = 0; i < ROWS; i++) {
         const double limit = rows[i].limit;
@@ -873,5 +850,3 @@ static void test_both_sides_of_each_limit(void) {
     }
     model_drop();
 }
-
-void suite_thresholds(void) { RUN_TEST(test_both_sides_of_each_limit); }

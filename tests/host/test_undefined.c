@@ -3,17 +3,7 @@
  * expression's line and text. */
 #include "command.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "host/cli/commands.h"
-
-#include "unity.h"
-
-void suite_undefined(void);
 
 /* The kind of expression that becomes undefined; the others stay defined. */
 typedef enum victim {
@@ -163,7 +153,7 @@ static void check(const trial *t, const char *file) {
         late_s <= most + rounding_s && late_s >= -1.01 * t->step_s - rounding_s, note);
 }
 
-static void test_expressions_that_stop_being_numbers(void) {
+TEST(undefined, expressions_that_stop_being_numbers) {
     dice d = dice_of("undefined", 20261);
     const unsigned rounds = dice_cases(usual_or(6, 1));
     unsigned tried = 0;
@@ -182,7 +172,7 @@ static void test_expressions_that_stop_being_numbers(void) {
 }
 
 /* The same mechanisms stopped before that time give no message. */
-static void test_expressions_that_are_numbers_throughout(void) {
+TEST(undefined, expressions_that_are_numbers_throughout) {
     dice d = dice_of("defined", 20262);
     const unsigned rounds = dice_cases(usual_or(3, 1));
     for (unsigned i = 0; i < rounds; i++) {
@@ -211,7 +201,7 @@ static void test_expressions_that_are_numbers_throughout(void) {
 }
 
 /* A stop ends the motion where an expression also ends: the step looks further, the motion does not go there. */
-static void test_expressions_that_end_where_a_stop_is(void) {
+TEST(undefined, expressions_that_end_where_a_stop_is) {
     static const char *const effects[] = {"hold y while sqrt(x/u) > 9",
                                           "when sqrt(x/u) crosses 9 { set y = 1 [m] }",
                                           "stop y + u*sqrt(x/u) >= -9 [m] restitution 0"};
@@ -230,7 +220,7 @@ static void test_expressions_that_end_where_a_stop_is(void) {
     model_drop();
 }
 
-static void test_accelerations_that_are_no_numbers(void) {
+TEST(undefined, accelerations_that_are_no_numbers) {
     static const char *const terms[] = {"V = 1 [J]*log(x/u)", "V = 1 [J]*u/x",
                                         "Q(x) = 1 [N]*sqrt(x/u - 1)", "F = 1 [N*s/m]*x'^2/(x/u)",
                                         "V = 1 [J]*sqrt(x/u)"};
@@ -254,7 +244,7 @@ static void test_accelerations_that_are_no_numbers(void) {
 }
 
 /* A step over a pole leaves the force defined and the energy undefined: the energy balance reports it. */
-static void test_energies_that_are_no_numbers(void) {
+TEST(undefined, energies_that_are_no_numbers) {
     dice d = dice_of("energies", 20263);
     for (unsigned i = 0; i < dice_cases(usual_or(10, 4)); i++) {
         char text[400];
@@ -283,7 +273,7 @@ static void test_energies_that_are_no_numbers(void) {
     model_drop();
 }
 
-static void test_angles_beyond_what_a_run_knows(void) {
+TEST(undefined, angles_beyond_what_a_run_knows) {
     static const char text[] =
         "mechanism m\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\nV = 1 [J]*cos(th)\n"
         "scene s { start th = 7e9\n until 1 [s] }\n";
@@ -317,13 +307,4 @@ static void test_angles_beyond_what_a_run_knows(void) {
         strstr(what.err, "() of 5.1e+08 rad, and sine and cosine are computed up to 5e+08"),
         what.err);
     model_drop();
-}
-
-void suite_undefined(void) {
-    RUN_TEST(test_expressions_that_stop_being_numbers);
-    RUN_TEST(test_expressions_that_are_numbers_throughout);
-    RUN_TEST(test_expressions_that_end_where_a_stop_is);
-    RUN_TEST(test_accelerations_that_are_no_numbers);
-    RUN_TEST(test_energies_that_are_no_numbers);
-    RUN_TEST(test_angles_beyond_what_a_run_knows);
 }

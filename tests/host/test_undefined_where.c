@@ -1,17 +1,10 @@
 /* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of drawn
  * formulas, by its column; the sampled places of a step; and the angle without a sine. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "blocks.h"
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"
 #include "host/check/nonfinite.h"
-#include "unity.h"
-
-void suite_undefined_where(void);
 
 enum { FORMULA = 600 };
 
@@ -54,7 +47,7 @@ static void put_around(char *formula, int *column, const char *wrapper) {
     memcpy(formula, made, sizeof made);
 }
 
-static void test_the_innermost_part_is_named(void) {
+TEST(undefined_where, the_innermost_part_is_named) {
     const long before = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(usual_or(80, 20)); c++) {
         char formula[FORMULA];
@@ -98,7 +91,7 @@ static void test_the_innermost_part_is_named(void) {
 }
 
 /* A term undefined in a window of the step is found if a sampled place lies in it, within the range. */
-static void test_the_places_on_the_way(void) {
+TEST(undefined_where, the_places_on_the_way) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
         char text[700];
@@ -134,7 +127,7 @@ static void test_the_places_on_the_way(void) {
     }
 }
 
-static void test_what_it_is_made_of(void) {
+TEST(undefined_where, what_it_is_made_of) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 10)); c++) {
         char text[500];
         double w[3];
@@ -167,7 +160,7 @@ static void test_what_it_is_made_of(void) {
 }
 
 /* Turning angles advance by their rates: a, b and x, declared in any order. */
-static void test_angles_that_it_is_made_of(void) {
+TEST(undefined_where, angles_that_it_is_made_of) {
     static const char *const orders[] = {
         "coordinate a [rad]\ncoordinate b [rad]\ncoordinate x [m]\n",
         "coordinate x [m]\ncoordinate b [rad]\ncoordinate a [rad]\n",
@@ -216,7 +209,7 @@ static void test_angles_that_it_is_made_of(void) {
 }
 
 /* A sine anywhere in a formula with an argument near the limit. An angle that counts its turns has no limit. */
-static void test_the_sine_that_is_too_far(void) {
+TEST(undefined_where, the_sine_that_is_too_far) {
     unsigned told_of_sines = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(400, 100)); c++) {
         char formula[FORMULA];
@@ -269,11 +262,4 @@ static void test_the_sine_that_is_too_far(void) {
     TEST_ASSERT_TRUE(told_of_sines > 10);
 }
 
-void suite_undefined_where(void) {
-    die = dice_of("undefined_where", 69);
-    RUN_TEST(test_the_innermost_part_is_named);
-    RUN_TEST(test_the_places_on_the_way);
-    RUN_TEST(test_what_it_is_made_of);
-    RUN_TEST(test_angles_that_it_is_made_of);
-    RUN_TEST(test_the_sine_that_is_too_far);
-}
+SUITE(undefined_where) { die = dice_of("undefined_where", 69); }
