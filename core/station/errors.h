@@ -11,7 +11,7 @@ extern "C" {
 /* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers never change. */
 #define WH_STATION_ERROR_ROWS(X) \
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
-    X(WH_STATION_LINE, 101, "the line is too long, or has what is no character") \
+    X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \
     X(WH_STATION_WORDS, 102, "too many words") \
     X(WH_STATION_NO_NUMBER, 103, "a number is wanted, such as 330 or 330.5") \
     X(WH_STATION_NO_RESULT, 104, "the last run has given no result") \

@@ -173,10 +173,10 @@ static void ask(monitor *m) {
 
 static void ask_again(monitor *m) {
     if (++m->unheard == 2 && m->dialogue.asked < DIALOGUE_MET) {
-        fprintf(stderr,
-                "whirl monitor: nobody answers at %s; asking on\n"
-                "hint: is it the rig's console, is --baud its speed, is nobody else at it?\n",
-                m->o->port);
+        fprintf(
+            stderr,
+            "whirl monitor: no answer from %s; trying again\nhint: check that it is the rig's console, that --baud is its speed, and that no other program uses it\n",
+            m->o->port);
     }
     ask(m);
 }
@@ -402,8 +402,7 @@ static void tell(const monitor *m) {
             c->samples, c->pulses, c->frames, c->lost, c->dropped, c->lost_samples,
             m->wire.damaged);
     if (c->strange > 0) {
-        fprintf(stderr, "whirl monitor: %" PRIu64 " frames that the rig does not describe\n",
-                c->strange);
+        fprintf(stderr, "whirl monitor: %" PRIu64 " frames of unknown type\n", c->strange);
     }
     if (m->times > 1 || c->restarts > 0) {
         fprintf(stderr,
@@ -465,7 +464,7 @@ static int run(monitor *m) {
     }
     good = close_outputs(m) && good;
     if (m->o->strict && lost_any(m)) {
-        fputs("whirl monitor: error: something was lost, and --strict\n", stderr);
+        fputs("whirl monitor: error: data were lost (--strict)\n", stderr);
         good = false;
     }
     return good ? EXIT_DONE : EXIT_RUN_FAILED;

@@ -290,11 +290,11 @@ static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
         return true;
     }
     if (!port_open(line, o->port, baud_of(o))) {
-        port_say_unopened(o->port, "is the board plugged in? ls /dev/tty*");
+        port_say_unopened(o->port, "check that the board is plugged in: ls /dev/tty*");
         return false;
     }
     if (!line->is_line) {
-        fprintf(stderr, "%s: error: no serial line: nobody answers there\n", o->port);
+        fprintf(stderr, "%s: error: no serial line: there is no answer\n", o->port);
         port_close(line);
         return false;
     }

@@ -311,7 +311,7 @@ static bool read_times(pricing *p) {
     }
     instance_free(inst);
     if (good && !(p->until_s > 0.0)) {
-        fprintf(stderr, "whirl %s: error: a motion of no time has no errors\nhint: --horizon 1s\n",
+        fprintf(stderr, "whirl %s: error: the horizon is 0 s\nhint: --horizon 1s\n",
                 p->options->command);
         return false;
     }
@@ -375,7 +375,7 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
         wanted = (uint64_t)number_floor(p->until_s / each_s * (1.0 + 1e-9));
     }
     if (wanted < 1) {
-        fprintf(stderr, "whirl %s: error: %.9g s of motion are too short or too long to look at\n",
+        fprintf(stderr, "whirl %s: error: %.9g s of motion are too short or too long\n",
                 p->options->command, p->until_s);
         return EXIT_BAD_INPUT;
     }
@@ -423,7 +423,7 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
             return EXIT_DONE;
         }
     }
-    fprintf(stderr, "whirl price: nothing that was tried errs by less than %s\n",
+    fprintf(stderr, "whirl price: no setting that was tried has an error below %s\n",
             p->options->value[PRICING_ERROR]);
     return EXIT_RUN_FAILED;
 }
@@ -530,13 +530,13 @@ static const char choose_head[] =
     "\n";
 static bool fits(const pricing *p) {
     if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
-        fputs("whirl choose: error: --measure and --predict: one of the two\n", stderr);
+        fputs("whirl choose: error: --measure and --predict exclude each other\n", stderr);
         return false;
     }
     if (!p->asks_error) {
-        fputs("whirl choose: error: --error is missing: without it, the cheapest step is none\n"
-              "hint: such as --error 1e-3, a part of the largest value, or --of X --error 0.1mm\n",
-              stderr);
+        fputs(
+            "whirl choose: error: --error is missing\nhint: such as --error 1e-3, a part of the largest value, or --of X --error 0.1mm\n",
+            stderr);
     }
     return p->asks_error;
 }
@@ -673,11 +673,10 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
             choice_print(stdout, &p->trial, made, w, &c, &words);
         }
         if (is_short) {
-            fprintf(stderr,
-                    "whirl choose: error: errors are known until t = %.6g s only, less than half "
-                    "of %.6g s\n"
-                    "hint: --horizon %.6gs asks for no more\n",
-                    horizon_s, p->until_s, horizon_s);
+            fprintf(
+                stderr,
+                "whirl choose: error: errors are known only until t = %.6g s, less than half of %.6g s\nhint: --horizon %.6gs\n",
+                horizon_s, p->until_s, horizon_s);
         }
     }
     table_free(made);

@@ -76,10 +76,10 @@ static bool read_options(int count, char **words, prove_options *o) {
 static bool is_affordable(const image *im, double effort) {
     const double wanted = step_doubling_operations(im, im);
     if (wanted > effort) {
-        fprintf(stderr,
-                "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\n"
-                "hint: a nearer --until, or a longer --step",
-                (double)im->steps, effort_minutes(wanted));
+        fprintf(
+            stderr,
+            "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\nhint: use an earlier --until, or a longer --step",
+            (double)im->steps, effort_minutes(wanted));
         effort_say(wanted);
     }
     return wanted <= effort;
@@ -102,7 +102,7 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
         for (int s = 0; s < m->states; s++) {
             if (m->state[s].unknown == a.symbol->index && m->state[s].primes == a.primes) {
                 if (within[s] > 0.0) {
-                    diag_error(errors, a.at, "once is enough: leave one of them out",
+                    diag_error(errors, a.at, "leave one of them out",
                                "'%s%.*s' is given twice on the command line", a.symbol->name,
                                a.primes, "'''''''''");
                 }
@@ -138,14 +138,14 @@ static void say_end(const containment_found *h, double end_s) {
     case CONTAINMENT_NO_STEP:
         fprintf(
             stderr,
-            "whirl prove: the tube ends at t = %.15g s: behind it the exact motion is not enclosed\n",
+            "whirl prove: the tube ends at t = %.15g s: after that the exact motion is not enclosed\n",
             h->tube_s);
         break;
     case CONTAINMENT_SPENT:
-        fprintf(stderr,
-                "whirl prove: the effort is spent at t = %.15g s of %.15g s\n"
-                "hint: a larger --effort goes on\n",
-                h->tube_s, end_s);
+        fprintf(
+            stderr,
+            "whirl prove: the effort is spent at t = %.15g s of %.15g s\nhint: use a larger --effort\n",
+            h->tube_s, end_s);
         break;
     case CONTAINMENT_STOPPED:
         if (h->ranged) {

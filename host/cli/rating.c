@@ -190,7 +190,7 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
     if (ends_early) {
         snprintf(
             early, sizeof early,
-            "; shorter ones than %s s would take %.1e operations or more, of %.1e for all tries",
+            "; a step below %s s would take %.1e operations or more, and all tries together may take %.1e",
             trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
     }
     fprintf(stderr,

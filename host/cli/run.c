@@ -210,10 +210,10 @@ static bool count_every(const run_options *o, double spacing_s, const image *im,
         return false;
     }
     if (!ratio_count_each(spacing_s, im->step, steps)) {
-        fprintf(stderr,
-                "whirl run: error: --every %s is not a whole number of steps, one or more\n"
-                "hint: the step is %.9g s\n",
-                o->every, im->step_s);
+        fprintf(
+            stderr,
+            "whirl run: error: --every %s is not a multiple of the step\nhint: the step is %.9g s\n",
+            o->every, im->step_s);
         return false;
     }
     return true;

@@ -273,8 +273,8 @@ static void ask_contact(maker *k, const contact_statement *h, image_contact *row
         break;
     case CONTACT_HOLD:
         ask_value(k, where, h->condition, "the condition of this hold");
-        ask_value(k, where, h->value, "what this hold holds");
-        ask_slopes(k, where, h->value, "the rate of what this hold holds", 0);
+        ask_value(k, where, h->value, "the expression of this hold");
+        ask_slopes(k, where, h->value, "the rate of the expression of this hold", 0);
         break;
     case CONTACT_FRICTION:
         ask_value(k, where, h->normal, "the normal force of this friction");

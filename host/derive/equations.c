@@ -250,13 +250,13 @@ const poly *equations_fold(const equations *e, const poly *p) {
 void equations_report_growth(const equations *e, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char *limit = algebra_limit(e->algebra);
-    char hint[200] = "smaller powers of sums, or coordinates nearer to the joints, help";
+    char hint[200] = "use smaller powers of sums, or coordinates nearer to the joints";
     if (m->parameter_count >
         0) { /* products of parameters are separate terms, products of numbers are not */
-        snprintf(hint, sizeof hint,
-                 "write let in place of parameter: %d of them become numbers; smaller powers of "
-                 "sums, or coordinates nearer to the joints, help too",
-                 m->parameter_count);
+        snprintf(
+            hint, sizeof hint,
+            "write let in place of parameter: %d of them become numbers; use smaller powers of sums, too, or coordinates nearer to the joints",
+            m->parameter_count);
     }
     diag_error(errors, m->at, hint, "the equations of '%s' grow beyond what can be handled: %s",
                m->name, limit);

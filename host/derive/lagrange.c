@@ -399,11 +399,11 @@ static bool equations_check_solvable(equations *e, diags *errors) {
     case SINGULAR: report_singular(e, errors); break;
     case NOT_POSITIVE:
         taken = negative_part(e, &negative);
-        diag_error(errors, taken != NULL ? taken->at : equations_kinetic_place(e->instance),
-                   "a mass below zero? products of different rates alone, as x'*y'? equations "
-                   "that are meant so can be given outright",
-                   "the kinetic energy of '%s' is negative for some motion at every state tried",
-                   of->name);
+        diag_error(
+            errors, taken != NULL ? taken->at : equations_kinetic_place(e->instance),
+            "look for a negative mass or a product of two rates, as x'*y'; or give the equations themselves",
+            "the kinetic energy of '%s' is negative for some motion at every state tried",
+            of->name);
         break;
     case SOLVABLE: break;
     }

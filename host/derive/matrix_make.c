@@ -520,7 +520,7 @@ static bool is_possible(const image *im, diags *errors) {
                    im->contact[0].word);
     } else if (im->ledger.kept) {
         diag_error(errors, im->at, "--without ledger, or leave out --matrix",
-                   "the ledger of '%s' wants the stages of a step, and a matrix has none",
+                   "the ledger of '%s' needs the stages of a step, and a matrix has none",
                    im->name);
     } else if (im->settings.tables != TABLES_NONE) {
         diag_error(errors, im->at, "leave out --tables, or --matrix",

@@ -214,8 +214,7 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
 /* Parameter values may produce 1/0: a contact would then have no defined side. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
-        "look for a division by zero, a root or logarithm of what is below it, "
-        "or values that are too large";
+        "look for a division by zero, a root or logarithm of a negative number, or too large values";
     bool finite = true;
     for (int k = 0; k < e->contacts->count; k++) {
         const contact_statement *h = e->contacts->law[k].from;
@@ -242,7 +241,7 @@ static bool have_impulses(const equations *e, diags *errors) {
         const contact_statement *h = e->contacts->law[k].from;
         if ((h->kind == CONTACT_STOP || h->kind == CONTACT_HOLD) && energy_mass_has_rates(e)) {
             diag_error(errors, h->at, "leave it out, or make T quadratic in the rates",
-                       "what an impact does cannot be told: the inertia of '%s' depends on rates",
+                       "impacts cannot be computed: the inertia of '%s' depends on rates",
                        e->instance->mechanism->name);
             return false;
         }
@@ -479,27 +478,26 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
                                  diags *errors) {
     const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {
-        diag_error(errors, m->at, no_stabilized,
-                   "--stabilized gives back what the energy drifts by: '%s' is given by equations "
-                   "and has none",
-                   m->name);
+        diag_error(
+            errors, m->at, no_stabilized,
+            "--stabilized corrects the energy drift: '%s' is given by equations and has no energy",
+            m->name);
     } else if (contacts != NULL) {
         const contact_statement *first = contacts->row[0].from;
         diag_error(errors, first->at, "leave it out, --without; or leave out --stabilized",
-                   "--stabilized: '%s' has events, and their energies are taken as they happen",
-                   m->name);
+                   "--stabilized: '%s' has events, whose energy changes it would undo", m->name);
     } else if (settings->matrix != MATRIX_NONE) {
         diag_error(errors, m->at, "leave out --matrix, or --stabilized",
-                   "--stabilized wants the stages of a step, and a matrix has none");
+                   "--stabilized needs the stages of a step, and a matrix has none");
     } else if (wh_methods[settings->method].takes == WH_NO_RATES) {
         diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
                    "--stabilized keeps books, and %s none: its kicks know no rates",
                    wh_methods[settings->method].title);
     } else if (settings->method == WH_SEMI_IMPLICIT_EULER) {
-        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
-                   "--stabilized gives back what the energy drifts by, and with %s it goes up and "
-                   "down about the right one instead",
-                   wh_methods[settings->method].title);
+        diag_error(
+            errors, m->at, "choose another --method, or leave out --stabilized",
+            "--stabilized corrects an energy drift, but with %s the energy oscillates about the right one instead",
+            wh_methods[settings->method].title);
     } else if (map->form != WH_SECOND_ORDER) {
         diag_error(errors, m->at, "--without conserve, or leave out --stabilized",
                    "--stabilized keeps books, which a coordinate that is integrated from its "
@@ -518,17 +516,17 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
 static bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
     for (int i = 0; i < books->smooth; i++) {
         if (books->entry[i].account == 0) {
-            diag_error(errors, *books->entry[i].at,
-                       "leave it out, --without; or leave out --stabilized",
-                       "--stabilized is for what nothing drives or damps: this does");
+            diag_error(
+                errors, *books->entry[i].at, "leave it out, --without; or leave out --stabilized",
+                "--stabilized is for motion without drive or damping: this statement drives or damps");
             return false;
         }
     }
     if (books->inputs > 0) {
-        diag_error(errors, e->instance->mechanism->at, no_stabilized,
-                   "--stabilized is for what nothing drives or damps: the energies of '%s' name an "
-                   "input",
-                   e->instance->mechanism->name);
+        diag_error(
+            errors, e->instance->mechanism->at, no_stabilized,
+            "--stabilized is for motion without drive or damping: the energies of '%s' name an input",
+            e->instance->mechanism->name);
         return false;
     }
     return true;

@@ -200,7 +200,7 @@ bool gnuplot_close(gnuplot *g) {
         atomic_file_not_whole();
         show_said(g->said);
         fprintf(stderr, "whirl: error: gnuplot could not draw %s\n%s", g->file,
-                code == 0 && !whole ? "hint: is the disk full?\n" : "");
+                code == 0 && !whole ? "hint: check the free space on the disk\n" : "");
     }
     fclose(g->drawn);
     fclose(g->said);

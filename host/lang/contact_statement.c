@@ -37,7 +37,7 @@ static const expr *missing_comparison(parser *in, const reading *how) {
     char words[80];
     const bool equal = parser_is_sign(in, SIGN_EQUAL) || parser_is_sign(in, '=');
     parser_fail(in,
-                equal ? "two numbers are hardly ever equal: compare with >, <, >= or <="
+                equal ? "compare with >, <, >= or <=: two numbers are hardly ever equal"
                       : word_row(how->statement)->form,
                 "a comparison is missing before %s", token_words(&in->token, words, sizeof words));
     return NULL;

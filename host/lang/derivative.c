@@ -273,7 +273,7 @@ static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
                    rate->symbol.name, s->name);
     } else if (rate->symbol.kind != SYM_INPUT || rate->symbol.effect >= 0) {
         diag_error(in->diags, s->at, hint,
-                   "the rate of input '%s' is another input of the mechanism", s->name);
+                   "the rate of input '%s' must be another input of the mechanism", s->name);
     } else if (!dim_fits(rate->symbol.dim, wanted)) {
         diag_error(in->diags, rate->symbol.at, hint, "the rate of input '%s' must be in [%s]",
                    s->name, unit);
@@ -352,7 +352,7 @@ static void check_contact(parser *in, const mechanism *made, const contact_state
         each->kind == CONTACT_HOLD ? find_input(made, each->value, false, mark - 1) : NULL;
     if (input != NULL) {
         diag_error(in->diags, each->value->at, input_rate_hint(input, hint),
-                   "what is held contains the input '%s', whose rate is not known", input->name);
+                   "the expression of the hold contains the input '%s', whose rate is not known", input->name);
     }
 }
 

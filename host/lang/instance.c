@@ -46,7 +46,7 @@ static void check_stop(const contact_statement *stop, valuation *known) {
     const double e = value_at_start(stop->restitution, known, "the restitution");
     if (e < -LAST_DIGITS || e > 1.0 + LAST_DIGITS) {
         diag_error(known->diags, stop->restitution->at,
-                   "0: it stays where it hits; 1: it leaves as fast as it came",
+                   "write 0 for a body that stays, 1 for one that leaves as fast as it came",
                    "a restitution is from 0 to 1, and this is %g", e);
     }
 }
@@ -62,7 +62,7 @@ static void check_friction(const contact_statement *friction, valuation *known) 
                    "a coefficient of friction must not be negative, and this is %g",
                    first ? most : kinetic);
     } else if (kinetic > most * (1.0 + LAST_DIGITS) + LAST_DIGITS) {
-        diag_error(known->diags, slides->at, "sliding takes no more force than breaking loose",
+        diag_error(known->diags, slides->at, "kinetic friction must not exceed static friction",
                    "kinetic friction %g is above static friction %g", kinetic, most);
     }
 }
@@ -320,7 +320,7 @@ static bool takes_part(const instance *made, override_kind kind, const assignmen
 static bool is_first(const assignment *before, int count, const assignment *change, diags *all) {
     for (int i = 0; i < count; i++) {
         if (before[i].symbol == change->symbol && before[i].primes == change->primes) {
-            diag_error(all, change->at, "once is enough: leave one of them out",
+            diag_error(all, change->at, "leave one of them out",
                        "'%s%.*s' is given twice on the command line", change->symbol->name,
                        change->primes, "'''''''''");
             return false;

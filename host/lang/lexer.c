@@ -154,8 +154,7 @@ static void read_number(lexer *in, token *made) {
                        "this number is too large (1.7e308 is the limit)");
             made->kind = TOKEN_BAD;
         } else if (made->number == 0.0 && strcspn(digits, "123456789") < strcspn(digits, "eE")) {
-            diag_error(in->diags, made->at,
-                       "write 0 where that is meant: there is nothing between it and 5e-324",
+            diag_error(in->diags, made->at, "write 0, or at least 5e-324",
                        "this number is too small to tell from zero");
             made->kind = TOKEN_BAD;
         }

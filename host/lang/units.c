@@ -320,7 +320,7 @@ static bool read_factor(reader *in, unit_scale *result) {
         result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
         result->exact = exact_power(base.exact, exponent);
         if (!dim_power(base.dim, exponent, &result->dim)) {
-            return fail(in, sign_at, "this exponent gives no dimension we can keep", "");
+            return fail(in, sign_at, "this exponent gives no valid dimension", "");
         }
     }
     return true;

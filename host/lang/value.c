@@ -135,7 +135,7 @@ double parameter_value(valuation *known, int index) {
     }
     known->parameter[index] = 0.0;
     if (known->parameter_state[index] == 1) {
-        diag_error(known->diags, at, "declared values may be used, but not round in a circle",
+        diag_error(known->diags, at, "break the circle: give one of the values as a number",
                    "'%s' is set from itself", name);
         return 0.0;
     }

@@ -51,7 +51,7 @@ const char *term_rule(term_kind kind);
  * (core/contact.h). */
 #define CONTACT_KIND_ROWS(X) \
     X(STOP, "the stop", "the restitution, or the gap, of this stop") \
-    X(HOLD, "the hold", "the condition of this hold, or what it holds,") \
+    X(HOLD, "the hold", "the condition of this hold, or its expression,") \
     X(FRICTION, "the friction", "the normal force, or a coefficient, of this friction") \
     X(WHEN, "the crossing", "the value of this crossing")
 

@@ -32,7 +32,7 @@ static void say_silent(const talk *t) {
             t->guest.wish.patience_s,
             t->wish->guest.by_line
                 ? "a frame that the line has damaged is not asked for again: reset the board"
-                : "an endless loop, or a read that nobody answers");
+                : "an endless loop, or a read without an answer");
 }
 
 /* Ctrl-C reaches all processes in the terminal, and the firmware may end first. */
@@ -182,12 +182,11 @@ static void say_no_hello(talk *t) {
     t->report->end = LOCKSTEP_BAD;
     if (end.status == GUEST_NOT_RUN) {
         fputs(t->guest.emulated ? "hint: make deps installs QEMU\n"
-                                : "hint: is it a program of this machine, and executable?\n",
+                                : "hint: check that it is an executable program of this machine\n",
               stderr);
     } else {
         fprintf(stderr,
-                "%s: error: it ended without a hello\nhint: is it made for `whirl pil`, as "
-                "build/pil_rig and build/BOARD/pil_rig.elf are?\n",
+                "%s: error: it ended without a hello\nhint: use an image made for `whirl pil`, such as build/pil_rig or build/BOARD/pil_rig.elf\n",
                 t->guest.wish.image);
     }
 }
@@ -237,9 +236,7 @@ static bool ask_for_hello(talk *t) {
     t->report->end = heard == GUEST_STOPPED ? LOCKSTEP_STOPPED : LOCKSTEP_BAD;
     if (heard != GUEST_STOPPED) {
         fprintf(stderr,
-                "whirl pil: error: no hello has come over the line in %g s\n"
-                "hint: reset the board, whose firmware may be in the middle of another run; is it "
-                "pil_line.elf, and --baud its speed?\n",
+                "whirl pil: error: no hello has come over the line in %g s\nhint: reset the board, and check that it runs pil_line.elf and that --baud is its speed\n",
                 patience_s);
     }
     return false;
@@ -303,7 +300,7 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
                             .payload = payload,
                             .length = wh_reset_put(reset, payload, sizeof payload)};
     if (t->wish->guest.by_line) {
-        return fail(t, "nothing that resets it: over a line nobody does");
+        return fail(t, "a reset, which cannot be done over a line");
     }
     (void)guest_end(&t->guest);
     if (!guest_start(&t->guest, &t->wish->guest)) {
@@ -343,7 +340,7 @@ void talk_end(talk *t) {
         fprintf(stderr, "whirl pil: error: the firmware closed the line and did not end: killed\n");
         t->report->end = LOCKSTEP_FAILED;
     } else if (t->report->status.signal_number != 0) {
-        fprintf(stderr, "whirl pil: error: the firmware's process was ended by signal %d (%s)\n",
+        fprintf(stderr, "whirl pil: error: the firmware's process ended by signal %d (%s)\n",
                 t->report->status.signal_number, t->report->status.signal_name);
         t->report->end = LOCKSTEP_FAILED;
     }
@@ -453,10 +450,10 @@ static bool advance(loop *l, double until_ticks) {
 
 static bool advance_or_tell(loop *l, double until_ticks) {
     if (!advance(l, until_ticks)) {
-        fprintf(stderr,
-                "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\n"
-                "hint: a smaller --step, or look at what the firmware told it to do\n",
-                plant_s(l), wh_status_text(l->plant.status));
+        fprintf(
+            stderr,
+            "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\nhint: use a smaller --step, or check the firmware's outputs\n",
+            plant_s(l), wh_status_text(l->plant.status));
         l->report->end = LOCKSTEP_FAILED;
         return false;
     }
@@ -487,10 +484,10 @@ static bool are_numbers(loop *l, const wh_orders *orders) {
     for (unsigned i = 0; i < l->binding.count; i++) {
         const bound *b = &l->binding.bound[i];
         if (b->signal.kind == WH_SIGNAL_OUTPUT && isnan(orders->output[b->channel])) {
-            fprintf(stderr,
-                    "whirl pil: error: the firmware set '%s' to what is no number (NaN) at t = "
-                    "%.9g s\nhint: a quotient of zeros, or the root of less than zero\n",
-                    b->signal.name, plant_s(l));
+            fprintf(
+                stderr,
+                "whirl pil: error: the firmware set '%s' to NaN at t = %.9g s\nhint: look for 0/0 or the root of a negative number\n",
+                b->signal.name, plant_s(l));
             l->report->end = LOCKSTEP_FAILED;
             return false;
         }

@@ -127,8 +127,7 @@ static bool has_good_range(const bound *b) {
     }
     if (s->kind == WH_SIGNAL_SAMPLE && !fits_counts(s)) {
         fprintf(stderr,
-                "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count: more "
-                "counts than 32 bits have\nhint: a coarser count, or a narrower range\n",
+                "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count: the range has more counts than 32 bits\nhint: use a coarser count, or a narrower range\n",
                 s->name, (double)s->low, (double)s->high, (double)s->per_count);
         return false;
     }
@@ -222,10 +221,10 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
     }
     if (!ratio_count_each(every_s >= 0.0 ? every_s : EVERY_S, im->step, &r->every) &&
         every_s >= 0.0) {
-        fprintf(stderr,
-                "whirl pil: error: --every %.9g s is not a whole number of steps, one or more\n"
-                "hint: the plant's --step is %.9g s\n",
-                every_s, im->step_s);
+        fprintf(
+            stderr,
+            "whirl pil: error: --every %.9g s is not a multiple of the step\nhint: the plant's --step is %.9g s\n",
+            every_s, im->step_s);
         return false;
     }
     r->file = atomic_file_open(name);

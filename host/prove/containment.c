@@ -297,7 +297,7 @@ static void print_head(FILE *out, const containment_found *h, const containment_
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
             image_sums(im), w->kind->name, im->step_s, im->steps, ratio_times(im->steps, im->step));
     fprintf(out,
-            "  held against a tube round the exact motion: Taylor steps of order %d, %" PRIu64
+            "  compared with a tube around the exact motion: Taylor steps of order %d, %" PRIu64
             " of them to t = %.15g s\n",
             FLOWPIPE_ORDER, h->flowpipe_steps, h->tube_s);
 }
@@ -329,8 +329,8 @@ static const char *behind(const containment_found *h, const containment_state *s
                                        [CONTAINMENT_STOPPED] = "; there it was interrupted"};
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return "";
-    case CONTAINMENT_LEFT: return "; behind it off by more: proved";
-    case CONTAINMENT_UNTOLD: return "; behind it the tube is too wide to tell";
+    case CONTAINMENT_LEFT: return "; after that the error is larger: proved";
+    case CONTAINMENT_UNTOLD: return "; after that the tube is too wide to decide";
     case CONTAINMENT_UNENDED: return ends[h->end];
     }
     return "";
@@ -347,8 +347,8 @@ static void print_state(FILE *out, const containment_found *h, const containment
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
     if (!s->begun) {
         fprintf(out, "%-12s within %s %s: %s\n", "never", within.text, shown,
-                s->verdict == CONTAINMENT_LEFT ? "its start is off by more: proved"
-                                               : "its start is not known so well");
+                s->verdict == CONTAINMENT_LEFT ? "its error is larger at the start: proved"
+                                               : "its start is not known that accurately");
         return;
     }
     const figure off = not_less(image_shown(unit, s->off), 1);

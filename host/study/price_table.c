@@ -595,7 +595,7 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
         fputs("no setting has a row: ", out);
         table_print_left(out, made, words->operations);
     } else if (t->reliable) {
-        fputs("no setting keeps to the motion: none is off by less than the values themselves\n",
+        fputs("no setting follows the motion: every error is larger than the values themselves\n",
               out);
     } else {
         fputs("no front: without a reference no error is known\n", out);

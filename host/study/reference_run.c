@@ -899,20 +899,18 @@ static double time_of(const reference_wish *w, int record) {
 static void say_extrapolated(const reference_wish *w, reference *r, extrapolation_status status,
                              int reached) {
     r->how = alloc_words(
-        "extrapolation of order %d in long double (%d binary digits), tolerance %.2g; "
-        "held against order %d, %.2g",
+        "extrapolation of order %d in long double (%d binary digits), tolerance %.2g; compared with order %d, %.2g",
         2 * fine.columns, LDBL_MANT_DIG, fine.tolerance, 2 * coarse.columns, coarse.tolerance);
     if (r->records < reached) {
         r->why = alloc_words(
-            "the motion carries the two references apart: by %.0e of a component's largest value "
-            "behind %.9g s, from less than 1e-15 at the start",
+            "the two references diverge: by %.0e of a component's largest value after %.9g s, from less than 1e-15 at the start",
             r->limit, time_of(w, r->records));
     } else if (status == EXTRAPOLATION_SMALL) {
-        r->why = alloc_words("behind %.9g s no step is small enough for the reference: a jump, a "
-                             "pole, or what has no value",
-                             time_of(w, r->records));
+        r->why = alloc_words(
+            "after %.9g s no step is small enough for the reference: a jump, a pole or an undefined value",
+            time_of(w, r->records));
     } else if (status == EXTRAPOLATION_LONG) {
-        r->why = alloc_words("the reference took too long behind %.9g s", time_of(w, r->records));
+        r->why = alloc_words("the reference took too long after %.9g s", time_of(w, r->records));
     }
 }
 
@@ -958,17 +956,16 @@ static reference *by_fine_steps(const reference_wish *w) {
         r->column[k].off /= (long double)number_scaled(1.0, w->by.order) - 1.0L;
     }
     free(other.row);
-    r->how =
-        alloc_words("rk4 in double with compensated sums by steps of %.6g s; held against twice "
-                    "that step: a reference that shares the core's step and events",
-                    time_of(w, 1) / (double)steps);
+    r->how = alloc_words(
+        "rk4 in double with compensated sums by steps of %.6g s; compared with twice that step: a reference that shares the core's step and events",
+        time_of(w, 1) / (double)steps);
     if (r->records < reached) {
         r->why = alloc_words(
             "the two references differ by more than %.0e of a component's largest value behind "
             "%.9g s: the motion carries them apart, or events come in another order",
             r->limit, time_of(w, r->records));
     } else if (reached < r->wanted) {
-        r->why = alloc_words("the run fails behind %.9g s", time_of(w, r->records));
+        r->why = alloc_words("the run fails after %.9g s", time_of(w, r->records));
     }
     r->stopped = interrupted != 0;
     return r;
@@ -1013,10 +1010,9 @@ reference *reference_new(const reference_wish *w) {
         r->kind = REFERENCE_NONE;
         if (r->why == NULL) {
             r->still = !moves(r);
-            r->why = alloc_words(!r->still
-                                     ? "the two never agree: what moves is rounding alone, or this "
-                                       "horizon is too long to be looked at"
-                                     : "nothing moves");
+            r->why = alloc_words(
+                !r->still ? "the two never agree: only round-off moves, or the horizon is too long"
+                          : "nothing moves");
         }
     }
     return r;

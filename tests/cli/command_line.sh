@@ -256,10 +256,10 @@ prints 'steps = UINT64_C\(31536000000\),' derive ball_elastic --as c --step 1ms 
 prints 'step = \{UINT64_C\(1\), UINT64_C\(1000000000\)\},' derive ball_elastic --as c --step 1ns --until 1577880000s
 prints 'steps = UINT64_C\(1577880000000000000\),' derive ball_elastic --as c --step 1ns --until 1577880000s
 prints ', 100 steps to t = 0.01 s' run ball_elastic --until 10ms --step 0.1ms --every 0.5ms
-says 2 '--every 1.5ms is not a whole number of steps' run epicyclic_from_rest --every 1.5ms
-says 2 '--every 0 is not a whole number of steps, one or more' run epicyclic_from_rest --every 0
+says 2 '--every 1.5ms is not a multiple of the step' run epicyclic_from_rest --every 1.5ms
+says 2 '--every 0 is not a multiple of the step' run epicyclic_from_rest --every 0
 says 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
-says 2 '--every 0 is not a whole number' run thomson_a --every 0
+says 2 '--every 0 is not a multiple' run thomson_a --every 0
 says 2 '--every -1ms is not a time' run thomson_a --every -1ms
 says 2 '--every often is not a time' run thomson_a --every often
 says 2 '/nonexistent/x.csv: error: cannot be written' run thomson_a --csv /nonexistent/x.csv
@@ -427,12 +427,12 @@ prints '^  "stabilized": true,$' describe docs/hard/long.whirl:gear_turns --json
 prints '^    .stabilized = true,$' derive docs/hard/long.whirl:gear_turns --as c --stabilized
 prints 'Runge-Kutta 4 stabilized, double' trust docs/hard/long.whirl:pendulum_swings --stabilized --until 2s
 says 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized: 'ball' has events" run ball_bounces --stabilized
-says 2 "error: --stabilized gives back .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
-says 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for what nothing drives or damps: this does' run thomson_a --stabilized
+says 2 "error: --stabilized corrects .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
+says 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for motion without drive or damping: this statement drives or damps' run thomson_a --stabilized
 says 2 "error: --stabilized keeps books, and leapfrog none" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
-says 2 "error: --stabilized gives back what the energy drifts by, and with semi-implicit Euler" run docs/hard/long.whirl:pendulum_swings --stabilized --method semi-implicit-euler
+says 2 "error: --stabilized corrects an energy drift, but with semi-implicit Euler" run docs/hard/long.whirl:pendulum_swings --stabilized --method semi-implicit-euler
 prints '^  given back \(--stabilized\) ' run docs/hard/long.whirl:gear_turns --stabilized
-says 2 'error: --stabilized wants the stages of a step' run two_mass_relative --stabilized --matrix exact
+says 2 'error: --stabilized needs the stages of a step' run two_mass_relative --stabilized --matrix exact
 says 2 'error: there is no --stabilized in fixed point' run docs/hard/long.whirl:gear_turns --stabilized --number fixed
 says 2 '^whirl price: error: ' price epicyclic_conserved --stabilized
 

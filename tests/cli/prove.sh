@@ -42,9 +42,9 @@ proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
 "$whirl" trust epicyclic_from_rest --until 0.1s --proved --csv - 2>&1 >"$scratch/out" | cmp - "$scratch/err" && cmp "$scratch/rows" "$scratch/out" && [ -s "$scratch/rows" ]
 verdict $? "whirl trust --proved says the same"
 # a step that is too coarse is off, and that is proved, too
-proved 'behind it off by more: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
+proved 'after that the error is larger: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
 # a start that float cannot have is off from the beginning
-proved '^  theta  *never  *within 1.00e-12 rad: its start is off by more: proved$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
+proved '^  theta  *never  *within 1.00e-12 rad: its error is larger at the start: proved$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
 grep -q '^nothing is proved: theta is not within at the start$' "$scratch/out"
 verdict $? "a start that is off: nothing is proved" "$scratch/out"
 # noise is of what is recorded: the motion is the same
@@ -139,7 +139,7 @@ fi
 
 # --- what ends it ------------------------------------------------------------------------------------------------------------
 ended 0 '^whirl prove: the effort is spent at t = [0-9.]* s of 10 s$' 'there the effort is spent$' thomson_a --step 1ms --effort 7.5e7
-ended 0 '^hint: a larger --effort goes on' '^proved until t = [0-9.]* s of 10 s$' thomson_a --step 1ms --effort 7.5e7
+ended 0 '^hint: use a larger --effort' '^proved until t = [0-9.]* s of 10 s$' thomson_a --step 1ms --effort 7.5e7
 cat >"$scratch/pole.whirl" <<'END'
 mechanism pole "x'' = 2 x^3 is infinite at 1 s"
 coordinate x [m]
@@ -148,7 +148,7 @@ V = -0.5 [N/m^3]*x^4
 scene blows { start x = 1 [m], x' = 1 [m/s]; step 1 [ms]; until 2 [s] }
 END
 ended 1 'error: the run diverged in the step after t = 1 s' '^proved until t = 0.99' "$scratch/pole.whirl"
-ended 1 'the tube ends at t = 0.99.* s: behind it the exact motion is not enclosed' 'there the tube ends$' "$scratch/pole.whirl" --within x=1e9m --within "x'=1e9m/s"
+ended 1 'the tube ends at t = 0.99.* s: after that the exact motion is not enclosed' 'there the tube ends$' "$scratch/pole.whirl" --within x=1e9m --within "x'=1e9m/s"
 # where the first step already leads nowhere
 cat >"$scratch/root.whirl" <<'END'
 mechanism root "a force that has no slope at the start"

@@ -82,8 +82,9 @@ static const char *read_not_less(const char *at, const image_unit *unit, double 
 static const char *said_behind(const char *at, const containment_state *s) {
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return said_exactly(at, "\n");
-    case CONTAINMENT_LEFT: return said_exactly(at, "; behind it off by more: proved\n");
-    case CONTAINMENT_UNTOLD: return said_exactly(at, "; behind it the tube is too wide to tell\n");
+    case CONTAINMENT_LEFT: return said_exactly(at, "; after that the error is larger: proved\n");
+    case CONTAINMENT_UNTOLD:
+        return said_exactly(at, "; after that the tube is too wide to decide\n");
     case CONTAINMENT_UNENDED: break;
     }
     switch (found.end) {
@@ -121,8 +122,8 @@ static const char *said_state(const char *at, int i, const char *name) {
     at = said_exactly(at, ": ");
     if (!s->begun) {
         return said_exactly(at, s->verdict == CONTAINMENT_LEFT
-                                    ? "its start is off by more: proved\n"
-                                    : "its start is not known so well\n");
+                                    ? "its error is larger at the start: proved\n"
+                                    : "its start is not known that accurately\n");
     }
     at = said_exactly(at, "off by at most ");
     at = read_not_less(at, unit, s->off, 1);
@@ -197,7 +198,7 @@ TEST(held_text, words) {
         at = said_exactly(at, " steps to t = ");
         at = read_time(at, end_s);
         at = said_exactly(
-            at, " s\n  held against a tube round the exact motion: Taylor steps of order 26, ");
+            at, " s\n  compared with a tube around the exact motion: Taylor steps of order 26, ");
         at = read_time(at, (double)found.flowpipe_steps);
         at = said_exactly(at, " of them to t = ");
         at = read_time(at, found.tube_s);

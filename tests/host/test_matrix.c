@@ -725,5 +725,5 @@ TEST(matrix_runs, what_has_no_matrix_is_refused) {
     expect_refused(mass, (const char *const[]){"--method", "heun", NULL},
                    "--matrix exact and --method heun");
     expect_refused(mass, (const char *const[]){"--with", "ledger", NULL},
-                   "error: the ledger of 's' wants the stages of a step");
+                   "error: the ledger of 's' needs the stages of a step");
 }

@@ -326,10 +326,10 @@ static const kind_row kind_rows[] = {
      1e8, REFERENCE_EXTRAPOLATED, 20, 20, "extrapolation of order 12", NULL},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(
          "start x = 0.02 [m];"),
-     1e8, REFERENCE_EXTRAPOLATED, 20, 20, "held against order 10", NULL},
+     1e8, REFERENCE_EXTRAPOLATED, 20, 20, "compared with order 10", NULL},
     /* a pole at 0.52 s */
     {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8,
-     REFERENCE_EXTRAPOLATED, 10, 10, NULL, "behind 0.5 s no step is small enough"},
+     REFERENCE_EXTRAPOLATED, 10, 10, NULL, "after 0.5 s no step is small enough"},
     /* all is zero; at rest at another place */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8,
      REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
@@ -345,7 +345,7 @@ static const kind_row kind_rows[] = {
     /* too dear, and few steps give nothing */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 4000 [N/m]*x^2/2\n" SCENE(
          "start x = 0.02 [m];"),
-     6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long behind "}};
+     6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long after "}};
 
 TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
     for (size_t n = 0; n < sizeof kind_rows / sizeof kind_rows[0]; n++) {

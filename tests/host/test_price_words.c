@@ -301,10 +301,10 @@ TEST(price_words, tables_of_nothing_say_why) {
     free(text);
     made.unpriced = 0;
     text = table_of_nothing(&p.trial, &made);
-    (void)behind(text, "\nno setting keeps to the motion:");
+    (void)behind(text, "\nno setting follows the motion:");
     free(text);
     text = table_of_nothing(&p.trial, NULL);
-    (void)behind(text, "\nno setting keeps to the motion:");
+    (void)behind(text, "\nno setting follows the motion:");
     free(text);
     p.trial.records = 10; /* ends before the requested time */
     text = table_of_nothing(&p.trial, NULL);

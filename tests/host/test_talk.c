@@ -275,7 +275,7 @@ TEST(talk, no_reset) {
     TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
     TEST_ASSERT_FALSE(talk_restart(&t, 5, &(wh_reset){.cause = WH_RESET_WATCHDOG}));
     const char *told = errors_caught();
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "nothing that resets it"), told);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a reset, which cannot be done"), told);
     TEST_ASSERT_EQUAL_INT(LOCKSTEP_FAILED, talk_report.end);
     talk_close_line(&heard);
 }

@@ -46,10 +46,10 @@ static bool look_at_image(const char *name, bool *arm) {
     const size_t count = fread(head, 1, sizeof head, file);
     fclose(file);
     if (!is_elf(head, count, arm)) {
-        fprintf(stderr,
-                "%s: error: no firmware image: it is not in ELF\nhint: an image for Arm that QEMU "
-                "runs, or a program of this machine (docs/pil.md)\n",
-                name);
+        fprintf(
+            stderr,
+            "%s: error: not a firmware image: it is not in ELF\nhint: give an image for Arm that QEMU runs, or a program of this machine (docs/pil.md)\n",
+            name);
         return false;
     }
     return true;
@@ -142,7 +142,7 @@ bool guest_start(guest *g, const guest_wish *wish) {
     int down[2];
     int up[2];
     if (!make_line(down, up)) {
-        fprintf(stderr, "whirl pil: error: no pipe: %s\n", strerror(errno));
+        fprintf(stderr, "whirl pil: error: no pipe can be made: %s\n", strerror(errno));
         return false;
     }
     signal(SIGPIPE, SIG_IGN); /* a write error reports a dead guest */
@@ -158,7 +158,7 @@ bool guest_start(guest *g, const guest_wish *wish) {
     g->up = up[0];
     if (g->pid < 0) {
         g->pid = 0;
-        fprintf(stderr, "whirl pil: error: no process: %s\n", strerror(errno));
+        fprintf(stderr, "whirl pil: error: the process cannot be started: %s\n", strerror(errno));
         return false;
     }
     return true;
