@@ -30,8 +30,10 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_FEW_TURNS, WH_REFUSED, "less than three turns could be used") \
     X(WH_WHY_POLARITY, WH_REFUSED, \
       "the force is opposite to the masses: check the cell's polarity and the sensors") \
-    X(WH_WHY_AMPLITUDE, WH_REFUSED, "the force differs from the value expected from masses, speed and mount") \
-    X(WH_WHY_PHASE, WH_REFUSED, "the force is not in line with the masses: check the sensors and delays") \
+    X(WH_WHY_AMPLITUDE, WH_REFUSED, \
+      "the force differs from the value expected from masses, speed and mount") \
+    X(WH_WHY_PHASE, WH_REFUSED, \
+      "the force is not in line with the masses: check the sensors and delays") \
     X(WH_WHY_UNSURE, WH_REFUSED, "the interval is wider than a quarter of the force") \
     X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, \
       "the force differs a little from the value expected from masses, speed and mount") \
@@ -41,7 +43,8 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
     X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise or other orders than the first are large") \
     X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's marks do not fit the rotor") \
-    X(WH_WHY_FED, WH_DOUBTFUL, "gravity compensation leaves a seventh of gravity's torque or more") \
+    X(WH_WHY_FED, WH_DOUBTFUL, \
+      "gravity compensation leaves a seventh of gravity's torque or more") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
     X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
     X(WH_WHY_SWING, WH_DOUBTFUL, "the load shows another speed within the turn than the rotor's") \

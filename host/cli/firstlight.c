@@ -257,7 +257,8 @@ static int listen(port *line, const firstlight_options *o, const char *from_name
     size_t count = 0;
     const double began_s = system_now_s();
     double asked_s = began_s - ASK_S;
-    const char *hint = "check that it is the board's console, that --baud is its speed, and that firstlight runs there";
+    const char *hint =
+        "check that it is the board's console, that --baud is its speed, and that firstlight runs there";
     const char *why = "no record came; --wait S waits longer";
     int code = EXIT_RUN_FAILED;
     bool ended = false;

@@ -352,7 +352,8 @@ static void check_contact(parser *in, const mechanism *made, const contact_state
         each->kind == CONTACT_HOLD ? find_input(made, each->value, false, mark - 1) : NULL;
     if (input != NULL) {
         diag_error(in->diags, each->value->at, input_rate_hint(input, hint),
-                   "the expression of the hold contains the input '%s', whose rate is not known", input->name);
+                   "the expression of the hold contains the input '%s', whose rate is not known",
+                   input->name);
     }
 }
 

@@ -185,9 +185,10 @@ static void say_no_hello(talk *t) {
                                 : "hint: check that it is an executable program of this machine\n",
               stderr);
     } else {
-        fprintf(stderr,
-                "%s: error: it ended without a hello\nhint: use an image made for `whirl pil`, such as build/pil_rig or build/BOARD/pil_rig.elf\n",
-                t->guest.wish.image);
+        fprintf(
+            stderr,
+            "%s: error: it ended without a hello\nhint: use an image made for `whirl pil`, such as build/pil_rig or build/BOARD/pil_rig.elf\n",
+            t->guest.wish.image);
     }
 }
 
@@ -235,9 +236,10 @@ static bool ask_for_hello(talk *t) {
     }
     t->report->end = heard == GUEST_STOPPED ? LOCKSTEP_STOPPED : LOCKSTEP_BAD;
     if (heard != GUEST_STOPPED) {
-        fprintf(stderr,
-                "whirl pil: error: no hello has come over the line in %g s\nhint: reset the board, and check that it runs pil_line.elf and that --baud is its speed\n",
-                patience_s);
+        fprintf(
+            stderr,
+            "whirl pil: error: no hello has come over the line in %g s\nhint: reset the board, and check that it runs pil_line.elf and that --baud is its speed\n",
+            patience_s);
     }
     return false;
 }

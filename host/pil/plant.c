@@ -126,9 +126,10 @@ static bool has_good_range(const bound *b) {
         return false;
     }
     if (s->kind == WH_SIGNAL_SAMPLE && !fits_counts(s)) {
-        fprintf(stderr,
-                "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count: the range has more counts than 32 bits\nhint: use a coarser count, or a narrower range\n",
-                s->name, (double)s->low, (double)s->high, (double)s->per_count);
+        fprintf(
+            stderr,
+            "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count: the range has more counts than 32 bits\nhint: use a coarser count, or a narrower range\n",
+            s->name, (double)s->low, (double)s->high, (double)s->per_count);
         return false;
     }
     return true;
