@@ -249,7 +249,8 @@ TEST(talk, interrupted) {
 TEST(talk, programs) {
     static const char *const programs[] = {"/nowhere/at all", "/bin/true"};
     static const char *const words[] = {
-        "/nowhere/at all: error: ", "/bin/true: error: it ended without a hello\nhint: is it made"};
+        "/nowhere/at all: error: ",
+        "/bin/true: error: it ended without a hello\nhint: use an image made"};
     for (int i = 0; i < 2; i++) {
         static talk t;
         talk_wish =
