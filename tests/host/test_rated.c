@@ -78,9 +78,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
     double largest[RATED_STATES] = {0};
     static char line[1000];
     bool whole = what.status == said_owes(what.err);
-    for (int heads = 0; heads < 2 && whole; heads++) { /* the columns' names, the program's */
-        whole = fgets(line, sizeof line, in) != NULL;
-    }
+    whole = whole && fgets(line, sizeof line, in) != NULL; /* the names of the columns */
     for (int k = 0; k <= records && whole; k++) {
         whole = fgets(line, sizeof line, in) != NULL;
         const char *at = line + (whole ? strcspn(line, " ") : 0); /* after the time */
