@@ -384,8 +384,8 @@ static void print_verdict(FILE *out, const horizon *h) {
         fprintf(
             out,
             t->missed
-                ? "behind t = %.9g s a step passed through a contact or over an edge or a force: whirl run names it\n"
-                : "behind t = %.9g s a step jumped over a pole of an expression: no motion passes it\n",
+                ? "after t = %.9g s a step passed through a contact or over an edge or a force: whirl run names it\n"
+                : "after t = %.9g s a step jumped over a pole of an expression: no motion passes it\n",
             t->jumped_s);
     }
     if (t->unaliased) {

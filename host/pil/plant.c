@@ -162,7 +162,7 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
 static const char *against(const binding *b, const char *renames, const char *at, size_t length) {
     const size_t name = strcspn(at, "=");
     if (name == 0 || name >= length || name + 1U == length) {
-        return "it is no NAME=OTHER";
+        return "it must be NAME=OTHER";
     }
     for (const char *before = renames; before < at; before += strcspn(before, ",") + 1U) {
         if (strncmp(before, at, name + 1U) == 0) {

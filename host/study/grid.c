@@ -188,8 +188,7 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
     const char *problem = NULL;
     if (made->count == 0) {
         problem =
-            "the COUNT behind the last ':' must be a whole number from 1 to 999999999999, ',log' "
-            "may follow";
+            "the COUNT after the last ':' must be a whole number from 1 to 999999999999, ',log' may follow";
     } else if (made->count == 1 && made->from != made->to) {
         problem = "a single point needs FROM = TO";
     } else if (made->is_log && !(made->from * made->to > 0.0)) {

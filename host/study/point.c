@@ -451,7 +451,7 @@ static bool run_through(meter *m, diags *errors, FILE *reason) {
     uint64_t from = 0;
     const bool counted = ratio_count_from(m->wanted->from_s, im->step, &from);
     if (m->series && (!counted || from > steps)) {
-        fprintf(reason, "--from %.9g s lies behind the last step", m->wanted->from_s);
+        fprintf(reason, "--from %.9g s is after the last step", m->wanted->from_s);
         return false;
     }
     if (keeps_samples(m->wanted) && steps >= from && steps - from >= PERIOD_SAMPLES_MAX) {

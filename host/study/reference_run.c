@@ -961,8 +961,7 @@ static reference *by_fine_steps(const reference_wish *w) {
         time_of(w, 1) / (double)steps);
     if (r->records < reached) {
         r->why = alloc_words(
-            "the two references differ by more than %.0e of a component's largest value behind "
-            "%.9g s: the motion carries them apart, or events come in another order",
+            "the two references differ by more than %.0e of a component's largest value after %.9g s: the motion diverges, or events come in another order",
             r->limit, time_of(w, r->records));
     } else if (reached < r->wanted) {
         r->why = alloc_words("the run fails after %.9g s", time_of(w, r->records));

@@ -233,7 +233,7 @@ static void test_shards(void) {
 static const char no_range[] = " is not NAME=FROM..TO:COUNT\n";
 static const char three_dots[] = " has three dots in a row\n";
 static const char count_wrong[] =
-    ": the COUNT behind the last ':' must be a whole number from 1 to 999999999999, ',log' may follow\n";
+    ": the COUNT after the last ':' must be a whole number from 1 to 999999999999, ',log' may follow\n";
 static const char single[] = ": a single point needs FROM = TO\n";
 static const char no_log[] = ": a logarithmic range takes two ends above zero, or two below\n";
 static const char no_numbers[] = ": FROM and TO must be numbers\n";

@@ -243,7 +243,7 @@ TEST(stepping, failed) {
     measuring w = {.kind = &engine_double, .list = &list, .count = 1};
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
-                  "--from 1.5 s lies behind the last step", "");
+                  "--from 1.5 s is after the last step", "");
     list.kind = MEASURE_FINAL; /* needs no series: any time will do */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
     measured_point p = measure_stepping(&w, good.image);
