@@ -286,8 +286,8 @@ static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) 
     loaded base;
     int code = load_base(o, from, s, &base);
     if (code == EXIT_DONE && s->from_s > base.instance->until_s) {
-        fprintf(stderr, "whirl sweep: error: --from %.9g s is after the end, %.9g s\n",
-                s->from_s, base.instance->until_s);
+        fprintf(stderr, "whirl sweep: error: --from %.9g s is after the end, %.9g s\n", s->from_s,
+                base.instance->until_s);
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE && !sweep_ends_are_alike(s, base.instance->until_s)) {
