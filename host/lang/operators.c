@@ -121,7 +121,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
     char text[NAME_LENGTH_MAX + 8];
-    char hint[2 * NAME_LENGTH_MAX + 80];
+    char hint[3 * NAME_LENGTH_MAX + 120];
     double number = 0.0;
     if (angle == NULL || !expr_constant(is, &number) || number == 0.0 || has_pi(is)) {
         return;
@@ -131,7 +131,9 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     } else {
         snprintf(text, sizeof text, "%.15g", number);
     }
-    snprintf(hint, sizeof hint, "write %s [%s], or in SI: %s [rad]", text, angle->unit, text);
+    snprintf(hint, sizeof hint,
+             "write %s [%s], or in SI: %s [rad]; formulas have '%s' in rad: no factor 57.3", text,
+             angle->unit, text, angle->name);
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
