@@ -1,5 +1,6 @@
 /* test_stepping.c: measures of one run of a sweep (host/study/point.h), compared with the test's own samples and
  * closed forms. Covers the choice of samples, early stops, and runs without measures. Also settings of a sweep. */
+#include "core/version.h"
 #include "host/base/alloc.h"
 #include "host/check/run_checks.h"
 #include "host/check/slow.h"
@@ -509,7 +510,8 @@ static void test_settings(void) {
         char *text = NULL;
         size_t length = 0;
         FILE *out = alloc_text(&text, &length);
-        fprintf(out, "whirl sweep: settings of the CSV beside this file, format 3\nscene: s\n");
+        fprintf(out, "whirl " WH_VERSION
+                     " sweep: settings of the CSV beside this file, format 3\nscene: s\n");
         /* FNV-1a over eight bytes a letter, the first of which is the letter */
         uint64_t hash = 14695981039346656037ULL;
         for (const char *at = c % 3U == 0 ? "text" : "other"; *at != '\0'; at++) {
