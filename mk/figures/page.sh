@@ -4,14 +4,12 @@ set -eu
 cat <<'END'
 # Figures
 
-The dissertation's simulated figures, drawn from Whirl's runs, and two measured ones, from the rig's
-firmware in the loop ([pil.md](pil.md)). [findings.md](findings.md) has the conclusions,
-[models.md](models.md) the mechanisms. The command below each figure prints its numbers.
+Whirl draws the dissertation's simulated figures from its own runs, and two measured figures from the
+rig's firmware in the loop ([pil.md](pil.md)). [findings.md](findings.md) has the conclusions,
+[models.md](models.md) the mechanisms. The command below each figure prints its numbers. The
+dissertation's other figures are drawings and photographs.
 
 `make figures` draws them in `build/figures/`. `make figures-docs` renews this page and its pictures.
-
-The other figures are drawings and photographs. [rig.md](rig.md#on-a-carriage) has the motion of
-figure 25's carriage.
 END
 for fig in "$@"; do
     name=$(basename "$fig" .fig)
