@@ -33,5 +33,6 @@ function ours(    said, line, word, count, rest, text, taken, right, number, x) 
     verdict = $6
     text = verdict == "" ? ours() : "-"
     if ($7 != "") text = text == "-" ? $7 : text " (" $7 ")"
-    printf "| %s | %s | %s | %s | %s | %s | %s |\n", $1, $2, $3, text, $4, verdict, $8 == "" ? "" : "`" $8 "`"
+    printf "| %s | %s | %s | %s | %s | %s | %s |\n", $1, $2, $3, text, $4, verdict, $8 == "" ? "" : $8 == before ? "as above" : "`" $8 "`"
+    before = $8
 }
