@@ -567,6 +567,23 @@ static bool starts_beyond(const image *im) {
     return found;
 }
 
+/* The first contact that pushes more than one coordinate; -1: there is no such contact. */
+static int pushing(const image *im) {
+    const int n = im->coordinates;
+    for (int k = 0; k < im->forced; k++) {
+        const op_list *t = im->list[IMAGE_FORCES];
+        int entries = 0;
+        for (int i = 0; i < n; i++) {
+            const op *o = &t->ops[t->result[k * (WH_LAW_ROWS + 2 * n) + WH_LAW_ROWS + i]];
+            entries += o->code != OP_CONSTANT || o->value != 0.0;
+        }
+        if (entries > 1) {
+            return k;
+        }
+    }
+    return -1;
+}
+
 void failure_say(FILE *out, wh_status status, const run_checks *v) {
     const engine_kind *kind = v->kind;
     const void *run = v->run;
@@ -597,6 +614,15 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
             "hint: choose an origin or units nearer to the motion: it starts beyond the limit of %g in SI units\n",
             (double)WH_ABSURD);
         return;
+    }
+    const int k = pushing(im);
+    if (k >= 0) {
+        char statement[STATEMENT_SIZE];
+        statement_text(im->contact[k].at, statement, sizeof statement);
+        fprintf(
+            out,
+            "hint: '%s' acts on every coordinate in it: give a clock in it far more inertia, or make it an input with a rate\n",
+            statement);
     }
     fputs(
         "hint: try a smaller --step; if the run fails at the same time, look for a singular position there\n",

@@ -41,14 +41,13 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
         }
         told++;
         char twice[60];
-        snprintf(twice, sizeof twice, "--cells %d, or no --tables would tell", 2 * cells);
+        snprintf(twice, sizeof twice, "try --cells %d, or no --tables:", 2 * cells);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, what.err);
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
         run(text, form, IMAGE_CELLS_MOST, "30ms",
             &what); /* another cause; more cells do not help */
-        TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "(not tried): no --tables would tell") != NULL,
-                                 what.err);
+        TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "hint: try no --tables:") != NULL, what.err);
         run(text, form, cells * 128, "1ms", &what);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
     }
