@@ -32,7 +32,7 @@ grep -aq 'verdict  *doubtful' "$scratch/run"
 verdict $? "and what it measures is doubtful" "$scratch/run"
 # both turned: the second sensor's marks fit the rotor, and nothing but the swing tells
 swing --place 1.5,1.5
-grep -aq 'verdict  *doubtful: sensor 1 does not stand where the arms hang' "$scratch/run"
+grep -aq 'verdict  *doubtful: sensor 1 is not where the arms hang' "$scratch/run"
 verdict $? "with both sensors turned nothing else tells, and the verdict says so" "$scratch/run"
 swing --place 2,0 --set bearing_friction=0.1
 [ "$why" = 'too few swings: friction stops the rotor' ]
