@@ -1,5 +1,5 @@
-/* apart.h: holds that do not fit the start of a run. An expression that is slightly off zero stays so for ever. A moving one is
- * stopped by an impulse, which takes energy. The warning has the number, and start values that fit. */
+/* apart.h: holds that do not fit the start of a run. If a held expression is slightly off zero, it stays so. If it moves, an
+ * impulse stops it and takes energy. The warning has the error, and start values that fit. */
 #ifndef CHECK_APART_H
 #define CHECK_APART_H
 
@@ -7,11 +7,11 @@
 
 #include "host/image/image.h"
 
-/* Off zero, or moving, by more than this share of its terms is more than rounding. */
+/* An error or rate above this share of the hold's terms is more than round-off. */
 #define APART_LEAST 1e-6
 
-/* The largest error or rate of a hold, as a part of its terms; 0: all fit. Warns on `out`, if not NULL; `who`:
- * "whirl run". */
+/* The largest error or rate of a hold, as a part of its terms; 0: all holds fit the start. Warns on `out`, if not NULL, as
+ * `who`, such as "whirl run". */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

@@ -16,7 +16,7 @@
  * An exact solution has a zero residual. */
 typedef struct book_account {
     double level[2]; /* at the start, now */
-    double left;     /* residual, with the entries so far */
+    double left;     /* residual after the entries so far */
     double largest;  /* size of the largest entry */
 } book_account;
 
@@ -26,9 +26,9 @@ void account_enter(book_account *a, double given);
 /* Mean and spread of a series, by Welford's recurrence, from its first value on. */
 typedef struct spread {
     double first;
-    double mean;    /* less `first` */
+    double mean;    /* mean of the values minus `first` */
     double squares; /* sum of (value - mean)^2 */
-    bool pushed;    /* of a rate: its acceleration was not zero throughout */
+    bool pushed;    /* for a rate: its acceleration was not zero all the time */
 } spread;
 
 typedef struct books {
@@ -38,8 +38,8 @@ typedef struct books {
     double *value;        /* results of the image's books list */
     double *momentum;     /* [count] at the start */
     double *momentum_now; /* [count] */
-    double *drift;        /* [count] largest change since */
-    double *terms;        /* [count] sum of |terms|, the largest sampled */
+    double *drift;        /* [count] largest change of a momentum since the start */
+    double *terms;        /* [count] largest sampled sum of the sizes of a momentum's terms */
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
@@ -51,27 +51,27 @@ typedef struct books {
     double power_W[2][2]; /* input and loss power at the last two even steps' ends */
     spread kinetic;       /* over the steps */
     spread stored;
-    spread *rate;      /* [count] */
-    spread *push;      /* [count] momenta without the part even in the rates: */
-    bool *frame;       /* [count] part of a conserved momentum: a common speed only adds its mean */
-    double *lean;      /* [count] the even part, and */
-    bool leans;        /* is any of it nonzero, as in a magnetic field? It depends on the origin */
-    double *off;       /* how far off each of value[] may be, in units of rounding */
-    double size_J;     /* largest |T| + |V| */
-    double rounding_J; /* energy change by the round-off of one step, the largest sampled */
-    double computing_J; /* round-off of the energy's own evaluation, the largest sampled */
-    double lost_J;      /* underflow of a step's entries in float, the largest sampled */
-    double rule_J;      /* error bound of the integration rule, in all */
-    double kept_J;      /* error at the last even step */
-    double most_J;      /* the largest size that it had at an even step */
-    double jump_J;      /* its largest change between two even steps, */
-    double jump_s;      /* which ended here */
-    bool negative;      /* the kinetic energy was: no masses are so, */
-    double negative_s;  /* there first */
+    spread *rate;  /* [count] */
+    spread *push;  /* [count] momenta without lean[] */
+    bool *frame;   /* [count] part of a conserved momentum: a common speed only adds its mean */
+    double *lean;  /* [count] part of a momentum even in the rates, which depends on the origin */
+    bool leans;    /* is any lean[] nonzero, as in a magnetic field? */
+    double *off;   /* bounds on the round-off of value[], in units of the unit round-off */
+    double size_J; /* largest |T| + |V| */
+    double rounding_J;  /* largest sampled energy change by the round-off of one step */
+    double computing_J; /* largest sampled round-off of the evaluation of the energy */
+    double lost_J;      /* largest sampled underflow of a step's entries in float */
+    double rule_J;      /* error bound of the integration rule, over the whole run */
+    double kept_J;      /* residual at the last even step */
+    double most_J;      /* largest size of the residual at an even step */
+    double jump_J;      /* largest change of the residual between two even steps */
+    double jump_s;      /* the end of that change */
+    bool negative;      /* the kinetic energy was negative, which no masses allow */
+    double negative_s;  /* the first time */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
-    double undefined_s; /* there first */
+    double undefined_s; /* the first time */
     uint64_t entries;
-    double time_s; /* of the last */
+    double time_s; /* of the last entry */
     double step_s;
 } books;
 
@@ -81,9 +81,9 @@ void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
-/* Root mean square of a momentum, without its mean if a common speed may have added that. */
+/* Root mean square of a momentum, without the mean if a common speed may have added it. */
 double books_momentum(const books *b, int unknown);
-/* How far energy went to and fro: see energy_residual.h. */
+/* The largest swing of an energy (energy_residual.h). */
 double books_swing_J(const books *b);
 /* Energy change by the round-off of one step in numbers of this kind: of the state, of the accelerations and of the
  * integrated powers. *computing_J: the round-off of one evaluation of the energy in double. */

@@ -21,7 +21,7 @@
  *
  * With --matrix exact a step of any length is the motion itself, but the integration of the powers is not. The difference of
  * two rules of integration then counts as round-off does. Energy given back by --stabilized counts as residual, because steps
- * had lost it; so does any excess of it, if larger. A zero residual has the ratio 0. */
+ * had lost it. If they gave back more than was lost, the excess counts. A zero residual has the ratio 0. */
 #ifndef CHECK_ENERGY_RESIDUAL_H
 #define CHECK_ENERGY_RESIDUAL_H
 
@@ -42,19 +42,19 @@ typedef struct energy_residual {
     double contacts_J;
     double left_J;    /* residual, signed: energy.left */
     double largest_J; /* the largest entry, or its least value by round-off */
-    bool rounded;     /* it is rounding that sets it */
+    bool rounded;     /* largest_J is that least value */
     double
-        rounding_J; /* round-off: of a step, times the root of the steps, plus that of the energy's evaluation */
-    double ratio;    /* |left| / largest, >= 0; infinite for a residual without entries */
+        rounding_J; /* round-off of a step times the root of the number of steps, plus that of the energy's evaluation */
+    double ratio;   /* |left| / largest, >= 0; infinite for a residual without entries */
     bool stabilized; /* steps gave back (--stabilized) */
-    double lost_J;   /* the size of the residual without them */
+    double lost_J;   /* size of the residual without the energy that they gave back */
     bool saturated;  /* values were clamped to their range */
     bool exact;      /* the steps are exact (--matrix exact) */
-    double jump_s;   /* the time of a sudden loss of balance; below 0: not sudden */
+    double jump_s;   /* time of a sudden change of the residual; below 0: it changed gradually */
 } energy_residual;
 
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run);
-/* Is it beyond the limit? An unknown residual is not. */
+/* Is the ratio above the limit? An unknown residual is not. */
 bool energy_residual_lost(const energy_residual *b, double limit);
 /* The line of the summary; empty if unknown. */
 void energy_residual_print(FILE *out, const energy_residual *b);
@@ -91,7 +91,7 @@ void kept_account_free(kept_account *k);
 
 /* === the books in words ========================================================================== */
 
-/* The energy's account in a few entries, those that are judged (energy_residual.h), and the conserved momenta. */
+/* Prints the entries of the energy balance by source, and the conserved momenta. */
 void books_print(FILE *out, const books *b, const energy_residual *balance);
 
 /* The energy's and the momenta's accounts by statement, from the run's own ledger (`with ledger`). `b` provides

@@ -19,11 +19,11 @@ typedef enum finding_id {
 } finding_id;
 
 #define FINDING_BIT(id) (1U << (id))
-/* Of the start, which no step and no number cures. */
+/* Findings about the scene's start. No other step or number type removes them. */
 #define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
-/* A warning: the run is not believed, and `whirl run` and `whirl sweep` end with exit status 1. A note keeps 0. A small value
- * may make a note of a warning (run_checks.c). */
+/* After a warning the run cannot be trusted: `whirl run` and `whirl sweep` end with exit status 1. A note keeps status 0. In
+ * run_checks.c a small value turns a warning into a note. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
 /* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS depends on the findings. A positive value is a
@@ -44,19 +44,20 @@ typedef struct finding_row {
 extern const finding_row finding_rows[FINDINGS];
 
 /* Other thresholds of findings, besides their rows' limits. */
-/* accuracy: parts of a range. The first is reported. If it needs less than GROWS times as long as the second took, and that
- * took longer than BEGIN of the run, the motion is chaotic, and no step helps. */
+/* accuracy: errors as parts of a range. A run that reaches the first too early is reported. It is not reported if the error
+ * reached the second after BEGIN of the run, and the first in less than GROWS times that long. Such an error grows as in a
+ * chaotic motion, and no step helps. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* accuracy: an error of a position that grows by this factor to HORIZON_TOLERANCE in so many steps, after twice as many,
- * is reported at any time */
+/* accuracy: a position's error that grows by this factor to HORIZON_TOLERANCE within SUDDEN_STEPS steps is reported at any
+ * time, except in the first 2 SUDDEN_STEPS steps */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* energy: part of the largest entry that was missing on the way and came back; no plot shows it */
+/* energy: limit of the residual at any time before the end, as a part of the largest entry. A plot does not show this much. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* events: the last bounces before a rest are not reported: parts of the largest entry, and of the steps */
+/* events: the last bounces before a rest are not reported, up to these parts of the largest entry and of the steps */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

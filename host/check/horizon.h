@@ -13,8 +13,8 @@
 typedef enum horizon_verdict {
     HORIZON_TO_THE_END,
     HORIZON_UNTIL,    /* until_s */
-    HORIZON_STILL,    /* it does not move: right to the end */
-    HORIZON_ROUNDING, /* only round-off moves it: as good as still */
+    HORIZON_STILL,    /* it does not move, so it is accurate to the end */
+    HORIZON_ROUNDING, /* only round-off moves it, so it counts as still */
     HORIZON_NOT_TOLD, /* both runs have too few digits for it, so their agreement proves nothing */
 } horizon_verdict;
 
@@ -22,10 +22,10 @@ typedef struct horizon_column {
     horizon_verdict verdict;
     /* In the column's unit: the greatest less the least value. For a rate, or a zero range, at least a thousandth of its size. */
     double range;
-    double rounding; /* bound of the round-off in the finer run */
+    double rounding; /* bound on the round-off in the finer run */
     double
-        off; /* the largest difference of the two, in the same unit; with the finer run's own error */
-    double until_s; /* the last accurate look; the run's end if it is accurate to the end */
+        off; /* largest difference of the two runs, in the same unit, including the finer run's own error */
+    double until_s; /* last comparison within the tolerance; the run's end if all are */
 } horizon_column;
 
 typedef struct horizon {
@@ -33,8 +33,8 @@ typedef struct horizon {
     double tolerance;
     horizon_column *column; /* [of->columns]; 0, the time, is not used */
     bool to_the_end;        /* all columns */
-    int first;              /* the column that ends first; -1: all last */
-    double until_s;         /* when; or the end */
+    int first;              /* the column whose accuracy ends first; -1: none before the end */
+    double until_s;         /* that column's until_s, or the end */
 } horizon;
 
 horizon horizon_of(const step_doubling *t, double tolerance);
@@ -51,8 +51,6 @@ void horizon_free(horizon *h);
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */
-/* Until when a run can be trusted, in words and as comma-separated values. */
-
 /* Prints each coordinate and rate, the run, and the quantities that stay correct afterwards. */
 void horizon_print(FILE *out, const horizon *h);
 /* One line, for a summary. `doubted`: a finding against the run may affect the finer run, too. */

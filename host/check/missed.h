@@ -1,6 +1,6 @@
-/* missed.h: contacts and forces that are thinner than the way of a step. Examples are a latch between two places, a
+/* missed.h: contacts and forces that are thinner than the path of one step. Examples are a latch between two places, a
  * crossing that is crossed back, a stop, a steep hill of potential energy, or a friction's narrow limit. Both ends of the
- * step are outside, so the core sees nothing of it. A step of half the length sees it no better.
+ * step are outside, so the core does not notice them. A step of half the length does not either.
  *
  * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of them.
  * Each gap and condition is bounded on it by Taylor forms. The way is halved until a place inside is found or
@@ -11,8 +11,8 @@
  * bounded, too. A step has passed over them if a sliding friction's limits are far larger than at both ends, or a sticking
  * friction's are too small to keep it.
  *
- * A stop's gap with abs, max, min or sign may have edges. The core keeps a contact on its face, and does not release it at an edge.
- * A step is reported if the slope of such a gap jumps while the stop rests. */
+ * A stop's gap with abs, max, min or sign may have edges. The core keeps a resting body on the face that it rests on, and does not
+ * release it at an edge. A step is reported if the slope of such a gap jumps while the body rests. */
 #ifndef CHECK_MISSED_H
 #define CHECK_MISSED_H
 
@@ -23,8 +23,8 @@ typedef struct missed missed;
 /* NULL without any contact or exponential force. */
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
-/* `what`: the contact that a step passed through, or the number of contacts plus the coordinate with the force, or -1. Not
- * sure: undecided. */
+/* `what`: the index of the contact that a step passed through, or the number of contacts plus the index of the coordinate with the
+ * force, or -1. `sure`: false if undecided. */
 typedef struct missed_found {
     int what;
     bool sure;

@@ -24,12 +24,12 @@ void blamed_close(blamed *b);
 void blamed_place(blamed *b, const double *angle_rad, const double *real);
 /* The value of a node, from the values of its operands. */
 double blamed_node(const blamed *b, const diagnostics_node *n);
-/* Its operands, and how many it has. */
+/* The operands of a node; returns how many it has. */
 int blamed_operands(const diagnostics_node *n, int of[static 2]);
-/* [node + 1]: the operands of this node, recursively, with itself; the caller frees it. */
+/* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Radians beyond which neither build knows the sine of a real (core/angle.h); float keeps turn angles beyond. */
+/* Largest angles, rad, with a sine in double and in float (core/angle.h). Float's turn angles have no such limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
@@ -43,20 +43,20 @@ typedef struct nonfinite_at {
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
-/* Each reports the first one that it finds, with its place and its statement's text; false: not found. */
+/* Each function reports the first undefined expression that it finds, with its place and statement; false: none found. */
 
-/* A kinetic or stored energy, a loss, a force or an equation, or its slope. */
+/* Searches the energies, losses, forces and equations, and their slopes. */
 bool nonfinite_term(const nonfinite_at *at, diags *errors);
-/* The value that a crossing sets. */
+/* Searches the values that crossings set. */
 bool nonfinite_set(const nonfinite_at *at, diags *errors);
-/* Of contact k. Always reports: the contact as a whole if the expression is not found. */
+/* Searches contact k. Always reports: the contact as a whole if no expression is found. */
 void nonfinite_contact(const nonfinite_at *at, int k, diags *errors);
 
-/* Why the energies of a run were no numbers at this time. */
+/* Reports why the energies of a run were not finite at this time. */
 bool nonfinite_energies(const image *im, const engine_kind *kind, const double *angle_rad,
                         const double *real, double time_s, diags *errors);
 
-/* Why a step of this run did not come about, if it is for an expression or an angle of the model. */
+/* Reports why a step of this run failed; false unless an expression or an angle of the model is the cause. */
 bool nonfinite_step(const image *im, const engine_kind *kind, const void *run, wh_status status,
                     diags *errors);
 

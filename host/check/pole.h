@@ -1,6 +1,6 @@
 /* pole.h: steps that jump over a pole, or through a contact (missed.h). No motion passes a place of unbounded growth, such
- * as x'/(v0 + x') at x' = -v0. But a step longer than the way there never sees it. Half the step does not either, so the two runs
- * agree.
+ * as x'/(v0 + x') at x' = -v0. But a step that is longer than the distance to the pole never evaluates near it. Nor does a
+ * step of half the length, so the run and its finer run agree.
  *
  * Values that change their sign at a pole are evaluated after each step. After a sign change the way between the
  * two states is tested for a pole. In steps with events only divisors that depend on places alone are tested, because an
@@ -17,42 +17,42 @@ pole_crossing *pole_crossing_open(const image *im);
 void pole_crossing_close(pole_crossing *j); /* NULL is fine */
 /* Enters the state after each step, the start included. The search ends at the first pole. */
 void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *run);
-/* Skips a step, and the next state. And the number of skipped steps. */
+/* Skips a step, and the next state; and the number of skipped steps. */
 void pole_crossing_pass(pole_crossing *j);
 uint64_t pole_crossing_unseen(const pole_crossing *j);
-/* Has the run jumped over one? */
+/* Has the run jumped over a pole or missed a contact? */
 bool pole_crossing_some(const pole_crossing *j);
-/* The contact that it passed through, as missed_enter() returns it, and the begin of that step; nothing: it was a
- * pole. */
+/* The contact that the run passed through, as missed_enter() reports it; MISSED_NOTHING if it was a pole. *begin_s: the
+ * begin of that step. */
 missed_found pole_crossing_through(const pole_crossing *j, double *begin_s);
-/* The expression with the pole, and the begin of that step. */
+/* The expression with the pole. *begin_s: the begin of the step that jumped. */
 const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s);
 
 /* === a pole on the way =========================================================================== */
 /* Finds a pole on the way from one state to the next.
  *
  * Some values change their sign at a pole (divisors), others grow there (expressions). A sign change is located by halving. Each
- * expression is followed towards it on both sides, from the nearest distances at which both go on evenly. Nearer there is only
- * round-off. The place is a pole if an expression grows at least as fast as one over the distance. A limit or an integrable
- * singularity (one over a root) is no pole. Growth in leaps, or growth that ends, is none either. After each rejected place the
- * rest of the way is tested by itself: 1 + k/s has changed its sign twice if s has changed its own.
+ * expression is followed towards that place on both sides, down to the smallest distances at which it still changes smoothly.
+ * Nearer there is only round-off. The place is a pole if an expression grows at least as fast as one over the distance. A limit,
+ * an integrable singularity (one over a root), growth in leaps and growth that ends are no poles. After a rejected place the rest
+ * of the way is tested separately, because 1 + k/s changes its sign twice where s changes its sign once.
  *
- * A value that only touches zero, such as 1 - cos(q), changes no sign. Its size must fall at the begin of a way and rise at the
- * end, steeply enough to touch. Then golden sections find its least point, which is tested in the same way. If the value is
- * beyond zero there, as k + s + s^2/m may be, the two sides are tested. */
+ * A value that only touches zero, such as 1 - cos(q), changes no sign. If its size falls at the begin of a way and rises at the
+ * end, steeply enough to touch zero, golden sections find its minimum. The minimum is tested in the same way. If the value has
+ * changed its sign at the minimum, as k + s + s^2/m may, the ways on both sides of it are tested. */
 
 typedef struct pole_way {
     void *of;
     int signs;
     int values;
     const double
-        *nearest; /* [signs] the least part of the way that has digits for this one's arguments */
-    /* sign[signs], value[values] at this share of the way, 0 to 1. */
+        *nearest; /* [signs] smallest share of the way that the arguments of this value resolve */
+    /* Evaluates sign[signs] and value[values] at this share of the way, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;
 
-/* May a value with these samples at 0, POLE_ASIDE, 1 - POLE_ASIDE and 1 have touched zero between? A value as round as a
- * square there stays above its tangents. */
+/* May a value with these samples at 0, POLE_ASIDE, 1 - POLE_ASIDE and 1 have touched zero in between? A value with the
+ * curvature of a square stays above its tangents. */
 #define POLE_ASIDE 0x1p-20
 bool pole_may_touch(const double value[static 4]);
 

@@ -1,4 +1,4 @@
-/* run_json.h: a run, or until when one is trusted, as one JSON object (docs/warnings.md has the schema). */
+/* run_json.h: the results of `whirl run` and `whirl trust` as one JSON object each (docs/warnings.md has the schema). */
 #ifndef CHECK_RUN_JSON_H
 #define CHECK_RUN_JSON_H
 
@@ -11,8 +11,8 @@ enum { RUN_JSON_FILES = 4 };
 typedef struct run_json_wish {
     const struct run_checks *verdict;
     const records *records; /* with the last state */
-    const char *said;       /* the findings, or why the run failed, with hints; or NULL */
-    double until_s;         /* accurate until then; below 0: unknown */
+    const char *said;       /* text of the findings, or of the failure, with hints; or NULL */
+    double until_s;         /* the run is accurate until this time; below 0: unknown */
     bool failed;
     int status;                       /* exit status */
     const char *file[RUN_JSON_FILES]; /* the requested files; or NULL */
@@ -22,7 +22,7 @@ void run_json(FILE *out, const run_json_wish *w);
 /* `status`: exit status. */
 void horizon_json(FILE *out, const horizon *h, int status);
 
-/* The keys with which every command's object begins. `kind` is NULL of one that compares numbers and methods. */
+/* The first keys of every command's object. `kind` is NULL for commands that compare number types and methods. */
 void json_begin(json *j, const char *command, const char *scene, const char *title,
                 const engine_kind *kind, wh_method method);
 /* "not_looked_at": the words of these findings. */

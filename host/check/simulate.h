@@ -14,16 +14,16 @@ typedef struct simulation_settings {
     const char *columns; /* file of plain columns, "-" for standard output, or NULL */
     const char *vcd;     /* file of a value change dump, "-" for standard output, or NULL */
     const char *plot;    /* a picture (host/io/gnuplot.h), or NULL */
-    plot_choice choice;  /* of its contents */
+    plot_choice choice;  /* the curves of the picture */
     plot_run *taken;     /* takes the data of a picture instead of drawing one; or NULL */
-    const char *chosen;  /* why this step, in words, or NULL */
-    const char *changes; /* of the scene, in words, or NULL */
+    const char *chosen;  /* reason for the step, in words, or NULL */
+    const char *changes; /* changes of the scene, in words, or NULL */
     bool no_scene;       /* a bare mechanism */
     bool quiet;
     bool json;     /* one object on standard output in place of the summary (run_json.h) */
-    double strict; /* run_checks_fails() */
+    double strict; /* argument of run_checks_fails() */
     bool progress;
-    const image *plain; /* of the finer run (step_doubling_plain()); NULL: the image itself */
+    const image *plain; /* the finer run's image (step_doubling_plain()); NULL: the run's */
 } simulation_settings;
 
 typedef enum simulation_result {
@@ -36,15 +36,13 @@ typedef enum simulation_result {
 /* Standard output, or standard error if records go to standard output. */
 FILE *simulation_summary(const simulation_settings *s);
 
-/* A run at its end: the findings that fail it, as bits (run_checks_fails()), and the time until which it is accurate, s;
- * below 0: unknown. */
 typedef struct simulation_trust {
-    unsigned fails;
-    bool dear; /* the finer run takes too long */
+    unsigned fails; /* the findings that fail the run, as bits (run_checks_fails()) */
+    bool dear;      /* the finer run takes too long */
     double
-        left; /* remaining operations of all checks: the rows of a summary take half of them at most */
-    bool still; /* no coordinate moves */
-    double until_s;
+        left; /* remaining operations of the checks' budget; the rows of a summary take at most half of them */
+    bool still;     /* no coordinate moves */
+    double until_s; /* the run is accurate until this time; below 0: unknown */
 } simulation_trust;
 
 /* The exit status (host/base/exit.h). */

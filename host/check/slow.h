@@ -1,7 +1,7 @@
 /* slow.h: detects components that move too slowly for the units of their numbers.
  *
- * A float turn angle moves by whole units, 2^32 a turn, 1.5e-9 rad. Below half a unit a step it stands still, and
- * slightly above its rate is wrong. In fixed point all components move by units of their ranges. A component is
+ * A float turn angle moves by whole units of 2^-32 turn, 1.5e-9 rad. If it should move by less than half a unit a step, it
+ * stands still; slightly above, its rate is wrong. In fixed point all components move by units of their ranges. A component is
  * reported if the round-off of its steps, summed since the start, ever exceeded SLOW_SHARE of its span and a few
  * units. A component that is slow only now and then is not reported, because it loses little of its span. */
 #ifndef CHECK_SLOW_H
@@ -18,13 +18,13 @@
 /* Is component i, angles first, too slow? */
 bool slow_component(const engine_kind *kind, const void *run, int i);
 
-/* How many are. */
+/* The number of slow components. */
 int slow_count(const engine_kind *kind, const image *im, const void *run);
 
 /* The largest round-off of a component, as a part of its span; 0: no component is slow. */
 double slow_share(const engine_kind *kind, const image *im, const void *run);
 
-/* A note for each, and how to cure them. */
+/* Prints a note for each slow component, and the remedies. */
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
 #endif

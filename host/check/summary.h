@@ -13,15 +13,13 @@
 
 enum { STEP_WORD = 40 };
 
-/* The largest of 1, 2 and 5 times powers of ten, s, from 1000 s down, that is not beyond it; 0: there is
- * no such number. */
+/* The largest of 1, 2 and 5 times powers of ten, s, that is at most most_s and at most 1000 s; 0 if there is none. */
 double step_nice_s(double most_s);
 /* "200us", with enough digits to be read back exactly; returns `text`. */
 const char *step_text(double step_s, char text[STEP_WORD]);
 
 /* === about ==================================================================================== */
-/* The settings of a run, as lines of TOML for the file next to its records (host/io/plot.h).
- * Version, scene, step, method, state hash. Free it. */
+/* The settings of a run as lines of TOML, for the file next to its records (host/io/plot.h). */
 
 /* Version, scene, step, method, state hash. Free it. */
 char *about_facts(const image *im, const engine_kind *kind, const void *run);
@@ -34,24 +32,24 @@ char *about_tables(const image *im);
 
 typedef struct opening {
     uint64_t each; /* steps between sampled rows */
-    double *first; /* [columns] of the records: at the start, */
-    double *low;   /* the least and the most of the rows */
-    double *high;
+    double *first; /* [columns of the records] at the start */
+    double *low;   /* [columns] least value of the sampled rows, */
+    double *high;  /* and largest value */
 } opening;
 
 opening opening_begin(const records *r, uint64_t steps);
 void opening_end(opening *o);
-/* The row that the records hold. */
+/* Enters the records' current row. */
 void opening_enter(opening *o, const records *r);
-/* Does a coordinate move, of a run that ended? */
+/* Has a coordinate moved? For a run that has ended. */
 bool opening_moves(const opening *o, const records *r);
-/* The sentence, of a run that ends with the row that the records hold. `b` may be NULL. */
+/* Prints the sentence for a run that ends with the records' current row. `b` may be NULL. */
 void opening_print(FILE *out, const opening *o, const records *r, const books *b);
 
 /* The scene, its effects, how it was integrated. */
 void summary_head(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
-/* The numbers. `books` may be NULL; `balance` is theirs. The same run has the same summary: it has no timings. */
+/* Prints the numbers. `b` may be NULL; `balance` is its residual. There are no timings, so equal runs have equal summaries. */
 void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
                    const energy_residual *balance);
 

@@ -26,10 +26,9 @@ typedef struct containment_wish {
 
 typedef enum containment_verdict {
     CONTAINMENT_TO_THE_END, /* proved within the tolerance at every step's end */
-    CONTAINMENT_LEFT,       /* proved until until_s; at the next step it is proved to be outside */
-    CONTAINMENT_UNTOLD,     /* proved until until_s; after it the tube is too wide to decide */
-    CONTAINMENT_UNENDED /* proved until until_s, the end of the tube or the run: containment_found's `end` has the
-                  * reason */
+    CONTAINMENT_LEFT,       /* proved until until_s; the next step's end is proved to be outside */
+    CONTAINMENT_UNTOLD,     /* proved until until_s; after that the tube is too wide to decide */
+    CONTAINMENT_UNENDED /* proved until until_s, where the tube or the run ends: see containment_found's `end` */
 } containment_verdict;
 
 /* The reason for the end. */
@@ -49,18 +48,18 @@ typedef struct containment_state {
     double range; /* the largest minus the smallest value in the run, but at least a thousandth of
                    * its size */
     double
-        within; /* its tolerance: requested, or the tolerance times its range, or times a thousandth
-                 * of the largest range in its unit */
+        within; /* allowed error: the requested one; else the tolerance times the state's range, or times a
+                 * thousandth of the largest range of states with the same unit, if that is more */
     double until_s;
-    double off;    /* upper bound of its error until then */
-    double radius; /* largest radius of the tube until then */
+    double off;    /* upper bound on the state's error until until_s */
+    double radius; /* largest radius of the tube until until_s */
 } containment_state;
 
 typedef struct containment_found {
     containment_state *state; /* [motion->states] */
     int states;
     wh_status status;   /* of the run's last step */
-    uint64_t run_steps; /* completed ones */
+    uint64_t run_steps; /* completed steps */
     uint64_t flowpipe_steps;
     double tube_s; /* the tube's last time */
     containment_end end;
