@@ -150,7 +150,7 @@ static const command_usage usage = {
     .head =
         "usage: whirl derive FILE[:NAME]|SCENE|MECHANISM[:SCENE] [--as FORM] [options]\n"
         "\n"
-        "Prints the equations of motion of a mechanism, or of a scene with its effects; or its code.\n"
+        "Prints the equations of motion of a mechanism, or of a scene with its effects, or the scene's code.\n"
         "\n",
     .tail = ""};
 static const command_usage options_of_derive = {.head = "",
@@ -173,19 +173,20 @@ static void print_usage(FILE *out) {
     }
     print_option(
         out, "--steps", has_derivation,
-        "the derivation: the Lagrangian, and of each coordinate dL/dq', its time derivative, "
+        "the derivation: the Lagrangian, and for each coordinate dL/dq', its time derivative, "
         "dL/dq, dF/dq' and Q");
-    print_option(out, "--folded", has_folded, "values instead of names, one operation a line");
+    print_option(out, "--folded", has_folded,
+                 "values instead of parameter names, one operation a line");
     print_option(out, "--header FILE", has_a_header,
                  "its header, for C and C++: names, units, memory (docs/embedding.md)");
     print_option(out, "--name NAME", has_a_name,
-                 "the scene's name in the code, so that one program can have it twice");
+                 "the scene's name in the code, so that a program can contain it twice");
     options_usage(out, &options_of_derive);
     fprintf(
         out,
-        "The method matters to %s only, and so does --number fixed;\n"
-        "other code is the same for float and double. With --matrix every form shows the matrix;\n"
-        "octave has it instead of the equations.\n",
+        "Only %s depends on the method and on --number fixed.\n"
+        "All other code is the same for float and double. With --matrix every form shows the matrix;\n"
+        "with --as octave it replaces the equations.\n",
         forms_with(has_steps, said));
 }
 

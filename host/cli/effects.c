@@ -20,21 +20,21 @@ static const command_usage usage = {
     .head =
         "usage: whirl effects SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "Prints how far each effect of a scene moves each coordinate, its cost on a board, and whether the\n"
-        "allowed error permits leaving it out. Then it prints the smallest set of effects that keeps the\n"
-        "error, as a command (docs/effects.md). It compares motions at every step, in double; costs are\n"
-        "predictions in float. It does not judge an effect that did not act.\n"
+        "Prints for each effect of a scene how far it moves each coordinate, its cost on a board, and\n"
+        "whether the allowed error permits leaving it out. Then it prints the smallest set of effects that\n"
+        "keeps the error, as a command (docs/effects.md). It compares motions at every step, in double.\n"
+        "Costs are predictions in float. It does not judge an effect that did not act.\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP,
     .tail =
-        "  --error X=1mm,...    allowed errors of coordinates, rates or outputs; the others may move freely.\n"
-        "                       A bare number is SI, and refused if the declared unit is not. Default: 0.1 %\n"
+        "  --error X=1mm,...    allowed errors of coordinates, rates or outputs; all others are unlimited. A\n"
+        "                       bare number is SI, and refused if the declared unit is not. Default: 0.1 %\n"
         "                       of each coordinate's range.\n"
         "  --board B            the board of the costs: an emulated board of docs/boards.md, or host\n"
         "                       (default: mps2-an386, a Cortex-M4F, also for an STM32F405)\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run with all effects diverged",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "also a scene without effects"}};
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "wrong options, or a scene without effects"}};
 
 typedef struct effects_options {
     common_options common;

@@ -26,14 +26,14 @@ static const command_usage plot_usage = {
     .head =
         "usage: whirl plot FILE.csv|SCENE|FILE[:SCENE] ... --out FILE.svg|.pdf|.png [options]\n"
         "\n"
-        "Draws one run, or several over each other (docs/plot.md). FILE.csv is from `whirl run --csv` or\n"
+        "Draws one or several runs in one picture (docs/plot.md). FILE.csv is from `whirl run --csv` or\n"
         "`whirl sweep --csv`, or any CSV file with a line of names. Whirl runs the scenes, with those\n"
         "options of `whirl run` that change a scene or its integration.\n"
         "\n"
         "  whirl plot light.csv heavy.csv --y \"X', theta\" --out both.svg\n"
         "\n"
         "  --out FILE           the picture, drawn by gnuplot: .svg, .pdf or .png\n" RUN_CHOICE_HELP
-        "  --legend NAMES       of the runs, between commas, instead of their titles\n"
+        "  --legend NAMES       names of the runs, between commas, instead of their titles\n"
         "\n"
         "Crosses at the foot of a panel mark events. The shade begins at the trusted time of the run.\n",
     .tail = "",
@@ -202,7 +202,7 @@ static const command_usage usage = {
         "\n"
         "Draws a figure of the dissertation (`whirl list --figures`), as it is or varied. Its runs take\n"
         "those options of `whirl run` that change a scene or its integration, such as --set m=2kg. A varied\n"
-        "figure has no marks of the values in the dissertation.\n"
+        "figure does not mark the dissertation's values.\n"
         "\n"
         "  whirl figure 51 --set=M=-1\n"
         "\n"

@@ -228,7 +228,8 @@ static const command_usage firstlight_usage = {
         "usage: whirl firstlight FILE|PORT [options]\n"
         "\n"
         "Reads the record of the image firstlight from a file or a serial line (docs/firstlight.md), and\n"
-        "compares each field with runs of the interpreter in float. It names unknown fields, `none`.\n"
+        "compares each field with runs of the interpreter in float. It lists the fields that the board\n"
+        "cannot know (`none`).\n"
         "\n",
     .tail =
         "  --board B            the record must be of this board\n"
@@ -241,7 +242,7 @@ static const command_usage firstlight_usage = {
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "no field differs",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
                 "a field differs, no record came, or the row could not be written",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "also an incomplete record",
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "wrong options, or an incomplete record",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 /* --- the record ------------------------------------------------------------------------------------------------- */

@@ -57,8 +57,8 @@ static const command_usage usage = {
         "                       the fields. The first line names the fields. '-' is an empty field; \\t, \\n,\n"
         "                       \\r and \\\\ are escapes. `first_line` and `last_line` bound the block, and\n"
         "                       `holds` lists terms, contacts, noise and conserve.\n"
-        "  --units              every unit: its name, its SI unit and its value there, with tabs between\n"
-        "                       them\n"
+        "  --units              every unit: its name, its SI unit and its value in that SI unit, with tabs\n"
+        "                       between them\n"
         "  --hard               the hard cases of docs/hard_cases.md. 'told' means a warning, 'refused' an\n"
         "                       error.\n"
         "  --figures            the figures that `whirl figure` draws: name and title\n",

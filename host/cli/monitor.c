@@ -41,9 +41,9 @@ const command_usage monitor_usage = {
         "usage: whirl monitor PORT [options]\n"
         "\n"
         "A terminal for the console of a rig, on a serial line or a pseudo-terminal (docs/console.md). It\n"
-        "sends your input, shows the answers, and records the telemetry until Ctrl-C. It waits for a line\n"
-        "that goes away. An empty line goes to the rig each 0.3 s, so that a run does not lose its host.\n"
-        "PORT may be a file of --raw.\n"
+        "sends your input, shows the answers, and records the telemetry until Ctrl-C. If the line goes away,\n"
+        "it waits. It sends an empty line every 0.3 s, because the rig stops a run without a host. PORT may\n"
+        "also be a file recorded with --raw.\n"
         "\n",
     .tail =
         "  --csv FILE           the samples: `time` in seconds since the first, then the rig's quantities\n"
@@ -52,8 +52,8 @@ const command_usage monitor_usage = {
         "  --vcd FILE           samples as real numbers, slot pulses as wires, for waveform viewers\n"
         "  --ring FILE          the records of `tel ring read`\n"
         "  --plot FILE.svg|.png the samples over time, drawn by gnuplot at the end\n"
-        "  --raw FILE           all bytes that come, as they come\n"
-        "  --rate N             samples a second, a part of the rate of the cell (default: 500)\n"
+        "  --raw FILE           all received bytes, unchanged\n"
+        "  --rate N             samples per second, a divisor of the load cell's rate (default: 500)\n"
         "  --for S              end after this many seconds\n"
         "  --baud B             the speed of the line, 9600 to 230400 (default: 115200)\n"
         "  --strict             fail if samples were lost\n"

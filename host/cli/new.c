@@ -19,7 +19,7 @@ static const command_usage usage = {
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the file cannot be written whole",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "NAME is no name, or NAME.whirl exists"}};
+            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "NAME is not a valid name, or NAME.whirl exists"}};
 
 /* Takes the name of the mechanism, and that of its scene in two parts. */
 static const char template[] =

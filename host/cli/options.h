@@ -13,41 +13,40 @@
  * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
-      "a parameter or an input, each once (repeatable). A bare number is SI, and refused if" \
-      " the declared unit is not. Parameters of effects need --with.") \
+      "another value of a parameter or an input, each once (repeatable). A bare number is " \
+      "SI, and refused if the declared unit is not. Parameters of effects need --with.") \
     X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
       "a start value: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
-      "effects to add; 'ledger' keeps books of energy and momentum; all: every effect but " \
-      "the ledger. all comes first: `--without all --with drag` is drag alone.") \
+      "effects to add; ledger: the balance of energy and momentum; all: every effect but " \
+      "the ledger. Whirl takes all first: `--without all --with drag` is drag alone.") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
-      "effects to leave out, or all; 'conserve': integrate every coordinate") \
+      "effects to leave out; all: every effect; conserve: integrate every coordinate") \
     X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "the fixed step") \
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, \
-      "the end of the run: the nearest whole number of steps; 0 takes no step") \
+      "the end of the run, to the nearest whole number of steps; 0 takes no step") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
-      "double (default, the reference) or float (the arithmetic of the boards, to the bit);" \
-      " fixed, for `whirl run` and `whirl derive --as c`: 32-bit integers, for smooth " \
-      "mechanisms on chips without an FPU, to the bit") \
+      "double (default, the reference) or float (the same bits as on boards); fixed, for " \
+      "`whirl run` and `whirl derive --as c`: 32-bit integers, for smooth mechanisms on " \
+      "chips without an FPU, the same bits as in C") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
       "compensated sums, which carry their round-off") \
     X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
-      "return the drift of the energy along the rates, a 1024th each step: for very long " \
-      "runs without drive and damping. It keeps the ledger.") \
+      "correct the drift of the energy along the rates, by a 1024th of it each step: for " \
+      "very long runs without drive and damping. It adds the ledger.") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
-      "turned (default): look up sines once a step and turn them on at the stages; lookup: " \
+      "turned (default): look up sines once a step and rotate them at the stages; lookup: " \
       "look up the sines of each stage, for angles that turn up to half a turn a step") \
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
-      "a whole step as one product with a constant matrix, for a linear mechanism without " \
-      "events. exact: the motion itself, with inputs held over the step; rk4: that of RK4; " \
-      "none (default): stages.") \
+      "compute a whole step as one product with a constant matrix, for a linear mechanism " \
+      "without events. exact: the exact motion, with inputs constant over the step; rk4: " \
+      "the step of RK4; none (default): stages") \
     X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
-      "tables in flash, of one turn angle, instead of sines and divisions. linear: the " \
-      "cheapest without an FPU; cubic: nearly exact; none (default).") \
+      "look up functions of one turn angle in tables in flash, instead of sines and " \
+      "divisions. linear: the cheapest without an FPU; cubic: nearly exact; none (default)") \
     X(OPTION_CELLS, "--cells", "N", OPTIONS_ENGINE, \
-      "cells of such a table: a power of two from 8 to 65536 (default: linear 256, cubic " \
-      "64)")
+      "cells of each table: a power of two from 8 to 65536 (default: linear 256, cubic 64)")
 
 #define OPTION_NAME(which, word, value, group, text) which,
 typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
@@ -113,8 +112,8 @@ bool options_number(const char *command, const char *option, const char *text, d
 /* --strict, --strict=off or --strict=LIMIT, for run_checks_fails(); false for another word. */
 bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
 #define OPTIONS_STRICT_HELP \
-    "  --strict=off         exit status 0 also with a warning (default: 1)\n" \
-    "  --strict=LIMIT       the allowed energy residual, as a part of the books' largest entry\n"
+    "  --strict=off         exit status 0 even with a warning (default: 1)\n" \
+    "  --strict=LIMIT       the allowed energy residual, as a part of the balance's largest entry\n"
 
 /* What changes an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {

@@ -33,11 +33,11 @@ static const command_usage usage = {
         "       whirl pil --replay TAPE --firmware IMAGE [options]\n"
         "       whirl pil --read TAPE [--csv FILE]\n"
         "\n"
-        "Processor in the loop (docs/pil.md): IMAGE runs in QEMU, or here if it is a program of this\n"
-        "machine. The scene runs in double with a step of its own (50us). Each waits while the other\n"
-        "computes. The firmware declares what it sets and reads: inputs, outputs, coordinates and rates of\n"
-        "the same names in the scene. Its computing takes the plant's time: instructions, counted in the\n"
-        "guest, times --cycles over --clock.\n"
+        "Processor in the loop (docs/pil.md): IMAGE runs in QEMU, or directly if it is a program for this\n"
+        "machine. The scene, as the plant, runs in double with its own step (50us). Firmware and plant wait\n"
+        "for each other. The firmware declares by name which inputs of the scene it sets, and which outputs,\n"
+        "coordinates and rates it reads. Its computing takes time in the plant: counted instructions times\n"
+        "--cycles, divided by --clock.\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
     .tail =
@@ -52,14 +52,13 @@ static const command_usage usage = {
         "  --replay TAPE        no scene: send TAPE to the firmware, and compare its answers to the bit\n"
         "  --read TAPE          no scene: print TAPE as rows of a CSV: each edge and sample with its time\n"
         "                       and value, and each change of outputs and notes\n"
-        "  --csv FILE           with --read: the rows; - is standard output (default). Of a run: the records\n"
-        "                       of the plant, as of `whirl run`\n"
-        "  --every 1ms          of a run: the spacing of those records, a whole number of steps (default:\n"
-        "                       1ms)\n"
-        "  --bind A=B,...       the firmware's A is the scene's B\n"
+        "  --csv FILE           with --read: the rows; - is standard output (default). Else the records of\n"
+        "                       the plant, as of `whirl run`\n"
+        "  --every 1ms          the spacing of the plant's records, a whole number of steps (default: 1ms)\n"
+        "  --bind A=B,...       connect the firmware's name A to the scene's name B\n"
         "  --place X,...        the displacement of each edge, in the firmware's order: degrees for an\n"
         "                       angle, else SI\n"
-        "  --jitter 20us        standard deviation of the times of the edges (default: 0)\n"
+        "  --jitter 20us        standard deviation of the edges' times (default: 0)\n"
         "  --delay 1ms          delay of every sample (default: 0)\n"
         "  --fault KIND[:CHANNEL][=SIZE][@WHEN][+DURATION],...\n"
         "                       a fault (repeatable). WHEN is a time (1.5s), a note of the firmware\n"
@@ -67,11 +66,11 @@ static const command_usage usage = {
         "  --faults             list the kinds of faults, and end\n"
         "  --seed N             seed of jitter and faults (default: 1)\n"
         "  --clock HZ           the processor's clock (default: 16e6)\n"
-        "  --cycles C           cycles of an instruction (default: 1.5; 0: computing takes no time)\n"
-        "  --patience S         seconds that the firmware may be silent, or take to end (default: 10)\n"
+        "  --cycles C           cycles per instruction (default: 1.5; 0: computing takes no time)\n"
+        "  --patience S         seconds that the firmware may be silent, or may take to end (default: 10)\n"
         "  --quiet              no report: only the firmware's text, and errors\n"
         "\n"
-        "Without --until it runs until the firmware ends, at most for an hour of the plant's time.\n",
+        "Without --until the run ends with the firmware, at the latest after an hour of the plant's time.\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "the firmware ended with status 0, or --until came",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
                 "the firmware ended with another status, died or fell silent, the plant\n"

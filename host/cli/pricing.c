@@ -394,10 +394,10 @@ static const char price_head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
     "Tries methods, number types, forms, matrices, tables and many step sizes on a scene\n"
-    "(docs/price.md). Prints the error of each, compared with a reference of higher precision, and its\n"
-    "cost on a board: cycles a simulated second, flash, RAM and stack. Boards without cycle counts have\n"
-    "instructions. The table has at most 12 rows of the Pareto front. A letter after each figure shows\n"
-    "its source.\n"
+    "(docs/price.md). Prints the error of each setting, compared with a reference of higher precision,\n"
+    "and its cost on a board: cycles per simulated second, flash, RAM and stack. If the board has no\n"
+    "cycle counts, the cost is in instructions. The table has at most 12 rows of the Pareto front. A\n"
+    "letter after each figure shows its source.\n"
     "\n";
 
 static bool write_csv(const char *file, const trials *t, const table *made,
@@ -510,8 +510,8 @@ static int price_scene(pricing *p) {
 int command_price(int count, char **words) {
     static const pricing_command price = {
         "price", PRICING_PRICE, price_head,
-        "there is no reference that could be trusted, no setting that keeps to the motion,\n"
-        "       none with a price, or none within --error",
+        "no reference is accurate enough, or no setting follows the motion, has a price, or\n"
+        "       is within --error",
         price_scene};
     return run_command(&price, count, words);
 }
@@ -525,8 +525,8 @@ static const char choose_head[] =
     "margin of 2. One has the fewest cycles, the other the least flash. Prints their costs, and the\n"
     "commands that run, generate and count them.\n"
     "\n"
-    "In Whirl's source tree, with the board's compiler and emulator, the steps are counted. Elsewhere\n"
-    "they are predicted; a scene with contacts then has no answer.\n"
+    "Whirl counts the steps in its source tree, with the board's compiler and emulator. Elsewhere it\n"
+    "predicts them, and cannot answer for a scene with contacts.\n"
     "\n";
 static bool fits(const pricing *p) {
     if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
@@ -733,8 +733,8 @@ static int choose_scene(pricing *p) {
 int command_choose(int count, char **words) {
     static const pricing_command choose = {
         "choose", PRICING_CHOOSE, choose_head,
-        "nothing fits (it says what would, and how many settings were left), or there is no\n"
-        "       reference that could be trusted",
+        "no setting fits (the output says which limits exclude how many), or no reference\n"
+        "       is accurate enough",
         choose_scene};
     return run_command(&choose, count, words);
 }

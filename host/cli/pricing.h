@@ -20,20 +20,21 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "the error of one output, coordinate or rate, in its declared unit (default: the " \
       "worst coordinate or rate, as a part of its largest value)") \
     X(PRICING_ERROR, BOTH, "--error", "0.1mm", \
-      "the allowed error: a quantity of --of, or a part of the largest value; X=0.1mm is " \
-      "--of X as well. A bare number is SI, and refused if the declared unit is not.") \
+      "the allowed error: in the unit of --of, else a part of the largest value. X=0.1mm " \
+      "includes --of X. A bare number is SI, and refused if the declared unit is not.") \
     X(PRICING_HORIZON, BOTH, "--horizon", "T", \
-      "compare errors until then (default: the scene's end). A chaotic motion cuts it " \
-      "shorter, and the output says so.") \
+      "compare errors up to this time (default: the scene's end). In a chaotic motion Whirl " \
+      "uses an earlier time, and the output says so.") \
     X(PRICING_VARY, BOTH, "--vary", "RANGE", \
-      "the worst of sampled places of a parameter, an input or a start value: duty=0.2..0.8" \
-      " samples three, the ends among them, duty=0.2..0.8:5 five. Repeatable: all " \
-      "combinations, at most 64. The scene's own values are always sampled too.") \
+      "take the worst error and cost over values of a parameter, an input or a start value. " \
+      "duty=0.2..0.8 takes three values, both ends included, duty=0.2..0.8:5 five. " \
+      "Repeatable: all combinations, at most 64. The scene's own values are always " \
+      "included.") \
     X(PRICING_METHOD, BOTH, "--method", "M,...", \
       "try these methods instead of rk4,nystroem3,nystroem4,nystroem5; all: every method") \
     X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
-      "operations that all trials may evaluate: 1e9 take about 5 s of a processor. Longer " \
-      "steps are left out and counted.") \
+      "operations that all trials may evaluate: 1e9 take about 5 s of processor time. " \
+      "Shorter steps that do not fit are left out and counted.") \
     X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
     X(PRICING_CSV, PRICE, "--csv", "FILE", \
       "every row, with its command lines; - is standard output (the table then goes to " \
@@ -41,10 +42,10 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_JSON, BOTH, "--json", NULL, \
       "one JSON object on standard output instead of words (docs/warnings.md)") \
     X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
-      "the rate of the firmware: a period takes whole steps (default: any step)") \
+      "the firmware's control rate: a whole number of steps per period (default: any step)") \
     X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \
-      "the processor's clock: the longest steps must fit into the period (default: the " \
-      "board's own, if it is one chip)") \
+      "the processor's clock: the longest possible steps of a period must fit into it " \
+      "(default: the board's own, if it is one chip)") \
     X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
       "the flash that the firmware may take; K, KB and KiB are 1024 bytes (default: the " \
       "board's, if it is one chip)") \
@@ -53,7 +54,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "predict steps instead of counting them, which saves a few seconds; not for scenes " \
       "with contacts") \
     X(PRICING_MEASURE, BOTH, "--measure", NULL, \
-      "count the steps, or fail with exit status 2: in Whirl's source tree, with the " \
+      "count the steps, or fail with exit status 2. It needs Whirl's source tree and the " \
       "board's compiler and emulator. `whirl price` counts its front, which takes minutes.") \
     X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; `whirl price` prints no table")
 #define PRICING_OPTION_ID(id, who, word, value, text) id,

@@ -29,19 +29,20 @@ static const command_usage usage = {
         "\n"
         "Proves the time until which each coordinate and rate of a run is within a tolerance of the exact\n"
         "motion (docs/stability.md). It encloses the exact motion in a flowpipe, computed from the energies\n"
-        "in intervals that are rounded outwards. Parameters are the decimals of the file. It compares the\n"
-        "end of every step with this enclosure. The scene must be smooth: no stops, holds, dry friction or\n"
-        "whens; no --number fixed.\n"
+        "in intervals that are rounded outwards. Parameters have the exact decimal values of the file. It\n"
+        "compares the end of every step with this enclosure. The scene must be smooth, without stops, holds,\n"
+        "dry friction or crossings. --number fixed is not possible.\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .tail =
         "  --within X=1mm       the allowed distance of a coordinate or rate (repeatable, each name once)\n"
-        "  --tolerance 1e-3     for the others: this part of the range of each over the run (default: 1e-3)\n"
-        "  --csv FILE           a row for each step: the time and, of each coordinate and rate, in SI, the\n"
-        "                       least and the most of the exact motion, and the run's value. - is standard\n"
-        "                       output; the words then go to standard error.\n"
-        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. Then it prints\n"
-        "                       the proof so far.\n"
+        "  --tolerance 1e-3     the allowed distance of all others, as a part of the range of each over the\n"
+        "                       run (default: 1e-3)\n"
+        "  --csv FILE           a row for each step, in SI: the time, and for each coordinate and rate the\n"
+        "                       least and greatest value of the exact motion and the run's value. - is\n"
+        "                       standard output; the words then go to standard error.\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
+        "                       prints the proof so far.\n"
         "  --quiet              no progress; no words if there is --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also if the proof ends before the run",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged; the proof until then is printed",

@@ -28,40 +28,42 @@ static const command_usage usage = {
         "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
         "Runs a scene and prints a summary: the final state, the energy and momentum balance, the hash of\n"
-        "the state. A mechanism without a scene starts at rest at zero. A FILE with several scenes needs\n"
-        "the name of one.\n"
+        "the state. Without a scene, a mechanism starts at zero, at rest. If a FILE has several scenes, name\n"
+        "one.\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .described = true,
     .tail =
         "  --csv FILE           records, and FILE.toml, which describes the run (docs/howto/data.md); - is\n"
         "                       standard output (the summary then goes to standard error)\n"
-        "  --columns FILE       the same with spaces between the columns, for Octave's load; - as for --csv\n"
-        "  --vcd FILE           the same for waveform viewers, with the contacts; - as for --csv\n"
+        "  --columns FILE       the same records with spaces between the columns, for Octave's load; - as\n"
+        "                       for --csv\n"
+        "  --vcd FILE           the same records with the contacts, for waveform viewers; - as for --csv\n"
         "  --every 2ms          spacing of the records, a whole number of steps (default: every step). The\n"
         "                       last state is always recorded.\n"
-        "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md), with:\n" RUN_CHOICE_HELP
-        "  --error X=0.1mm      the largest step that keeps the error of one coordinate, rate or output,\n"
+        "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md), with these\n"
+        "                       options:\n" RUN_CHOICE_HELP
+        "  --error X=0.1mm      use the largest step that keeps the error of one coordinate, rate or output,\n"
         "                       instead of the scene's step\n"
         "  --board B            the board of the cost rows: an emulated board of docs/boards.md, or host\n"
         "                       (default: mps2-an386, a Cortex-M4F)\n" OPTIONS_STRICT_HELP
         "  --json               one JSON object on standard output instead of the summary (docs/warnings.md)\n"
         "  --quiet              no summary, no progress\n"
         "\n"
-        "The summary ends with the error and the cost on a board at twice the step, the step and half of\n"
-        "it, in float unless --number says otherwise (docs/price.md). It has these rows if they take less\n"
-        "than a second.\n"
+        "The summary ends with the error and the cost on a board at twice the step, the step and half the\n"
+        "step, in float unless --number says otherwise (docs/price.md). If these rows take more than a\n"
+        "second, Whirl leaves them out.\n"
         "\n"
-        "Warnings go to standard error: faults that a finer run, the energy balance and other checks found,\n"
-        "with options that were tried and cure them (docs/warnings.md). The exit status is then 1, after\n"
-        "all outputs are written.\n"
+        "Warnings go to standard error. A finer run, the energy balance and other checks cause them. They\n"
+        "name options that Whirl tried and that cure the fault (docs/warnings.md). The exit status is then\n"
+        "1, after all outputs are written.\n"
         "\n"
         "Summary, records and plot use the declared units. A column whose name has no unit is SI: theta\n"
         "[deg] is in degrees, theta in radians. No output file may be the model file.\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "it diverged, or a number was not finite (the message has time, place and remedy;\n"
-                "       records so far are kept), or a warning applies (see --strict)",
+                "the run diverged, or a number was not finite (the message has time, place and\n"
+                "       remedy; records so far are kept), or a warning applies (see --strict)",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 

@@ -41,16 +41,18 @@ static const command_usage sweep_usage = {
         "\n"
         "  --over RANGE         COUNT values of a parameter, an input, a start value or the step: \"r=10..60\n"
         "                       [mm]:11\", \"theta'=1..4 [rpm]:7\", \"step=0.1..10 [ms]:9,log\". A bare number is\n"
-        "                       SI. Repeatable: the full grid, the last range fastest.\n"
+        "                       SI. Repeatable: the grid has all combinations, the last range changes\n"
+        "                       fastest.\n"
         "  --measure EXPR       the value at the end; or max(EXPR), min(EXPR), amplitude(EXPR), mean(EXPR),\n"
         "                       period(EXPR) over the run. Repeatable. Default: the final state and the\n"
-        "                       outputs. A quantity has its declared unit, an expression is SI.\n"
+        "                       outputs. A name is in its declared unit, an expression in SI.\n"
         "  --from TIME          evaluate the measures over the run from this time on\n"
         "  --csv FILE           the rows, in the order of the grid; - is standard output (default). The same\n"
         "                       command continues the FILE of an interrupted sweep.\n"
         "  --fresh              start FILE again from the first row\n"
         "  --jobs N             processes (default: one a processor). The rows do not depend on it.\n"
-        "  --shard K/N          only part K of N. The files of all parts, in order, are the whole file.\n" OPTIONS_STRICT_HELP
+        "  --shard K/N          run only part K of N. The files of all parts, joined in order, are the whole\n"
+        "                       file.\n" OPTIONS_STRICT_HELP
         "  --json               one JSON object on standard output instead of the rows (docs/warnings.md)\n"
         "  --quiet              no progress, no summary\n"
         "\n",
@@ -61,7 +63,7 @@ static const command_usage sweep_usage = {
         [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
             "a point failed (its measures are empty), a warning applies (see --strict), or the\n"
             "       file could not be written",
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "also a FILE from another sweep",
+        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "wrong options, or a FILE from another sweep",
         [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
 static const command_usage map_usage = {
@@ -69,13 +71,13 @@ static const command_usage map_usage = {
         "usage: whirl map SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log]\n"
         "                 --over NAME=FROM..TO:COUNT[,log] [options]\n"
         "\n"
-        "Draws a stability map: runs the scene for each pair of two swept values, one of which may be the\n"
-        "step. A mark shows the result: right to the tolerance, a larger error, an unbalanced energy, or\n"
+        "Draws a stability map: runs the scene for each pair of values from two ranges, one of which may be\n"
+        "the step. A mark shows the result: within the tolerance, a larger error, an unbalanced energy, or\n"
         "diverged (docs/stability.md).\n"
         "\n"
         "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
         "\n"
-        "  --over RANGE         twice: as in `whirl sweep`. A swept name takes no --set, --start or --step.\n",
+        "  --over RANGE         twice, as in `whirl sweep`; no --set, --start or --step of a swept name\n",
     .groups = OPTIONS_SCENE,
     .tail =
         "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
@@ -84,11 +86,11 @@ static const command_usage map_usage = {
         "                       is right and finite, the missing part of the energy. - is standard output;\n"
         "                       the map then goes to standard error.\n"
         "  --json               one JSON object on standard output instead of the map (docs/warnings.md)\n"
-        "  --plot FILE.svg|.png a rectangle for each pair\n"
+        "  --plot FILE.svg|.png a picture with a rectangle for each pair\n"
         "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress; no map if there is --csv or --plot\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also if runs diverged",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair has a run",
+    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "even if runs diverged",
+            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair could be run",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 

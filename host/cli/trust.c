@@ -26,27 +26,27 @@ static const command_usage usage = {
     .head =
         "usage: whirl trust SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "Prints the time until which each coordinate and rate of a run is right to a tolerance\n"
-        "(docs/stability.md). It compares the run with one of half the step, in double with compensated\n"
-        "sums, and takes the first time at which they differ by more. In a chaotic motion that time comes\n"
-        "soon, whatever the step. After it, only energy and momenta are meaningful.\n"
+        "Prints the time until which each coordinate and rate of a run is accurate within a tolerance\n"
+        "(docs/stability.md). It compares the run with a run of half the step, in double with compensated\n"
+        "sums, and takes the first time at which they differ by more. In a chaotic motion this time comes\n"
+        "soon, however small the step. After it, only energy and momenta are meaningful.\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .tail =
-        "  --proved             the same as `whirl prove`, with its options\n"
+        "  --proved             run `whirl prove` instead, with its options\n"
         "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
         "                       (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate: name, unit, verdict, trusted time,\n"
         "                       range, largest error. Verdicts: end, until, still (it does not move),\n"
-        "                       rounding (only round-off moves it), untold (double has too few digits). - is\n"
-        "                       standard output; the words then go to standard error.\n"
+        "                       rounding (only round-off moves it), untold (unknown: double has too few\n"
+        "                       digits). - is standard output; the words then go to standard error.\n"
         "  --json               one JSON object on standard output instead of words (docs/warnings.md)\n"
-        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. It refuses\n"
+        "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. Whirl refuses\n"
         "                       longer work.\n"
         "  --quiet              no progress; no words if there is --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "the run diverged; the output has the time, and the trusted time",
+                "the run diverged; the output has the time of this, and the trusted time",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 
