@@ -23,13 +23,13 @@ extern "C" {
 /* The stored angle of unwrapped radians, whole turns included. Precision and range as with wh_phase_from_rad(). */
 wh_angle wh_angle_from_rad(wh_real rad);
 
-/* The unwrapped radians of a stored angle. Float: rounded to the nearest (within 0.504 of the last place); any angle is
- * in range. */
+/* Converts a stored angle to unwrapped radians. Every angle is in range. Float: rounded to the nearest (within 0.504
+ * of the last place). */
 wh_real wh_angle_to_rad(wh_angle angle);
 
-/* The phase of an angle times a factor that need not be whole, such as 0.5, 1.5 or 0.37. Whole turns count here: half
- * of one turn is half a turn. (A phase has lost its turns.) Float: within 0.75 phase units (1.1e-9 rad), for any number
- * of turns. Double: the product, rounded. For records, never in a step. */
+/* The phase of `factor` times an angle; the factor need not be whole (0.5, 1.5, 0.37). Whole turns count: half of
+ * one turn is half a turn. (A phase alone has lost its turns.) Float: within 0.75 phase units (1.1e-9 rad), for any
+ * number of turns. Double: the product, rounded. Used for records, never in a step. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
 
 #ifdef __cplusplus

@@ -12,16 +12,17 @@
 extern "C" {
 #endif
 
-/* Most bytes on the line for `count` bytes, including the zero. A constant if `count` is. */
+/* Largest coded size of `count` bytes, including the final zero. A constant if `count` is constant. */
 #define WH_COBS_BYTES(count) ((count) + (count) / 254U + 2U)
 
-/* Blocks of up to 254 bytes without a zero, each after a byte that gives the position of the next zero. */
+/* The encoder. It writes blocks of up to 254 bytes without a zero. A head byte before each block gives the position
+ * of the next zero. */
 typedef struct wh_cobs {
-    uint8_t *bytes; /* the caller's, room[] */
+    uint8_t *bytes; /* memory of the caller, room[] bytes */
     unsigned room;
-    unsigned at;   /* the next byte */
-    unsigned head; /* the byte before this block */
-    bool full;     /* there was no room */
+    unsigned at;   /* index of the next byte to write */
+    unsigned head; /* index of the head byte of the present block */
+    bool full;     /* a byte was dropped for lack of room */
 } wh_cobs;
 
 #define wh_cobs_start WH_NAME(wh_cobs_start)
@@ -34,19 +35,19 @@ typedef struct wh_cobs {
 void wh_cobs_start(wh_cobs *cobs, uint8_t *bytes, unsigned room);
 void wh_cobs_put(wh_cobs *cobs, uint8_t byte);
 
-/* Append the zero. Returns the number of bytes; 0 if there was no room: the bytes are then useless. */
+/* Append the final zero. Returns the number of coded bytes, or 0 if there was no room; `bytes` is then useless. */
 unsigned wh_cobs_end(wh_cobs *cobs);
 
-/* Code bytes[1] to bytes[count] in place, count <= 253, with the head before them and the zero after them. Returns the
- * number of bytes. */
+/* Code bytes[1] to bytes[count] in place, count <= 253. The head goes into bytes[0], the zero after the last byte.
+ * Returns the number of coded bytes. */
 #define WH_COBS_SHORT_MOST 253U
 unsigned wh_cobs_short(uint8_t *bytes, unsigned count);
 
-/* Decode `length` bytes (without their zero) in place: the result is shorter. Returns its length; 0 for invalid code. */
+/* Decode `length` bytes (without the final zero) in place: the result is shorter. Returns its length; 0 for invalid code. */
 unsigned wh_cobs_decode(uint8_t *bytes, unsigned length);
 
-/* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first. `crc` is WH_CRC16_START, or the CRC of the bytes
- * before. */
+/* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first. `crc` is WH_CRC16_START, or the CRC of the
+ * preceding bytes. */
 #define WH_CRC16_START 0xFFFFU
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count);
 

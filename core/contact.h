@@ -1,21 +1,23 @@
 /* contact.h: stops, holds, dry friction and located crossings, with their events inside a step.
  *
- * Between events a mechanism with contacts is smooth: M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k, with J_k = d(expression
- * k)/dq and lambda_k the force of contact k. It is zero for an open stop and -sign(v) mu N for sliding friction. For a resting
- * stop, a held expression or a stuck coordinate it keeps J_k q' at zero: J M^-1 J^T lambda = -(J q'' + J' q').
+ * Between events a mechanism with contacts is smooth: M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k, with J_k =
+ * d(expression k)/dq and lambda_k the force of contact k. The force is zero for an open stop and -sign(v) mu N for
+ * sliding friction. For a resting stop, a held expression or a stuck coordinate, the force keeps J_k q' at zero: J M^-1
+ * J^T lambda = -(J q'' + J' q').
  *
- * A step looks for events at its end. It locates the first with a bounded number of probes on cubics through the step's ends. Then
- * it steps again to just past the event and changes the modes. An impact is an impulse through the mass matrix with Newton's
- * restitution. The step goes on with its remaining time, for at most WH_EVENTS_MAX moments. At the last one stops rest and the step
- * is completed. If that made a difference, the state counts an overrun. So the cost of a step is bounded, and no step is skipped.
- * (Brogliato, Nonsmooth Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
+ * A step looks for events at its end. It locates the first event with a bounded number of probes on cubics through the
+ * step's ends. Then it steps again, to just past the event, and changes the modes. An impact is an impulse through the
+ * mass matrix with Newton's restitution. The step goes on with its remaining time, for at most WH_EVENTS_MAX moments.
+ * At the last moment stops come to rest instead of bouncing, and the step is completed. If that changed the motion, the
+ * state counts an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth Mechanics,
+ * chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
  *
- * Contacts are numbered stops first, then holds, frictions and crossings, each in order of declaration. Events of one instant are
- * resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so an impact gives it no impulse. A stop
- * rests instead of bouncing for less than WH_REST_SHARE of a step.
+ * Contacts are numbered stops first, then holds, frictions and crossings, each kind in order of declaration. Events of
+ * one instant are resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so friction
+ * gives no impulse in an impact. A stop rests if its bounce would be shorter than WH_REST_SHARE of a step.
  *
- * A scene provides `wh_contact_system`. The running state is `wh_contacts` (scene.h). Each file of core/contact/ names its subject
- * in its first line. Scenes without contacts include none of these files. All are C only. */
+ * A scene provides `wh_contact_system`. The running state is `wh_contacts` (scene.h). The first line of each file in
+ * core/contact/ names its subject. Scenes without contacts include none of these files. All of them are C only. */
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
 
@@ -42,9 +44,9 @@
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* Most probes to locate an event. The located interval is at most WH_BRACKET of the searched one. Halving
- * alone needs all probes but some, which is why WH_PROBES_SPARE is above 1. The usual event takes six to
- * ten probes and is located to WH_BRACKET_FINE, as finely as round-off permits. */
+/* Most probes to locate an event. The located interval is at most WH_BRACKET times the searched one. Halving alone
+ * would need four probes fewer, so faster guesses may fall behind halving by four probes (WH_PROBES_SPARE). The
+ * usual event takes six to ten probes and is located to WH_BRACKET_FINE, as finely as round-off permits. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -56,18 +58,19 @@
 #endif
 #define WH_PROBES_SPARE WH_R(8.0)
 
-/* Probes for a stop that a step passes through. */
+/* Most probes for a stop that a body enters and leaves within one try. */
 #define WH_DIP_PROBES 6U
 
-/* A curved hold or stop that slipped by more than this share of the way is projected twice. One projection
- * leaves an error of second order in the slip. */
+/* If a curved hold or stop slipped by more than this share of the displacement, it is projected twice. One
+ * projection leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
 /* Projections after a step with too many events. */
 #define WH_SQUEEZE_LOOKS 3U
 
-/* Projections of a body that is beyond a stop when a step begins, as after a correction. They run within one round of the step,
- * so there are no more than its probes. A curved gap takes several. */
+/* Most projections of a body that is beyond a stop when a step begins, for example after a correction of the state.
+ * They replace the search of one of the step's rounds, so their number is at most that of its probes. A curved gap
+ * takes several. */
 #define WH_PUSH_LOOKS 12U
 
 /* A stop rests if its next flight is shorter than this share of a step. */
@@ -80,9 +83,9 @@ enum {
     WH_LIMITED = 4     /* it has a limit, slides at it, and gives no impulse */
 };
 
-/* The kinds, in the order in which contacts are numbered: name, traits. Each has its own events. For a new kind the
- * compiler reports only the switch of contact_locate.h. Some sixty lines of contact_*.h test for one kind, and all
- * skip a new one: CONTRIBUTING.md says how to find them. The language's row is in host/lang/words.h. */
+/* The kinds, in the order in which contacts are numbered: X(name, traits). Each kind has its own events. If you add
+ * a kind, the compiler reports only the switch of contact_locate.h. Some sixty lines of contact_*.h test for one
+ * kind and skip a new one: CONTRIBUTING.md says how to find them. The language's row is in host/lang/words.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \
@@ -103,13 +106,14 @@ typedef struct wh_contact {
         direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if one
                     * with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
                     * rate. Else 0. */
-    int16_t pin; /* the only coordinate of a constant J_k: its rate is exactly zero; else -1 */
-    uint8_t
-        first_set; /* crossing: its assignments; hold without a pin: its index in wh_state's held[] */
+    int16_t pin; /* the only coordinate of a constant J_k, whose rate is then exactly zero; else
+                  * -1 */
+    uint8_t first_set; /* crossing: index of its first assignment; hold without a pin: its index in
+                    * wh_state's held[] */
     uint8_t sets;
 } wh_contact;
 
-/* Entries per contact in what `forces` computes, before the two rows of n. */
+/* The numbers per contact in the result of `forces`. They are followed by two vectors of n. */
 enum {
     WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
@@ -117,28 +121,27 @@ enum {
     WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
 };
 
-/* Most evaluations of the accelerations in one step, each with at most one of `forces`.
+/* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
  *
- * Each of WH_EVENTS_MAX rounds has a try to the step's end and one to the event, of `stages` each. At the end of both
- * up to three evaluations project the slip, and one more is at the step's end. The search evaluates at its begin; if no
- * force matters, at both ends only. An impact takes two, a capture one, assignments three. Contacts that give way take
- * one more than their number.
+ * Each of WH_EVENTS_MAX rounds has a try to the step's end and a try to the event, of `stages` evaluations each. After
+ * each try up to three evaluations project the slip, and one evaluates the try's end. The search evaluates at its
+ * begin; if no event depends on a force, it evaluates only at both ends. An impact takes two evaluations, a capture
+ * one, assignments three. A release of contacts takes one evaluation more than their number.
  *
- * The last try, three projections, the settling of the modes, and following the inputs at the step's begin are added
- * once. */
+ * Once per step: the last try, its three projections, the settling of the modes, and the inputs that are followed at
+ * the step's begin. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Most evaluations of `signals` in one step: one with each of the above, except for the stages and the
- * search's two ends. One more compares a step's end with its begin, and one belongs to a capture. A crossing
- * takes two, and two more when standing crossings leave. One more is for those that stand when the step
- * begins. */
+/* Most evaluations of `signals` in one step: one with each evaluation above, except for the stages and the search's
+ * two ends. One more compares a step's end with its begin, and a capture takes one. Each crossing takes two, and two
+ * more if standing crossings move away. One more finds the crossings that stand at zero when the step begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 
-/* A scene's contacts, constant. The functions are lists of operations like the accelerations. */
+/* A scene's contacts, constant. The functions are generated as lists of operations, as the accelerations are. */
 typedef struct wh_contact_system {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *accel;   /* without contact forces */
@@ -159,7 +162,7 @@ typedef struct wh_contact_system {
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-    uint8_t driven; /* the last of them: inputs with a rate (driven.h), which nothing pushes */
+    uint8_t driven; /* the last coordinates: inputs with a rate (driven.h), which no force moves */
 } wh_contact_system;
 
 #endif

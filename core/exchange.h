@@ -1,14 +1,13 @@
 /* exchange.h: the payloads of the frames between a controller and the plant that it runs against.
  *
- * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then they take turns. The
- * plant sends the time and the sensors' readings since the last turn (`wh_readings`). The controller sends its new outputs
- * and the time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning of a byte is
- * defined once.
+ * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then they take turns. The plant
+ * sends the time and the sensors' readings since the last turn (`wh_readings`). The controller sends its new outputs and the
+ * time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning of a byte is defined once.
  *
- * A controller that is reset sends its hello again. The plant answers with the reset and the bytes that the controller had
- * asked it to remember.
+ * After a reset the controller sends its hello again. The plant answers with the cause of the reset and the bytes that
+ * the controller had asked it to remember.
  *
- * Times are ticks of the controller's own timer, 32 bits, wrapping; values are SI, as floats; converters give counts. */
+ * Times are ticks of the controller's own timer: 32 bits, wrapping. Values are SI, as floats; converters give counts. */
 #ifndef WH_EXCHANGE_H
 #define WH_EXCHANGE_H
 
@@ -26,59 +25,60 @@ enum {
     WH_FRAME_RESET = 4, /* to a controller that restarts, before its first readings: wh_reset */
     /* from the controller, before its orders: bytes that outlive a reset, 0 to WH_REMEMBER_MAX */
     WH_FRAME_REMEMBER = 5,
-    /* for a line that shows neither a controller's start nor its end. To a controller, before its first readings: send
-     * the hello again. From a controller, instead of orders: it ends, with this status (4 bytes) */
+    /* For a line that shows neither a controller's start nor its end. ASK goes to a controller before its first readings:
+     * send the hello again. END comes from a controller instead of orders: the program ended, with this status (4 bytes). */
     WH_FRAME_ASK = 6,
     WH_FRAME_END = 7
 };
 
-#define WH_SIGNALS_MAX 20U /* of all kinds together */
-#define WH_EDGES_MAX 16U   /* in one turn; later ones are lost */
+#define WH_SIGNALS_MAX 20U /* signals of all kinds together */
+#define WH_EDGES_MAX 16U   /* most edges in one turn; later ones are lost */
 #define WH_SAMPLES_MAX 24U
 
 typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, in `low`..`high` */
-    WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the nearest of value / per_count;
-                       * the ends of its range are `low` and `high` */
+    WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the integer nearest to value /
+                       * per_count; the converter's range is `low` to `high` */
     WH_SIGNAL_EDGE,   /* a pulse when the value enters `low`..`high`; for an angle, in any turn */
-    WH_SIGNAL_NOTE    /* a value that the controller reports of itself. No plant has it */
+    WH_SIGNAL_NOTE    /* a value that the controller reports about itself: no signal of the plant */
 } wh_signal_kind;
 
-/* The signals of a kind are its channels, numbered from 0 in their order. */
+/* Each kind of signal has channels of its own, numbered from 0 in the order of the signals. */
 typedef struct wh_signal {
     wh_signal_kind kind;
     const char *name; /* its name in the plant: an input; an output, coordinate or rate */
     const char *unit; /* SI */
     float low;
     float high;
-    float per_count;       /* of a sample: units per count */
-    uint32_t period_ticks; /* of a sample */
+    float per_count;       /* WH_SIGNAL_SAMPLE only: units per count */
+    uint32_t period_ticks; /* WH_SIGNAL_SAMPLE only: ticks between two samples */
 } wh_signal;
 
 typedef struct wh_hello {
     const char *program;
     const char *board;
-    uint32_t ticks_per_s; /* of all time stamps */
+    uint32_t ticks_per_s; /* rate of all time stamps */
     uint32_t timer_per_s; /* the rate of the timer that measures computing time; 0: no such timer */
-    uint32_t start_ticks; /* the timer at the plant's time 0 */
+    uint32_t start_ticks; /* the timer's reading at the plant's time 0 */
     const wh_signal *signal;
     unsigned signals;
 } wh_hello;
 
-/* Memory a board needs for a hello whose words have this many characters in all. */
+/* Size of a hello payload whose strings have this many characters together. */
 #define WH_HELLO_BYTES(signals, words) (15U + 19U * (signals) + (words))
 
 enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */
 
 typedef struct wh_orders {
-    uint32_t until_ticks; /* time of the next readings */
-    uint32_t acted_timer; /* counts from the readings' arrival until the outputs were set */
-    uint32_t busy_timer;  /* counts until these orders were sent */
-    uint32_t step_timer;  /* of the longest control step since the last orders; 0: not measured */
-    uint32_t
-        watchdog_ticks; /* without WH_ORDER_ALIVE for this long, outputs go to zero; 0: never */
+    uint32_t until_ticks;    /* time of the next readings */
+    uint32_t acted_timer;    /* counts from the readings' arrival until the outputs were set */
+    uint32_t busy_timer;     /* counts until these orders were sent */
+    uint32_t step_timer;     /* timer counts of the longest control step since the last orders; 0:
+                           * not measured */
+    uint32_t watchdog_ticks; /* if no WH_ORDER_ALIVE comes for this long, the plant sets the outputs
+                         * to zero; 0: never */
     uint8_t flags;
-    unsigned outputs;             /* and notes */
+    unsigned outputs;             /* number of outputs and notes together */
     float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */
 } wh_orders;
 
@@ -90,7 +90,7 @@ typedef struct wh_edge {
 /* Validity of a sample. */
 typedef enum wh_sample_status {
     WH_SAMPLE_GOOD,
-    WH_SAMPLE_SATURATED, /* at an end of the converter */
+    WH_SAMPLE_SATURATED, /* the converter is at an end of its range */
     WH_SAMPLE_DISCONNECTED
 } wh_sample_status;
 
@@ -103,7 +103,7 @@ typedef struct wh_sample {
 
 enum { WH_READING_CUT = 1 }; /* wh_readings.flags: the watchdog has cut the outputs */
 
-/* In the order of their ticks. The time is that of the frame. */
+/* Edges and samples are in the order of their ticks. The time of the readings is the frame's. */
 typedef struct wh_readings {
     uint8_t flags;
     unsigned edges;
@@ -114,15 +114,15 @@ typedef struct wh_readings {
 
 #define WH_REMEMBER_MAX 32U
 
-/* Why a controller restarts. A power-on has no such frame. */
+/* The cause of a controller's restart. After a power-on the plant sends no reset frame. */
 enum { WH_RESET_WATCHDOG = 1, WH_RESET_OTHER = 2 };
 typedef struct wh_reset {
     uint8_t cause;
-    unsigned count; /* the bytes it had remembered: */
+    unsigned count; /* number of bytes in remembered[] */
     uint8_t remembered[WH_REMEMBER_MAX];
 } wh_reset;
 
-/* Length of the longest payloads; for readings, the longer of the two. */
+/* Largest size of each payload. */
 #define WH_ORDERS_BYTES (22U + 4U * WH_SIGNALS_MAX)
 #define WH_RESET_BYTES (1U + WH_REMEMBER_MAX)
 #define WH_READINGS_BYTES (3U + 5U * WH_EDGES_MAX + 10U * WH_SAMPLES_MAX)
@@ -142,8 +142,8 @@ unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room);
 unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned room);
 unsigned wh_reset_put(const wh_reset *reset, uint8_t *bytes, unsigned room);
 
-/* Read a payload; false if it is invalid: too short, too long, or with unknown counts or kinds. Strings of a hello
- * point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
+/* Read a payload. Returns false if it is invalid: too short, too long, or with unknown counts or kinds. The strings
+ * of a hello point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
 bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsigned length);
 bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length);
 bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length);

@@ -91,7 +91,7 @@ WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) { return (int32_t)a * (int3
 WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) { return (int32_t)a * b; }
 #endif
 
-/* floor(a b / 2^32) by these. If b is a constant with a zero lower half, two of them drop out. */
+/* floor(a b / 2^32) from 16-bit products. If b is a constant with a zero lower half, two of the products drop out. */
 WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
     const int16_t a_high = (int16_t)(a >> 16);
     const int16_t b_high = (int16_t)(b >> 16);
@@ -107,7 +107,7 @@ WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
 #define wh_fixed_sine_table WH_NAME(wh_fixed_sine_table)
 #define wh_fixed_seed_table WH_NAME(wh_fixed_seed_table)
 
-/* wh_fixed_high_narrow() as a call, for processors on which it is long. */
+/* wh_fixed_high_narrow() as a function call, for processors on which its code is long. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b);
 
 WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
@@ -133,12 +133,13 @@ WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
     return wh_fixed_round(wh_fixed_high(a, b), by);
 }
 
-/* The 15 upper digits of x (up to 2^28) times a 15-digit number, 2^-by: for terms that are small compared with the sum. */
+/* (the upper 15 bits of x) * number * 2^-by, for |x| up to 2^28 and a 15-bit number. For terms that are small
+ * compared with the sum. */
 WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
     return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
 }
 
-/* Modulo 2^32, opaque to the compiler: for sums whose parts may be larger than the sum. */
+/* a + b modulo 2^32, opaque to the compiler. For sums in which a term may be larger than the result. */
 WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) {
     return (int32_t)((uint32_t)a + (uint32_t)b);
 }
@@ -153,12 +154,12 @@ WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
 WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
 WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
 
-/* -1, 0 or 1 with this many digits after the point. */
+/* The sign of x, -1, 0 or 1, with `bits` digits after the point. */
 WH_INLINE int32_t wh_fixed_sign(int32_t x, int bits) {
     return (int32_t)((uint32_t)(int32_t)((x > 0) - (x < 0)) << bits);
 }
 
-/* x, limited to low..high; counts each limiting. */
+/* x, limited to low..high. Increments *saturated if x was outside. */
 WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t *saturated) {
     if (WH_SELDOM((uint32_t)x - (uint32_t)low > (uint32_t)high - (uint32_t)low)) {
         ++*saturated;
@@ -167,8 +168,8 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
-/* x >> by for 7, 15 or 22, for an x with as many digits as occur here. An AVR shifts by whole bytes at no cost and by
- * single bits otherwise. */
+/* x >> by for by = 7, 15 or 22, for the sizes of x that occur here. An AVR shifts by whole bytes at no cost, and by
+ * one bit at a time otherwise. */
 WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #if WH_FIXED_AVR
     return by == 7    ? (x + x) >> 8
@@ -187,9 +188,9 @@ WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #define WH_FIXED_SECTOR_BITS 7
 #define WH_FIXED_QUARTER (1U << (WH_FIXED_SECTOR_BITS - 2))
 
-/* sin(2 pi i/128) 2^30, a turn and a quarter. */
+/* sin(2 pi i/128) 2^30, for a turn and a quarter. */
 extern const int32_t wh_fixed_sine_table[(1U << WH_FIXED_SECTOR_BITS) + WH_FIXED_QUARTER] WH_FLASH;
-/* 2^31/(128.5 + i) 2^-8, reciprocals of 9 digits. */
+/* 2^31/(128.5 + i) 2^-8: reciprocals of 9 bits. */
 extern const uint16_t wh_fixed_seed_table[128] WH_FLASH;
 
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
@@ -219,8 +220,9 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
 }
 #endif
 
-/* Sine and cosine of a phase (2^32 a turn), 2^30 each: the method of sine.h in integers. s and c are from the table,
- * and y is the remaining angle, 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). Small terms are 16-bit products. */
+/* Sine and cosine of a phase (2^32 per turn), scaled by 2^30: the method of sine.h in integers. s and c come from
+ * the table. y is the remaining angle r, with 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). Small terms are
+ * 16-bit products. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
     const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
@@ -228,7 +230,7 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t *middle = &wh_fixed_sine_table[sector];
     const int32_t s = wh_flash_int32(&middle[0]);
     const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
-#if WH_FIXED_AVR /* as above */
+#if WH_FIXED_AVR /* 16-bit products, as in wh_fixed_high_narrow() */
     const int32_t y = (int32_t)((phase << 8) >> 1 |
                                 ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
 #else
@@ -253,7 +255,7 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     *cosine = c + ((cosine_rest + 4) >> 3);
 }
 
-/* The same, called. */
+/* wh_fixed_sincos_here() as a function call. */
 void wh_fixed_sincos_called(uint32_t phase, int32_t *sine, int32_t *cosine);
 
 WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
@@ -264,7 +266,7 @@ WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #endif
 }
 
-/* The same for one of several waves: a call if products are long. */
+/* Sine and cosine for one of several waves in a scene: a call if products are long, inline otherwise. */
 WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #if WH_FIXED_NARROW
     wh_fixed_sincos_called(phase, sine, cosine);
@@ -289,8 +291,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, relative error below 2^-28: a table, then two Newton steps, the first with 16 digits, the
- * second with only the new digits. */
+/* 2^61/d for d >= 2^31, relative error below 2^-28: a table, then two Newton steps. The first step computes with 16
+ * bits, the second only with the bits that it adds. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

@@ -37,10 +37,10 @@ typedef struct wh_fixed_format {
 /* The variables of a run. The pointers point into the memory given to wh_fixed_start(). */
 typedef struct wh_fixed_state {
     uint64_t steps;
-    uint32_t saturated; /* values limited to their range since the start */
-    int64_t *angle;     /* [scene->angles] 2^32 a turn, turns counted */
-    int32_t
-        *real; /* [scene->reals] as in wh_state: linear positions, then all rates; or components */
+    uint32_t saturated; /* number of values that were limited to their range since the start */
+    int64_t *angle;     /* [scene->angles] 2^32 per turn, whole turns included */
+    int32_t *real; /* [scene->reals] as in wh_state. Second order: linear positions, then all rates;
+                * first order: the other components */
     int32_t *input; /* [scene->inputs] */
 } wh_fixed_state;
 
@@ -50,18 +50,18 @@ struct wh_fixed_scene {
     uint8_t angles;
     uint8_t reals;
     uint8_t inputs;
-    uint64_t steps;                /* to the scene's end */
-    const wh_fixed_format *format; /* [reals + inputs] */
+    uint64_t steps;                /* number of steps from the start to the scene's end */
+    const wh_fixed_format *format; /* [reals + inputs] formats of the reals, then of the inputs */
     const int64_t *start_angle;
     const int32_t *start_real;
     const int32_t *start_input;
-    const void *model; /* of the interpreter; NULL in generated code */
+    const void *model; /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;
-    /* One step, counted in state->steps. WH_OK. */
+    /* One step, counted in state->steps. Returns WH_OK. */
     wh_status (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
 };
 
-/* Bytes of caller memory for this many angles, and reals and inputs together. */
+/* Bytes of caller memory for this many angles and this many reals and inputs together. */
 #define WH_FIXED_BYTES(angles, numbers) (WH_SIZE(angles) * 8U + WH_SIZE(numbers) * 4U)
 
 #define wh_fixed_start WH_NAME(wh_fixed_start)
@@ -80,30 +80,30 @@ struct wh_fixed_scene {
 wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
                          size_t bytes);
 
-/* One step, also beyond the scene's end. Returns WH_OK (nothing diverges, but state->saturated counts), or
- * WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_fixed_start(). */
+/* One step, also beyond the scene's end. Returns WH_OK: a step cannot diverge, but it may increase state->saturated.
+ * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_fixed_start(). */
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 
 /* Hash of step count, saturations, angles and reals: equal runs on any two machines give equal hashes. 0 for a state
  * that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* Conversions, in floating point; no step calls them. A number of this format: to the nearest, halves away from zero.
- * Beyond the range the nearest end, for NaN the low one; *saturated counts both. A range may end between two numbers of
- * the format: its end, up to a unit (in float also its last place) beyond, is inside. */
+/* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of this format, halves away
+ * from zero. A value beyond the range gives the nearest end, NaN the low end; both increment *saturated. If the range ends
+ * between two numbers of the format, a value up to one unit beyond that end (in float plus its last place) is inside. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 
-/* Component i of the reals, SI; angle i, unwrapped radians. For a state that was not started they return 0 and set
- * nothing. NaN sets nothing. */
+/* Read or write component i of the reals, SI, or angle i, unwrapped radians. For a state that was not started,
+ * reading returns 0 and writing does nothing. NaN writes nothing. */
 wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value);
 
-/* Set input i to `value`, SI; or to `number`, in the integers of its format. Beyond its range it is set to the nearest
- * end and counted as saturated, and the call returns WH_E_ARGUMENT. NaN and a missing input i give WH_E_ARGUMENT and
- * change nothing. */
+/* Set input i to `value`, SI, or to `number`, an integer of the input's format. A value beyond the range sets the
+ * nearest end, counts as saturated, and returns WH_E_ARGUMENT. NaN and an input i that does not exist return
+ * WH_E_ARGUMENT and change nothing. */
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value);
 wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,

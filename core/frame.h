@@ -18,30 +18,31 @@
 extern "C" {
 #endif
 
-/* Raised whenever the meaning of a frame changes. A reader returns frames of every version: the caller must check. */
+/* Raised whenever the meaning of a frame changes. wh_frame_take() returns frames of every version: the caller must
+ * check it. */
 #define WH_FRAME_VERSION 1U
 
 /* Bytes of a frame other than payload, before coding. */
 #define WH_FRAME_FIXED_BYTES 12U
-/* Most bytes on the line of a frame with this payload, including its zero. A constant if `payload` is. */
+/* Largest coded size of a frame with this payload, including the final zero. A constant if `payload` is constant. */
 #define WH_FRAME_BYTES(payload) \
     (WH_FRAME_FIXED_BYTES + (payload) + (WH_FRAME_FIXED_BYTES + (payload)) / 254U + 2U)
 
 typedef struct wh_frame {
     uint8_t version;
-    uint8_t kind;      /* the payload's kind, defined by the user */
-    uint16_t sequence; /* of the sender, wrapping: a gap shows lost frames */
+    uint8_t kind;      /* kind of payload, defined by the user of this file */
+    uint16_t sequence; /* number of the frame from this sender, wrapping: a gap shows lost frames */
     uint32_t ticks;    /* the sender's time */
     const uint8_t *payload;
-    unsigned length; /* of the payload */
+    unsigned length; /* of the payload, bytes */
 } wh_frame;
 
 typedef struct wh_frame_reader {
-    uint8_t *bytes; /* the caller's, room[] */
+    uint8_t *bytes; /* memory of the caller, room[] bytes */
     unsigned room;
     unsigned length;  /* of the frame in progress */
-    bool too_long;    /* it is longer than the room and will be dropped */
-    uint32_t dropped; /* bad frames, or other bytes between two zeros; wraps */
+    bool too_long;    /* the frame in progress is longer than the room and will be dropped */
+    uint32_t dropped; /* number of bad frames and of other bytes between two zeros; wraps */
 } wh_frame_reader;
 
 #define wh_frame_crc WH_NAME(wh_frame_crc)
@@ -49,27 +50,28 @@ typedef struct wh_frame_reader {
 #define wh_frame_reader_start WH_NAME(wh_frame_reader_start)
 #define wh_frame_take WH_NAME(wh_frame_take)
 
-/* CRC-32 of bytes[count]; `crc` is 0, or the CRC of the bytes before. */
+/* CRC-32 of bytes[count]. `crc` is 0, or the CRC of the preceding bytes. */
 uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count);
 
-/* Write the frame, coded and with its final zero, into bytes[room]; sets `version`. Returns the length; 0 if there is
- * no room: `bytes` is then useless. */
+/* Write the frame, coded and with its final zero, into bytes[room]; the function sets the frame's version. Returns
+ * the coded length, or 0 if there is no room; `bytes` is then useless. */
 unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room);
 
-/* Begin to read. Takes frames of up to room - 1 coded bytes before their zero: WH_FRAME_BYTES(payload) is enough. */
+/* Begin to read. The reader takes frames of up to room - 1 coded bytes before the final zero: a room of
+ * WH_FRAME_BYTES(payload) is enough. */
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room);
 
-/* Process the next byte of the line. True if it ends a good frame: *frame is that frame, its payload in the reader's
- * memory until the next call. */
+/* Process the next byte of the line. Returns true if the byte ends a good frame. *frame is then that frame; its
+ * payload stays in the reader's memory until the next call. */
 bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame);
 
 /* --- numbers in a payload, low byte first -------------------------------------------------------*/
 
-/* Bytes that are written, or read, number by number. Beyond the end nothing is written, zeros are read, and `over` is
- * set. */
+/* A cursor for writing or reading a payload number by number. Beyond the end it writes nothing, reads zeros, and
+ * sets `over`. */
 typedef struct wh_bytes {
-    uint8_t *to;         /* written */
-    const uint8_t *from; /* read */
+    uint8_t *to;         /* for writing */
+    const uint8_t *from; /* for reading */
     unsigned room;
     unsigned at;
     bool over;
@@ -82,15 +84,16 @@ typedef struct wh_bytes {
 #define wh_bytes_get_float WH_NAME(wh_bytes_get_float)
 #define wh_bytes_get_words WH_NAME(wh_bytes_get_words)
 
-/* The low `size` bytes (1 to 4) of a number. */
+/* Write or read a number's low `size` bytes (1 to 4). */
 void wh_bytes_put(wh_bytes *bytes, uint32_t number, unsigned size);
 uint32_t wh_bytes_get(wh_bytes *bytes, unsigned size);
 
-/* The 32 bits of a float. */
+/* Write or read the 32 bits of a float. */
 void wh_bytes_put_float(wh_bytes *bytes, float number);
 float wh_bytes_get_float(wh_bytes *bytes);
 
-/* A string with its zero. A string that is read points into the bytes; "" if its zero is missing. */
+/* Write or read a string with its final zero. A string that is read points into the bytes; it is "" if the zero is
+ * missing. */
 void wh_bytes_put_words(wh_bytes *bytes, const char *words);
 const char *wh_bytes_get_words(wh_bytes *bytes);
 

@@ -25,14 +25,14 @@ extern "C" {
 #define wh_cosh WH_NAME(wh_cosh)
 #define wh_tanh WH_NAME(wh_tanh)
 
-/* X-macro of all of them: ONE(name) of one argument, TWO(name) of two. */
+/* X-macro of all functions: ONE(name) of one argument, TWO(name) of two. */
 #define WH_FUNCTIONS(ONE, TWO) \
     ONE(exp) \
     ONE(log) \
     ONE(tan) ONE(asin) ONE(acos) ONE(atan) TWO(atan2) TWO(pow) ONE(sinh) ONE(cosh) ONE(tanh)
 
 /* e^x, the natural logarithm, the inverse trigonometric functions in radians, and the hyperbolic sine, cosine and
- * tangent: within one unit in the last place. */
+ * tangent. The error is within one unit in the last place. */
 wh_real wh_exp(wh_real x);
 wh_real wh_log(wh_real x);
 wh_real wh_asin(wh_real x);
@@ -42,9 +42,9 @@ wh_real wh_sinh(wh_real x);
 wh_real wh_cosh(wh_real x);
 wh_real wh_tanh(wh_real x);
 
-/* Within two units in float, one in double. Radians, of any size. */
+/* tan(rad), for angles of any size. The error is within two units in the last place in float, one in double. */
 wh_real wh_tan(wh_real rad);
-/* The angle of the point (x, y), -pi to pi. */
+/* The angle of the point (x, y), from -pi to pi. */
 wh_real wh_atan2(wh_real y, wh_real x);
 /* base^exponent; exact if the result is a wh_real. */
 wh_real wh_pow(wh_real base, wh_real exponent);

@@ -1,10 +1,8 @@
 /* function_double.h: what the double build of function.h computes with, for core/function_*_double.c.
  *
- * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: some
- * hundred bits (the host takes it too: host/number/double_double.h). It is made of additions, products and
- * quotients alone. Results leave as the rounded sum of a pair, so that they err by little more than half
- * a unit in the last place.
- */
+ * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: some hundred bits (the
+ * host takes it too: host/number/double_double.h). It is made of additions, products and quotients alone. Results leave as
+ * the rounded sum of a pair, so that they err by little more than half a unit in the last place. */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 
@@ -43,7 +41,8 @@ WH_INLINE wh_pair wh_pair_sum(double a, double b) {
 #define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
 #define WH_INFINITY __builtin_inf()
 
-/* Within one unit in the last place for all angles. The core's wh_sincos() has an absolute error, and a range. */
+/* sin(rad) for all angles, within one unit in the last place. The core's wh_sincos() has an absolute error instead,
+ * and a limited range. */
 double wh_sine(double rad);
 double wh_cosine(double rad);
 
@@ -51,9 +50,9 @@ double wh_cosine(double rad);
 wh_pair wh_log_pair(double x);
 /* e^exponent, rounded once, including subnormals. |exponent| < 1e4. */
 double wh_exp_pair(wh_pair exponent);
-/* The same as a pair from 0.99 to 2, to 60 bits, and a power of two. */
+/* e^exponent as a pair between 0.99 and 2, to 60 bits, and a power of two. */
 wh_pair wh_exp_parts(wh_pair exponent, int *power_of_two);
-/* A pair from 0.99 to 2 times 2^exponent, rounded once, including infinity and subnormals. */
+/* A pair between 0.99 and 2 times 2^exponent, rounded once; the result may be infinite or subnormal. */
 double wh_scaled_pair(wh_pair x, int exponent);
 
 WH_INLINE uint64_t wh_bits(double x) {
@@ -76,7 +75,7 @@ WH_INLINE bool wh_is_nan(double x) { return x != x; }
 
 WH_INLINE double wh_signed(double size, bool negative) { return negative ? -size : size; }
 
-/* 2^exponent, -1022 to 1023. */
+/* 2^exponent, for exponent from -1022 to 1023. */
 WH_INLINE double wh_power_of_two(int exponent) {
     return wh_of_bits((uint64_t)(exponent + 1023) << 52);
 }
@@ -84,7 +83,7 @@ WH_INLINE double wh_power_of_two(int exponent) {
 /* The upper 26 bits of a number's 53. */
 WH_INLINE double wh_upper(double x) { return wh_of_bits(wh_bits(x) & ~UINT64_C(0x7ffffff)); }
 
-/* a b to 106 bits. */
+/* The product a b to 106 bits. */
 WH_INLINE wh_pair wh_product(double a, double b) {
     const double product = a * b;
     const double a_high = wh_upper(a);

@@ -15,7 +15,7 @@
 #include "function.h"
 #include "number/flash.h"
 
-/* Magnitudes of a float as bits: their order as integers is their order as numbers. */
+/* Bits of a float without its sign: as integers they have the same order as the numbers. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)
 #define WH_BITS_ONE UINT32_C(0x3f800000)
 #define WH_BITS_INFINITE UINT32_C(0x7f800000)
@@ -37,7 +37,7 @@ WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
 
 WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
 
-/* A number of a WH_FLASH table. An AVR needs special instructions for it, which read floats here. */
+/* Reads a number of a WH_FLASH table. On an AVR flash needs special instructions, which read floats here. */
 WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #if defined(__AVR__)
     return wh_bits_of(wh_flash_real((const float *)(const void *)from));
@@ -46,7 +46,7 @@ WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #endif
 }
 
-/* The upper half of a product. */
+/* The upper 32 bits of a b. */
 WH_INLINE uint32_t wh_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 
 /* Leading zeros of x > 0. An int has 16 bits on the smallest machines. */
@@ -57,7 +57,7 @@ WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
 
 WH_INLINE uint32_t wh_leading_zeros_64(uint64_t x) { return (uint32_t)__builtin_clzll(x); }
 
-/* For a finite magnitude that is not zero, subnormal ones included. */
+/* The digits of a finite magnitude that is not zero; subnormal magnitudes are allowed. */
 WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
     wh_digits d = {(magnitude << 8) | WH_TOP_BIT, (int32_t)(magnitude >> 23) - 127};
     if (magnitude < UINT32_C(0x00800000)) {
@@ -67,7 +67,7 @@ WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
     return d;
 }
 
-/* size^2 2^(2 exponent) as Q32, for a value below one. */
+/* x^2 as Q32, for x^2 below one. */
 WH_INLINE uint32_t wh_square(wh_digits x) {
     const int32_t shift = -2 * x.exponent - 2;
     return shift > 31 ? 0U : wh_high(x.size, x.size) >> shift;
@@ -82,7 +82,7 @@ WH_INLINE uint32_t wh_series(const uint32_t *series, unsigned count, uint32_t x)
     return sum;
 }
 
-/* x (1 + more/2^32). */
+/* x (1 + more/2^32), as digits. */
 WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
     x.size = (x.size >> 1) + (wh_high(x.size, more) >> 1);
     x.exponent++;
@@ -95,12 +95,12 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
 #define wh_float_octaves WH_NAME(wh_float_octaves)
 #define wh_float_exp2 WH_NAME(wh_float_exp2)
 
-/* The float nearest to size/2^31 * 2^exponent, for size > 0 and any exponent. Ties to even; infinite beyond the largest
- * float, subnormal and zero below the least. sign is WH_BITS_SIGN or 0. */
+/* The float nearest to size/2^31 * 2^exponent, for size > 0 and any exponent. Ties go to even. Results beyond the
+ * largest float are infinite, small ones subnormal or zero. `sign` is WH_BITS_SIGN or 0. */
 float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 
-/* num/den, or twice that if it is below one, in Q31, rounded down. num and den have their top bit set and their 8
- * lowest bits clear. */
+/* num/den in Q31, doubled if it is below one, rounded down. The top bit of num and den is set, and their 8 lowest
+ * bits are clear. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
 
 /* 1/x, x > 0: relative error at most 1e-9. */

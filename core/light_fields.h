@@ -24,8 +24,8 @@
     X(thomson_a_conserved) \
     X(shuttle_buffers)
 
-/* Names of fields, in their order. For each scene: the hash of its operations; the hash of its last state, with steps
- * and status; least, median and most cycles of a step. */
+/* Names of the fields, in order. Each scene has: the hash of its operations; the hash of its last state, with steps
+ * and status; the least, median and largest number of cycles of a step. */
 #define WH_LIGHT_OF_SCENE(scene) "model." #scene, "hash." #scene, "cycles." #scene,
 #define WH_LIGHT_FIELDS \
     "board", "chip", "version", "compiler", WH_LIGHT_SCENES(WH_LIGHT_OF_SCENE) "stack", "clock", \

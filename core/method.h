@@ -85,7 +85,6 @@
 #define WH_METHOD_ROWS(X) WH_SHORT_METHOD_ROWS(X) WH_LONG_METHOD_ROWS(X)
 /* clang-format on */
 
-/* The default method. */
 #define WH_METHOD_DEFAULT WH_RK4
 
 #define WH_METHOD_NAME(id, word, title, order, takes, stages, ...) id,
@@ -96,8 +95,8 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* Systems that a method takes: a bit for each wh_form (scene.h), and one for accelerations that must not depend on
- * rates. */
+/* Systems that a method takes: one bit for each wh_form (scene.h), and one that means "only accelerations that do
+ * not depend on rates". */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 #ifdef __cplusplus
@@ -121,8 +120,8 @@ extern const wh_method_row wh_methods[WH_METHODS];
 }
 #else
 
-/* The available rows. A generated scene defines its method's number of stages (WH_STAGES). Room for two more stages
- * costs 8-bit chips 200 bytes of RAM if the compiler keeps any of the row. */
+/* The available rows. A generated scene defines its method's number of stages (WH_STAGES), which drops the longer
+ * rows: room for two more stages costs 8-bit chips 200 bytes of RAM if the compiler stores any of the row. */
 #if defined(WH_STAGES) && WH_STAGES <= 4
 #define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
 #define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)
@@ -139,8 +138,8 @@ union wh_method_stages {
 /* Most stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
-/* share[j] parts of `parts`: the weight of stage j's derivative. Not integers: rows of higher order have shares that
- * are not ratios of small integers. */
+/* Weights of the stages: the derivative of stage j has the weight share[j] / parts. Shares are not integers, because
+ * rows of higher order have shares that are not ratios of small integers. */
 typedef struct wh_shares {
     wh_real parts;
     wh_real share[WH_STAGES_MAX];
@@ -154,7 +153,7 @@ typedef struct wh_places {
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
-    const wh_places *places; /* NULL: positions follow the rates */
+    const wh_places *places; /* positions of the stages; NULL: they follow from the rates */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
@@ -166,8 +165,8 @@ typedef struct wh_tableau {
 WH_TABLEAUS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
 
-/* One object each, not an array: if the method is constant, generated code contains only its row, and not even that if
- * the loops over it are unrolled. */
+/* One object for each row, not an array. If the method is constant, generated code then contains only its own row,
+ * and not even that if the loops over it are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \

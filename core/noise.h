@@ -19,11 +19,10 @@ extern "C" {
 
 #define wh_noise_raw WH_NAME(wh_noise_raw)
 
-/* The deviate of `seed` at `index` in units of 2^-16: -566871 to 566871. Different seeds give independent sequences;
- * equal seeds the same one. */
+/* The deviate of `seed` at `index` in units of 2^-16: -566871 to 566871. Different seeds give independent sequences. */
 int32_t wh_noise_raw(uint32_t seed, uint64_t index);
 
-/* The deviate in standard deviations, exactly: times 2^-16. */
+/* The deviate in standard deviations: wh_noise_raw() times 2^-16, exactly. */
 WH_INLINE wh_real wh_noise(uint32_t seed, uint64_t index) {
     return (wh_real)wh_noise_raw(seed, index) * WH_R(1.52587890625e-05);
 }

@@ -35,7 +35,8 @@
     "Whirl computes the same bits everywhere, and this compiler keeps more of them in between: on x86 use -msse2 -mfpmath=sse, on s390x -std=gnu11."
 #endif
 
-/* Tools that predefine no macros, such as cppcheck, read on. wh_scene_start() checks compilers without these macros. */
+/* Tools that predefine no macros, such as cppcheck, skip this check. For compilers without these macros,
+ * wh_scene_start() checks the arithmetic. */
 #if defined(__FLT_RADIX__) && \
     (__FLT_RADIX__ != 2 || __FLT_MANT_DIG__ != 24 || (WH_DOUBLE && __DBL_MANT_DIG__ != 53))
 #error "Whirl needs IEEE 754 numbers: float of 32 bits and, with WH_DOUBLE=1, double of 64 bits."
@@ -85,16 +86,16 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
-/* 1 on a chip with small flash that passes reals in floating-point registers. There a rare path is a call of a function
- * that all scenes share. */
+/* 1 on a chip with small flash that passes reals in floating-point registers. On such a chip a rare path calls a
+ * function that all scenes share. */
 #if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_AHEAD) && WH_AHEAD)
 #define WH_REALS_IN_REGISTERS 1
 #else
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* Where flash is scarcer than time (-DWH_SMALL=1), a function that must not be inlined: a copy would be larger,
- * whatever the compiler estimates. WH_SHARED: the same in a header, inline elsewhere. */
+/* WH_CALLED: a function that is not inlined if flash is scarcer than time (-DWH_SMALL=1): a copy would be larger,
+ * whatever the compiler estimates. WH_SHARED: such a function in a header; inlined if flash is not scarce. */
 #ifndef WH_SMALL
 #define WH_SMALL 0
 #endif
@@ -106,7 +107,8 @@ typedef float wh_real;
 #define WH_SHARED WH_INLINE
 #endif
 
-/* A function, and a branch, that rarely run: optimized for size, and placed away from the others. */
+/* WH_COLD marks a function that rarely runs, WH_SELDOM a condition that is rarely true. Compilers optimize such code
+ * for size and place it away from the rest. */
 #if defined(__GNUC__)
 #define WH_COLD __attribute__((cold))
 #else
@@ -120,7 +122,7 @@ typedef float wh_real;
 #define WH_SELDOM(condition) (condition)
 #endif
 
-/* Errors are negative; zero is success: X(name, value, words for consoles, wh_status_text()). */
+/* Errors are negative; zero is success. X(name, value, words for consoles: wh_status_text()). */
 #define WH_STATUS_ROWS(X) \
     X(WH_OK, 0, "ok") \
     /* a step gave a non-finite or absurd state; the last good one is kept */ \
@@ -131,9 +133,9 @@ typedef float wh_real;
     X(WH_E_ARGUMENT, -3, "an argument is out of range") \
     /* the last good state is kept */ \
     X(WH_E_UNDEFINED, -4, "an expression of a contact is not a finite number") \
-    /* holds met where they do; the last good state is kept */ \
+    /* from here the holds allow more than one motion; the last good state is kept */ \
     X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
-    /* the build would compute other bits than all others: arithmetic.h says why */ \
+    /* compiled or set up so that the bits would differ from all other builds': see arithmetic.h */ \
     X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),

@@ -28,19 +28,19 @@
 
 #include "step/step_end.h"
 
-/* Derivatives of a first-order system: slope[angles + reals], angles first (rad/s). */
+/* Derivatives of a first-order system: slope[angles + reals], the angles' slopes first (rad/s). */
 typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real *real,
                          const wh_real *input, wh_real *slope);
 
-/* The system that is stepped, x' = f(x, u). Either `slope` gives all slopes, or `accel` the accelerations of a mechanism
- * with `coordinates` positions, `angles` of them angles. The other one is NULL. */
+/* The system x' = f(x, u). Either `slope` computes all slopes, or `accel` the accelerations of a mechanism with
+ * `coordinates` positions, of which the first `angles` are angles. The other pointer is NULL. */
 typedef struct wh_rk4_system {
     const void *model;
     wh_slope_fn *slope;
     wh_accel_fn *accel;
     unsigned coordinates;
     unsigned angles;
-    unsigned reals; /* of the state: linear positions, then rates */
+    unsigned reals; /* number of reals in the state: linear positions, then rates */
 } wh_rk4_system;
 
 /* One slope for each component of the state. */
@@ -72,7 +72,7 @@ WH_INLINE void wh_rk4_evaluate(const wh_rk4_system *f, const wh_phase *phase, co
     }
 }
 
-/* k = f(x + h k0), of the state x. The first angle that would move by half a turn or more, or `angles`. */
+/* k = f(x + h k0). Returns the first angle that would move by half a turn or more, or `angles` if there is none. */
 WH_INLINE unsigned wh_rk4_stage(const wh_rk4_system *f, const wh_state *x, wh_real h,
                                 const wh_rk4_slopes *k0, wh_rk4_slopes *k) {
     wh_phase phase[WH_COORDS] = {0};
@@ -97,13 +97,14 @@ WH_INLINE wh_real wh_rk4_sum(wh_real k1, wh_real k2, wh_real k3, wh_real k4) {
     return k1 + WH_R(2.0) * (k2 + k3) + k4;
 }
 
-/* One step, h long. WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the state as it was. */
+/* One step of h seconds. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the state unchanged. */
 WH_INLINE wh_status wh_rk4_step(const wh_rk4_system *f, wh_real h, wh_state *state) {
     const unsigned angles = f->angles;
     const wh_real half = h / WH_R(2.0);
     const wh_real sixth = h / WH_R(6.0);
     wh_rk4_slopes k1;
-    wh_rk4_slopes k2 = {.angle = {0}, .real = {0}}; /* for analysers: a stage fills it */
+    wh_rk4_slopes k2 = {.angle = {0}, .real = {0}}; /* zeros only for static analysers: a stage
+                                                     * fills k2 */
     wh_rk4_slopes k3 = {.angle = {0}, .real = {0}};
     wh_rk4_slopes k4 = {.angle = {0}, .real = {0}};
     wh_phase phase[WH_COORDS] = {0};

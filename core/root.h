@@ -19,7 +19,7 @@ extern "C" {
  * own roots; the roots of NaN and of negative numbers are NaN. */
 wh_real wh_sqrt(wh_real x);
 
-/* WH_ROOT_BUILTIN: the compiler's root is the instruction alone. */
+/* WH_ROOT_BUILTIN: the compiler's square root is one instruction, without a call. */
 #if defined(__GNUC__) && defined(__NO_MATH_ERRNO__)
 #if defined(__aarch64__) || defined(__wasm__)
 #define WH_ROOT_BUILTIN 1
@@ -35,7 +35,7 @@ wh_real wh_sqrt(wh_real x);
 
 #if defined(__GNUC__) && defined(__SSE2_MATH__) /* x86, computing with SSE */
 WH_INLINE wh_real wh_root_sse(wh_real x) {
-    /* in every place: cheaper than zeros in the others */
+    /* the same number in all lanes: cheaper than zeros in the unused ones */
 #if WH_DOUBLE
     typedef double reals __attribute__((vector_size(16)));
     const reals all = {x, x};

@@ -51,27 +51,28 @@ struct wh_scene {
     wh_method method;
     uint8_t angles;   /* components kept as a turn angle */
     uint8_t reals;    /* components kept as a real */
-    uint8_t inputs;   /* may change while running */
+    uint8_t inputs;   /* may change between steps */
     uint8_t outputs;  /* computed by observe(), never in the step */
     uint8_t contacts; /* stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
-    uint8_t held;     /* holds that could slip: along several coordinates, or curved */
-    uint8_t driven;   /* inputs with a rate; the last positions and the last rates follow them */
+    uint8_t held;     /* holds that could slip: they involve several coordinates, or are curved */
+    uint8_t driven;   /* inputs with a rate; the last positions and the last rates follow these
+                       * inputs */
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
-    wh_fraction step; /* the same exactly, for wh_scene_time(); {0, 0}: not known */
-    uint64_t steps;   /* steps to the scene's end, at most 2^63 */
+    wh_fraction step; /* step_s as an exact fraction, for wh_scene_time(); {0, 0}: not known */
+    uint64_t steps;   /* number of steps from the start to the scene's end, at most 2^63 */
     const wh_angle *start_angle;
     const wh_real *start_real;
     const wh_real *start_input;
     const wh_ledger_form *ledger; /* NULL: the scene has no ledger */
     const void *model;            /* the interpreter's operation list; NULL in generated code */
-    uint64_t model_hash;          /* of the operation list: identifies the physics */
+    uint64_t model_hash;          /* hash of the operation list: identifies the physics */
     /* One step, counted in state->steps. Returns WH_E_DIVERGED on divergence. Returns WH_E_UNDEFINED if a contact's
      * gap, condition, value, friction or restitution is not a finite number. On an error it sets state->fault and
      * leaves the rest unchanged. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
-    /* `steps` steps, at least one, counted in state->steps: see wh_scene_steps(). NULL: advance() in a loop. Generated
-     * code has it if it is compiled with -DWH_AHEAD=1. */
+    /* `steps` steps, at least one, counted in state->steps: see wh_scene_steps(). NULL: wh_scene_steps() calls
+     * advance() in a loop. Generated code has this function if it is compiled with -DWH_AHEAD=1. */
     wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
@@ -80,8 +81,8 @@ struct wh_scene {
 };
 
 /* Bytes of caller memory that wh_scene_start() takes for a scene's angles, reals and contacts. all_reals counts the
- * state's, a low part for each component if compensated, inputs, holds' values and the ledger's. Constant if the
- * arguments are; the generated header has it with the scene's own numbers. */
+ * state's reals, a low part for each component if compensated, the inputs, the holds' values and the ledger's reals.
+ * The result is constant if the arguments are. The generated header computes it with the scene's own numbers. */
 #define WH_MEMORY_BYTES(angles, all_reals, contacts) \
     ((contacts) > 0 ? (WH_NUMBER_BYTES(angles, all_reals) + 7U) / 8U * 8U + sizeof(wh_contacts) \
                     : WH_NUMBER_BYTES(angles, all_reals))
@@ -89,7 +90,7 @@ struct wh_scene {
     (WH_SIZE(angles) * sizeof(wh_angle) + WH_SIZE(all_reals) * sizeof(wh_real))
 
 /* Eight-byte words of caller memory for a state with this many angles, reals and inputs, for arrays sized by hand.
- * Enough for float and double, compensated or not. */
+ * Enough for float and double, and for compensated sums. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
     (WH_SIZE(angles) + (2U * WH_SIZE(reals) + WH_SIZE(angles) + WH_SIZE(inputs)))
 
@@ -114,13 +115,13 @@ struct wh_scene {
 #define wh_scene_rates WH_NAME(wh_scene_rates)
 #define wh_status_text WH_NAME(wh_status_text)
 
-/* Put `state` at the scene's start. `memory`, of `bytes` bytes and aligned as a uint64_t in a struct, must outlive the
- * run. Returns WH_OK; or, with memory untouched and the state not started:
- * - WH_E_MEMORY: memory is too small or NULL.
- * - WH_E_ARGUMENT: memory is not aligned, scene or state is NULL, or no generator writes such a scene (its form does
- *   not have the method, or it has too many contacts).
- * - WH_E_ARITHMETIC: compiler flags or the machine's modes give other bits than on every other machine; state->fault
- *   says how. */
+/* Put `state` at the scene's start. `memory` has `bytes` bytes, is aligned as a uint64_t in a struct, and must
+ * outlive the run. Returns WH_OK; or an error, with the memory untouched and the state not started:
+ * - WH_E_MEMORY: the memory is too small or NULL.
+ * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, or no generator writes such a scene (its
+ * method does not take its form, or it has too many contacts).
+ * - WH_E_ARITHMETIC: compiler flags or the machine's modes would give other bits than every other machine;
+ * state->fault says how. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
@@ -128,19 +129,19 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
  * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
-/* Do `steps` steps (0 is allowed), for simulating ahead. The bits are those of as many calls of wh_scene_step(). If the
- * scene's file is compiled with -DWH_AHEAD=1, it takes fewer instructions and twice the flash. Returns as
- * wh_scene_step() does; state->steps counts the steps done. */
+/* Do `steps` steps (0 is allowed), for simulating ahead. The result has the bits of as many calls of
+ * wh_scene_step(). If the scene's file is compiled with -DWH_AHEAD=1, the steps take fewer instructions and twice
+ * the flash. Returns as wh_scene_step() does; state->steps counts the steps done. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
- * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. The next step goes on as a run that starts from the
- * corrected state. It puts a coordinate beyond a stop back onto the stop, finds every contact's mode again, and each
- * hold keeps the value it finds. The component's compensation is reset. With a ledger, the change of each account is
- * stored apart (wh_ledger_corrected()). An angle keeps its turns. wh_scene_move_angle() adds to the angle and so keeps
- * all its digits after many turns. Returns WH_OK. It returns WH_E_ARGUMENT, with the state unchanged, for a state
- * that was not started, an unknown index, and a value that is not finite or out of bounds. So it does for an index that
- * follows an input with a rate: set the input. */
+ * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. The next step goes on like a run that starts from the
+ * corrected state. It puts a coordinate beyond a stop back onto the stop, finds every contact's mode again, and lets
+ * each hold keep the value that it finds. The corrected component loses its compensation. With a ledger, the change
+ * of each account is stored apart (wh_ledger_corrected()). wh_scene_move_angle() adds to the angle, so the angle
+ * keeps all its digits after many turns. Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that
+ * was not started, an unknown index, and a value that is not finite or out of bounds. An index that follows an input
+ * with a rate also gives WH_E_ARGUMENT: set the input instead. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
@@ -151,15 +152,15 @@ wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned a
  * as a fraction, this is wh_scene_time_s(), split. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
-/* The same as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s (U = 2^-24 in
- * float: a millisecond at 4.7 h). The outputs of generated scenes use this time. */
+/* Time of the state as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s
+ * (U = 2^-24 in float: a millisecond at 4.7 h). The outputs of generated scenes use this time. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
 /* Hash of step count, angles, reals, holds' values and contact modes: equal runs on any two machines give equal hashes.
  * 0 for a state that was not started. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
-/* Where the rates of a second-order scene begin in state->real. NULL for a state that was not started. */
+/* The first of the rates of a second-order scene, in state->real. NULL for a state that was not started. */
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 
 /* A status in words, for consoles. */

@@ -17,49 +17,51 @@ extern "C" {
  * First order (systems stated directly): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
-/* Limit on moments with events in one step, and on logged events. */
+/* Most moments with events in one step, and most logged events. */
 #define WH_EVENTS_MAX 8
 #define WH_EVENT_LOG 16
 
 /* Most contacts of any scene. */
 #define WH_CONTACTS_LIMIT 16
 
-/* Modes of a contact. Sliding friction has the sign of its rate, a crossing the side it is on. */
+/* Modes of a contact. The mode of a sliding friction is the sign of its rate; the mode of a crossing is the side of
+ * zero that its value is on. */
 enum {
-    WH_FREE = 0,   /* stop out of touch; hold released */
-    WH_ACTIVE = 1, /* stop resting; hold closed */
-    WH_STUCK = 0,  /* friction */
+    WH_FREE = 0,   /* stop out of touch; released hold */
+    WH_ACTIVE = 1, /* resting stop; closed hold */
+    WH_STUCK = 0,  /* sticking friction */
     WH_UNSET = 127 /* after the start and after a correction, until the next step */
 };
 
 /* An event of a scene with contacts (contact.h). */
 typedef struct wh_event {
     uint8_t contact;
-    int8_t mode;     /* the contact's mode after it */
-    wh_real at_s;    /* since the step began */
+    int8_t mode;     /* the contact's mode after the event */
+    wh_real at_s;    /* time since the step began */
     wh_real impulse; /* of a stop or a hold, else 0 */
 } wh_event;
 
 /* The variables of the contacts. */
 typedef struct wh_contacts {
-    uint64_t events; /* since the start */
-    /* steps with more than WH_EVENTS_MAX moments with events, or a stop that rests from the last of these on */
+    uint64_t events; /* number of events since the start */
+    /* number of steps with more than WH_EVENTS_MAX moments with events, or in which a stop rested because the last
+     * of these moments was reached */
     uint64_t overruns;
-    uint32_t logged; /* events of the last step, in log[] */
+    uint32_t logged; /* number of events of the last step, in log[] */
     wh_event log[WH_EVENT_LOG];
-    int8_t mode[WH_CONTACTS_LIMIT]; /* [scene->contacts] are in use */
+    int8_t mode[WH_CONTACTS_LIMIT]; /* [scene->contacts] */
 } wh_contacts;
 
 /* The variables of a run. All pointers point into the memory given to wh_scene_start(). */
 typedef struct wh_state {
-    uint64_t steps;  /* steps done; time is computed from them and is never a running sum */
+    uint64_t steps;  /* number of steps done; time is computed from it and is never a running sum */
     wh_angle *angle; /* [scene->angles] */
     wh_real *real;   /* [scene->reals] SI units */
-    wh_real *carry;  /* [scene->angles + scene->reals] low parts when compensated, else NULL */
+    wh_real *carry;  /* [scene->angles + scene->reals] low parts if compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held; /* [scene->held] holds' values: the value itself of a curved one, the slip so far
-                    * of a straight one; SI units */
+    wh_real *held;         /* [scene->held] values of the holds, SI units: a curved hold's value, a
+                    * straight hold's slip so far */
     wh_real
         *ledger; /* the ledger's totals, carries, levels at the start, and corrections; or NULL */
     /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or WH_E_SINGULAR: the

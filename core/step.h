@@ -30,8 +30,8 @@
 #include "step/ahead.h"
 #include "step/step_end.h"
 
-/* An angle at a stage whose shares of the rates have `sum`. A stage in the middle of the step moves it by half of the
- * whole step's change. False as wh_phase_move(). */
+/* The angle at a stage whose shares of the rates add up to `sum`. A stage in the middle of the step moves the angle
+ * by half of the whole step's change. Returns false as wh_phase_move() does. */
 WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
                               wh_phase *phase) {
     return parts == WH_R(2.0)
@@ -39,8 +39,8 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
-/* The arguments of a step that all its stages share. Scalars alone: compilers keep them in registers, and know the
- * constant ones before they unroll loops. */
+/* The arguments of a step that all its stages share. The struct has scalars only: compilers keep them in registers,
+ * and know the constant ones before they unroll loops. */
 typedef struct wh_stepping {
     const wh_tableau *by; /* the method */
     const wh_state *state;
@@ -50,15 +50,16 @@ typedef struct wh_stepping {
     bool compensated;
 } wh_stepping;
 
-/* Arguments and results of a list. A struct of its own: all other variables stay in registers if the list is called. */
+/* Arguments and results of a list of operations. They are a struct of their own, so that all other variables stay in
+ * registers if the list is called. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
-    wh_real at[WH_COORDS];    /* linear positions, or reals, */
+    wh_real at[WH_COORDS];    /* linear positions (second order) or reals (first order) */
     wh_real v[WH_COORDS];     /* rates */
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
-/* Zeroes only entries that no scene uses: the compiler cannot know that they are unused. */
+/* Zeroes the entries that no scene uses, because the compiler cannot know that they are unused. */
 WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
                                 wh_stepped_list *list) {
     WH_UNROLL
@@ -76,12 +77,12 @@ typedef struct wh_stepped_second {
     const wh_real *rate;
     const wh_real *input;
     wh_real a1[WH_COORDS];               /* accelerations of the first stage */
-    wh_real rates[WH_STAGES][WH_COORDS]; /* of all others */
+    wh_real rates[WH_STAGES][WH_COORDS]; /* accelerations of the later stages */
     wh_real accels[WH_STAGES][WH_COORDS];
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_stepped_second;
 
-/* The positions of stage s of a row with a reach. Returns as wh_step_second_stage(). */
+/* The positions of stage s, for a method whose rows have a reach. Returns as wh_step_second_stage() does. */
 WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given accels,
                                  wh_stepped_list *list, const wh_stepped_second *k) {
     const unsigned angles = to->angles;
@@ -101,7 +102,7 @@ WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given acc
     return angles;
 }
 
-/* Stage s > 0. Returns the angle that would move by half a turn or more, or `angles`. */
+/* Stage s > 0. Returns the angle that would move by half a turn or more, or `angles` if there is none. */
 WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel,
                                         const wh_stepping *to, unsigned s, wh_stepped_list *list,
                                         wh_stepped_second *k) {
@@ -183,7 +184,7 @@ typedef struct wh_stepped_first {
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_stepped_first;
 
-/* Stage s > 0. Returns as wh_step_second_stage(). */
+/* Stage s > 0. Returns as wh_step_second_stage() does. */
 WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_stepping *to,
                                        unsigned s, wh_stepped_list *list, wh_stepped_first *k) {
     const wh_tableau *by = to->by;
@@ -211,9 +212,10 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
     return angles;
 }
 
-/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns WH_E_ARGUMENT
- * with the state unchanged for a method that does not take such a system. Semi-implicit Euler does not: it moves rates
- * before positions, and a first-order system does not distinguish them. Otherwise returns as wh_step_second(). */
+/* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns
+ * WH_E_ARGUMENT, with the state unchanged, if the method does not take such a system. Semi-implicit Euler does not:
+ * it moves rates before positions, and a first-order system does not distinguish rates from positions. Otherwise
+ * returns as wh_step_second() does. */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_two_part h,
                                   wh_state *state) {

@@ -41,18 +41,18 @@ typedef struct wh_text {
 /* Begin an empty text in bytes[size], size >= 1. */
 void wh_text_start(wh_text *text, char *bytes, unsigned size);
 
-/* Add one character; a NUL-terminated string. */
+/* Add one character, or a NUL-terminated string. */
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
 
-/* An item of static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond the end, the last. */
+/* Item `number` of static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond the end, the last item. */
 const char *wh_words_item(const char *list, unsigned number);
 
 /* Add a decimal number. */
 void wh_text_add_unsigned(wh_text *text, uint64_t value);
 void wh_text_add_signed(wh_text *text, int64_t value);
 
-/* Add the low `digits` hexadecimal digits of value, lower case, zeros kept. digits is 1 to 16. */
+/* Add the low `digits` hexadecimal digits of value, 1 to 16: lower case, with leading zeros. */
 void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
 
 /* Add value with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly rounded, ties to even. The

@@ -1,10 +1,10 @@
 /* clock.h: the rig's time, a free-running 1 MHz capture timer.
  *
  * Every time stamp of the rig (slot pulses, load samples, control steps) is a count of this one timer: 32 bits,
- * wrapping every 71.6 minutes. Differences of two stamps less than half of that apart are right, even if the timer
- * wrapped in between.
+ * wrapping every 71.6 minutes. The difference of two stamps is right if they are less than half of that apart, even if
+ * the timer wrapped in between.
  *
- * hal_clock_ticks() may be called from anywhere; the other functions not from an interrupt or a fault handler. */
+ * hal_clock_ticks() may be called from anywhere, the other functions not from an interrupt or a fault handler. */
 #ifndef HAL_CLOCK_H
 #define HAL_CLOCK_H
 
@@ -27,25 +27,26 @@ typedef enum hal_start {
  * hal_motor_off(). On any result other than HAL_STARTED, do not drive the motor. */
 hal_start hal_clock_start(void);
 
-/* The timer's source. */
+/* The source of the timer's clock. */
 typedef enum hal_clock_source {
     HAL_CLOCK_CRYSTAL,
     HAL_CLOCK_FALLBACK, /* the crystal does not oscillate: too inaccurate for a speed */
-    HAL_CLOCK_PLAYED    /* a model's time, or an emulator's */
+    HAL_CLOCK_PLAYED    /* the time of a model, or of an emulator */
 } hal_clock_source;
 hal_clock_source hal_clock_source_now(void);
 
-/* Tolerance of the timer: 100 ppm for a crystal, 10,000 for a fallback; 0: it defines the time. */
+/* Tolerance of the timer: 100 ppm for a crystal, 10,000 ppm for a fallback, 0 for a timer that defines the time. */
 uint32_t hal_clock_tolerance_ppm(void);
 
 /* The timer now, in ticks. */
 uint32_t hal_clock_ticks(void);
 
-/* Wait until the timer has reached `ticks` (less than half the timer's range ahead); return at once if it has already. May
- * return late because of interrupts or a model's step: at most 0.1 ms on a real board, a millisecond in simulated time. */
+/* Wait until the timer has reached `ticks` (less than half the timer's range ahead). Returns at once if the timer is
+ * already past it. Interrupts or a model's step may delay the return: at most 0.1 ms on a real board, a millisecond
+ * in simulated time. */
 void hal_clock_wait_until(uint32_t ticks);
 
-/* The most ticks by which a wait has ended late since the last call, including waits that were called late. */
+/* The largest delay of a wait since the last call, in ticks. Waits that were called too late count as delayed. */
 uint32_t hal_clock_late_ticks(void);
 
 #ifdef __cplusplus

@@ -11,15 +11,15 @@ extern "C" {
 
 #define HAL_CONSOLE_STOP 0x1B /* Escape */
 
-/* Write `count` bytes, waiting until all are taken, by polling: works with interrupts off and in a fault handler. Not
- * in a control loop: at 115,200 baud a byte takes 87 us. */
+/* Write `count` bytes, waiting by polling until all are taken: works with interrupts off and in a fault handler. Do
+ * not call it in a control loop: at 115,200 baud a byte takes 87 us. */
 void hal_console_write(const char *bytes, unsigned count);
 
-/* Non-waiting versions for control loops. Read the oldest bytes received, at most `room`; or write as many bytes as the
- * device takes at once. Both return the number, also 0 without a partner. A device that stores only the last byte or
- * two must be read at least once a control step, or loses some. A zero byte replaces lost bytes, if the board notices
- * the loss, and each damaged byte: do not execute a line that contains one. But a damaged Escape counts as Escape: it
- * stops, and a needless stop is harmless. Not from an interrupt or a fault handler. */
+/* Versions for control loops, which do not wait. hal_console_read() takes the oldest received bytes, at most `room`;
+ * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes: 0 if nobody is
+ * connected. A device that stores only the last byte or two loses bytes unless it is read every control step. A zero byte
+ * replaces each damaged byte, and lost bytes if the board notices the loss: do not execute a line that contains a zero
+ * byte. But a damaged Escape counts as Escape: a needless stop is harmless. Not from an interrupt or a fault handler. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

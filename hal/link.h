@@ -15,21 +15,21 @@ extern "C" {
 
 #define HAL_LINK_GONE 3
 
-/* Descriptors that the other side passes to the program, or to its emulator: to read, to write. */
+/* File descriptors that the other side passes to the program, or to its emulator: one to read, one to write. */
 #define HAL_LINK_DOWN 3
 #define HAL_LINK_UP 4
 
-/* Opens the line; false without one. Call it before the others. */
+/* Opens the line. Returns false if there is no line. Call it before the other functions. */
 bool hal_link_open(void);
 
-/* Waits for data; then reads up to room >= 1 bytes. Returns their number, at least one. */
+/* Waits for data, then reads up to room >= 1 bytes. Returns the number read, at least one. */
 unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
-/* Writes all. */
+/* Writes all `count` bytes. */
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* A free-running count, wrapping at 2^32, of hal_link_timer_per_s() a second, to measure computing time. 0 a second if
- * there is no meaningful one. */
+/* A free-running counter to measure computing time, wrapping at 2^32, and its counts per second (0: the counter
+ * means nothing). */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 

@@ -1,7 +1,7 @@
 /* reset.h: the cause of the processor's start, and data that survive a reset.
  *
- * Pins float in a reset: the drive stage is off from that instant until the program enables it. All of the program's
- * data are lost except for a few bytes in memory that a reset does not clear, if there is such memory. */
+ * A reset makes the pins float, so the drive stage is off from that instant until the program enables it. The
+ * program loses all data except a few bytes in memory that a reset does not clear, if the chip has such memory. */
 #ifndef HAL_RESET_H
 #define HAL_RESET_H
 
@@ -14,30 +14,32 @@ extern "C" {
 typedef enum hal_reset {
     HAL_RESET_POWER_ON, /* the supply came on: no data survive */
     HAL_RESET_WATCHDOG, /* the watchdog timed out and reset the processor */
-    HAL_RESET_OTHER,    /* a pin, a debugger; or unknown */
-    HAL_RESET_FAULT,    /* of the program or the crystal: the motor was switched off first */
+    HAL_RESET_OTHER,    /* a pin or a debugger; or the cause is unknown */
+    HAL_RESET_FAULT,    /* a fault of the program or the crystal; the handler switched the motor
+                         * off first */
     HAL_RESET_SUPPLY    /* a dip of the processor's supply */
 } hal_reset;
 
 /* The cause, after hal_clock_start() (clock.h). */
 hal_reset hal_reset_cause(void);
 
-/* The cause in words, for consoles: for a fault also its kind, place, time and state. Never empty; at most room - 1
- * bytes and a zero. Returns the length without the zero. */
+/* The cause in words, for consoles; for a fault also its kind, place, time and state. Writes at most room - 1 bytes
+ * and a zero; the text is never empty. Returns its length without the zero. */
 unsigned hal_reset_words(char *words, unsigned room);
 
-/* The program's stage, as a number of its own: a fault's record contains the last one. One store; every control step. */
+/* Set the program's stage, a number that the program chooses: the record of a fault contains the last one. It takes
+ * one store; call it in every control step. */
 void hal_reset_mark(uint32_t state);
 
 /* Bytes that can survive a reset. */
 #define HAL_REMEMBER_BYTES 32U
 
-/* From now on these bytes survive a reset, replacing earlier ones; count <= HAL_REMEMBER_BYTES, 0: no bytes. A reset in
- * the middle leaves the earlier ones. Not from an interrupt. */
+/* From now on bytes[count] survive a reset and replace those of earlier calls; count <= HAL_REMEMBER_BYTES, 0 for no
+ * bytes. If a reset interrupts the call, the earlier bytes survive. Not from an interrupt. */
 void hal_remember(const void *bytes, unsigned count);
 
-/* Copy the bytes remembered at the processor's start to bytes[HAL_REMEMBER_BYTES]; returns their number. 0 after a
- * power-on, or if they are corrupt: implementations check a CRC. */
+/* Copy the bytes that were remembered at the processor's start to bytes[HAL_REMEMBER_BYTES]. Returns their number: 0
+ * after a power-on, or if the bytes are corrupt (implementations check a CRC). */
 unsigned hal_recall(void *bytes);
 
 #ifdef __cplusplus

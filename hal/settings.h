@@ -1,7 +1,7 @@
 /* settings.h: permanent memory for settings: two slots in separate sectors, for core/station/store.h.
  *
- * Call it with the motor off: the erase of a flash sector may block the processor for half a second. That exceeds any
- * watchdog's time, which the caller must lengthen first. Not from an interrupt. */
+ * Call these functions with the motor off: erasing a flash sector may block the processor for half a second. That
+ * exceeds any watchdog's timeout, so the caller must lengthen the timeout first. Not from an interrupt. */
 #ifndef HAL_SETTINGS_H
 #define HAL_SETTINGS_H
 
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* Bytes of a slot at least. */
+/* Least size of a slot. */
 #define HAL_SETTINGS_BYTES 256U
 
 /* The longest time of one call, in ticks of the capture timer (clock.h). */
@@ -19,13 +19,14 @@ extern "C" {
 
 typedef enum hal_settings_result {
     HAL_SETTINGS_DONE,
-    HAL_SETTINGS_OUTSIDE, /* no such slot or bytes, or a wrong begin: nothing was changed */
+    HAL_SETTINGS_OUTSIDE, /* no such slot or bytes, or a start that is not allowed: nothing was
+                           * changed */
     HAL_SETTINGS_BUSY,    /* the memory stays busy: nothing was changed */
-    HAL_SETTINGS_FAILED   /* the memory reports it: protected, worn out, absent */
+    HAL_SETTINGS_FAILED   /* the memory reports an error: it is protected, worn out or absent */
 } hal_settings_result;
 
-/* slot 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during one of these leaves arbitrary bytes in this
- * slot and does not touch the other. */
+/* `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during a call leaves arbitrary bytes in this
+ * slot and does not touch the other one. */
 
 /* Set all bytes of the slot to 0xFF. */
 hal_settings_result hal_settings_erase(unsigned slot);

@@ -1,9 +1,10 @@
 /* slots.h: the two infrared slot sensors on the rotor's slotted disc.
  *
- * Almesallmy (2006), I.1.1 and I.3.3.2: the slot is in line with the arms. Sensor 1 is on the loading-train axis (theta =
- * 0), sensor 2 90 degrees later in the sense of rotation. Amplifier, Schmitt trigger and monostable make one pulse for each
- * passage of the slot, at the slot's leading edge. The arms are then HAL_SLOT_LEAD_DEG before the sensor. A timer captures
- * both edges of the pulse. The leading one gives the rotor's position, the length distinguishes pulses from noise. */
+ * Almesallmy (2006), I.1.1 and I.3.3.2: the slot is in line with the arms. Sensor 1 is on the loading-train axis
+ * (theta = 0), sensor 2 is 90 degrees later in the sense of rotation. Amplifier, Schmitt trigger and monostable make
+ * one pulse for each passage of the slot. The pulse begins at the slot's leading edge, when the arms are
+ * HAL_SLOT_LEAD_DEG before the sensor. A timer captures both edges of the pulse. The leading edge gives the rotor's
+ * position; the length distinguishes pulses from noise. */
 #ifndef HAL_SLOTS_H
 #define HAL_SLOTS_H
 
@@ -22,18 +23,18 @@ typedef enum hal_slot_end { HAL_SLOT_LEADING, HAL_SLOT_TRAILING } hal_slot_end;
 typedef struct hal_slot_edge {
     uint32_t ticks; /* of the capture timer (clock.h) at the edge */
     uint8_t sensor; /* 0: on the loading-train axis; 1: a quarter turn later */
-    uint8_t end;    /* a hal_slot_end: of its pulse */
+    uint8_t end;    /* a hal_slot_end: which end of the pulse this edge is */
 } hal_slot_edge;
 
-/* Take the oldest edge not yet taken, in order of time. Returns false without one. Stores at least 16, of 8 pulses,
- * between calls; if more come, the newest are lost. Not from an interrupt: one reader only. If edges were lost, or a
- * pulse began unseen or was very short, one of its two edges is missing. A board with simulated pulses, or one that
- * cannot distinguish edges, has only leading edges. */
+/* Take the oldest edge not yet taken, in order of time. Returns false if there is none. At least 16 edges (8 pulses)
+ * are stored between calls; if more come, the newest are lost. Not from an interrupt: one reader only. One of a
+ * pulse's two edges is missing if edges were lost, or if the pulse began unseen or was very short. A board with
+ * simulated pulses, or one that cannot distinguish edges, gives only leading edges. */
 bool hal_slots_take(hal_slot_edge *edge);
 
-/* Times since the start that edges were lost, or may have been: one came before the one before was read, or the memory
- * was full. Capture then pauses until an edge is taken, so that a storm of edges takes no time. The number of lost
- * edges is unknown. */
+/* How often since the start edges were lost, or may have been: an edge came before the previous edge was read, or
+ * the memory was full. Capture then pauses until an edge is taken, so that a storm of edges takes no computing time.
+ * The number of lost edges is unknown. */
 uint32_t hal_slots_overruns(void);
 
 #ifdef __cplusplus

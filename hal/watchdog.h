@@ -1,5 +1,5 @@
-/* watchdog.h: cuts the motor when the controller falls silent. Not for interrupts: an interrupt must not keep a hanging
- * controller alive. */
+/* watchdog.h: cuts the motor when the controller falls silent. Do not call it from an interrupt, which could keep a
+ * hanging controller alive. */
 #ifndef HAL_WATCHDOG_H
 #define HAL_WATCHDOG_H
 
@@ -15,10 +15,9 @@ extern "C" {
  * the drive off. A watchdog with its own oscillator may take up to three times as long. */
 void hal_watchdog_start(uint32_t timeout_ticks);
 
-/* The controller is alive. Does not bring a cut motor back. */
+/* Tell the watchdog that the controller is alive. A motor that was cut stays cut. */
 void hal_watchdog_kick(void);
 
-/* True if the watchdog has cut the motor. */
 bool hal_watchdog_has_cut(void);
 
 #ifdef __cplusplus

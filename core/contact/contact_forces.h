@@ -4,10 +4,9 @@
 
 #include "contact_lcp.h"
 
-/* Redundant contacts, as bits of indices in member[], first get no force. If that overloads another contact,
- * or if they contradict the others, the load is shared: work->force has the shares. A contact that gives way
- * gets its limit plus the excess. The accelerations change only after a contradiction; otherwise they stay
- * identical to the bit. */
+/* Redundant contacts, as bits of indices in member[], first get no force. If that overloads another contact, or if they
+ * contradict the others, the load is shared: work->force has the shares. A contact that gives way gets its limit plus the
+ * excess. The accelerations change only after a contradiction; otherwise they stay identical to the bit. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {

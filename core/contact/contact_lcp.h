@@ -152,10 +152,9 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. Friction
- * gives way itself, at its limit, and so does a stop that would have to pull. For a stop that must push more, or a
- * hold, it is the first of the relieved contacts to reach a limit. Returns its index in member[] and the limit, or
- * count. */
+/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. Friction gives way
+ * itself, at its limit, and so does a stop that would have to pull. For a stop that must push more, or a hold, it is the
+ * first of the relieved contacts to reach a limit. Returns its index in member[] and the limit, or count. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -307,9 +306,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
     return wrong;
 }
 
-/* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count],
- * the residual accelerations (or rates). `forces`: not impulses. Returns the contacts that give way, as
- * bits. */
+/* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count], the residual
+ * accelerations (or rates). `forces`: not impulses. Returns the contacts that give way, as bits. */
 static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
                                       bool forces, wh_real *lambda, wh_real *left) {

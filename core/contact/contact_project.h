@@ -92,8 +92,7 @@ WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Contacts that keep their J_k q' at zero, except for those in `but`, as bits. Returns their
- * number. */
+/* Contacts that keep their J_k q' at zero, except for those in `but`, as bits. Returns their number. */
 WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_contact_work *w,
                                       unsigned but, uint8_t *member) {
     unsigned count = 0;

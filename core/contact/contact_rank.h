@@ -63,8 +63,7 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The first hold with a remainder in `before` that vanishes or has turned back in `after`; or
- * of->contacts. */
+/* The first hold with a remainder in `before` that vanishes or has turned back in `after`; or of->contacts. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     of = WH_CONTACTS_HERE(of);

@@ -222,10 +222,9 @@ WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_con
     return wh_delassus(of, w, k, k);
 }
 
-/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without
- * pivoting. The matrix is positive definite, except for redundant contacts, which get zero (NaN if the repeated contact
- * is not a number). Returns those, as bits of their indices in member[]. Those with nonzero at[] get zero, too; at may
- * be NULL. */
+/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without pivoting.
+ * The matrix is positive definite, except for redundant contacts, which get zero (NaN if the repeated contact is not a
+ * number). Returns those, as bits of their indices in member[]. Those with nonzero at[] get zero, too; at may be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,

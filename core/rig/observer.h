@@ -96,9 +96,8 @@ extern const wh_observer_config wh_observer_standard;
 wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
                             uint32_t now_ticks);
 
-/* Advance to now_ticks (less than a step of the scene remains for wh_observer_phase()), with the motor's drive since
- * the last call, a fraction of the rated voltage. A call more than WH_OBSERVER_STEPS_MOST steps of the scene late
- * restarts it. */
+/* Advance to now_ticks (less than a step of the scene remains for wh_observer_phase()), with the motor's drive since the
+ * last call, a fraction of the rated voltage. A call more than WH_OBSERVER_STEPS_MOST steps of the scene late restarts it. */
 #define WH_OBSERVER_STEPS_MOST 8U
 #define WH_OBSERVER_STEPS_AT_ONCE 2U /* steps in one call: several calls make up for a delay */
 void wh_observer_step(const wh_observer_config *config, wh_observer *observer, uint32_t now_ticks,

@@ -7,8 +7,7 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Remaining part of gravity with feed: above it the feed is wrong or misses the arms, and the torque on them is
- * unknown. */
+/* Remaining part of gravity with feed: above it the feed is wrong or misses the arms, and the torque on them is unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 
 /* The speed's swing, in addition to the phase's error. If the rotor's damping is not the configured one, the split

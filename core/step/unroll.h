@@ -42,8 +42,7 @@
 
 /* A long list is ordered for few live values. If the processor seems to have the registers, gcc reorders the operations
  * for latency before it allocates registers. For a pendulum of ten links this costs 14 % more instructions a step on a
- * Cortex-M4F, and a third more code on an RV32IMAFC or an AArch64. (Short lists fit into registers and gain cycles by
- * it.) */
+ * Cortex-M4F, and a third more code on an RV32IMAFC or an AArch64. (Short lists fit into registers and gain cycles by it.) */
 #if defined(WH_LONG_LIST) && defined(__GNUC__) && !defined(__clang__) && \
     (defined(__ARM_FP) || defined(__aarch64__) || defined(__riscv_flen))
 #pragma GCC optimize("no-schedule-insns", "no-tree-ter")

@@ -14,21 +14,21 @@ extern "C" {
 #define HAL_HELLO_BYTES 768U /* the longest hello */
 
 typedef struct hal_turns {
-    uint32_t ticks;         /* now */
-    uint32_t arrived_timer; /* the last readings */
-    uint16_t sequence;      /* of the next readings */
-    bool acted;             /* outputs were set since */
-    uint32_t step_timer;    /* begin of the control step in progress */
-    uint32_t nothing_timer; /* count of an empty step */
-    unsigned outputs;       /* in orders.output; the notes follow them */
+    uint32_t ticks;         /* time now */
+    uint32_t arrived_timer; /* link timer at the arrival of the last readings */
+    uint16_t sequence;      /* sequence number of the next readings */
+    bool acted;             /* outputs were set since the last readings */
+    uint32_t step_timer;    /* link timer at the begin of the control step in progress */
+    uint32_t nothing_timer; /* link timer counts of an empty step */
+    unsigned outputs;       /* number of outputs in orders.output; the notes follow them */
     wh_orders orders;
-    wh_readings readings; /* those not yet taken begin at: */
+    wh_readings readings; /* the last readings; `edge` and `sample` are the next ones to take */
     unsigned edge;
     unsigned sample;
     uint32_t lost;  /* edges and samples lost for lack of room */
-    wh_reset reset; /* cause of the start; cause 0: a power-on */
+    wh_reset reset; /* cause of the start and remembered bytes; cause 0: a power-on */
     wh_frame_reader reader;
-    uint8_t line[64]; /* read but not yet processed */
+    uint8_t line[64]; /* bytes read but not yet processed */
     unsigned line_at;
     unsigned line_end;
     uint8_t payload[HAL_HELLO_BYTES];
@@ -40,31 +40,33 @@ typedef struct hal_turns {
  * start_ticks and signals; the board adds the rest. Outputs are 0. False: no line, or the hello is too long. */
 bool hal_turns_start(hal_turns *turns, const wh_hello *hello);
 
-/* The program ends with this status: for lines that do not show an end by themselves (WH_FRAME_END). */
+/* Report that the program ends with this status: for lines on which an end is not visible otherwise (WH_FRAME_END). */
 void hal_turns_end(hal_turns *turns, int status);
 
-/* An output from now on, of this channel. */
+/* Set output `channel` from now on. */
 void hal_turns_set(hal_turns *turns, unsigned channel, float value);
 
-/* Set a note of this channel: data that the controller reports of itself. It takes no time. */
+/* Set note `channel`: a value that the controller reports about itself. It takes no time. */
 void hal_turns_note(hal_turns *turns, unsigned channel, float value);
 
-/* Around each control step: orders report the longest time of a step, without the other work between two waits. */
+/* Call these around each control step. The orders report the longest time of a step, without the other work between
+ * two waits. */
 void hal_turns_step_begins(hal_turns *turns);
 void hal_turns_step_ends(hal_turns *turns);
 
-/* Set the bytes that survive a reset: turns->reset has them after the restart. count <= WH_REMEMBER_MAX. */
+/* Set the bytes that survive a reset: after the restart they are in turns->reset. count <= WH_REMEMBER_MAX. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count);
 
 /* Send the outputs and wait until `until_ticks`, or for the next message if that time has passed. */
 void hal_turns_wait(hal_turns *turns, uint32_t until_ticks);
 
-/* The oldest edge or sample not yet taken, in order of time; false without one. Stores WH_EDGES_MAX and WH_SAMPLES_MAX;
- * if more come, the newest are lost. */
+/* Take the oldest edge or sample not yet taken, in order of time. Returns false if there is none. WH_EDGES_MAX edges
+ * and WH_SAMPLES_MAX samples are stored; if more come, the newest are lost. */
 bool hal_turns_take_edge(hal_turns *turns, wh_edge *edge);
 bool hal_turns_take_sample(hal_turns *turns, wh_sample *sample);
 
-/* The plant's watchdog sets the outputs to zero if hal_turns_alive() is not called for longer; 0: no watchdog. */
+/* Set the timeout of the plant's watchdog: if hal_turns_alive() is not called for longer, it sets the outputs to
+ * zero. 0: no watchdog. */
 void hal_turns_watch(hal_turns *turns, uint32_t timeout_ticks);
 void hal_turns_alive(hal_turns *turns);
 bool hal_turns_is_cut(const hal_turns *turns);

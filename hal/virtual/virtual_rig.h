@@ -24,25 +24,25 @@ extern "C" {
 
 #define HAL_VIRTUAL_PULSES 16U
 #define HAL_VIRTUAL_SAMPLES 8U
-#define HAL_VIRTUAL_PULSE_TICKS 150U /* the monostable's */
+#define HAL_VIRTUAL_PULSE_TICKS 150U /* length of the monostable's pulse */
 
-/* Supply for which the model's duty of 1 is full duty, and the motor's speed without load at it, rad/s (back-EMF equals
- * the voltage). tests/core/test_virtual_rig.c compares it with the model. */
+/* The supply at which the model's duty of 1 is full duty. It is also the motor's speed without load at that supply,
+ * rad/s, because the back-EMF then equals the voltage. tests/core/test_virtual_rig.c compares it with the model. */
 #define HAL_VIRTUAL_RATED_V 24.0f
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
 /* The timer wraps this long after the start, so that every run crosses the wrap. */
 #define HAL_VIRTUAL_WRAP_AFTER_S 5U
 
-/* Injected faults; all off after hal_virtual_rig_start(). May be set at any time. */
+/* Injected faults, which may be set at any time. hal_virtual_rig_start() clears all. */
 typedef struct hal_virtual_faults {
-    unsigned lose_pulses[2]; /* number of the sensor's next pulses to lose */
-    bool dead_sensor[2];     /* gives no pulse */
+    unsigned lose_pulses[2]; /* number of each sensor's next pulses to lose */
+    bool dead_sensor[2];     /* the sensor gives no pulse */
     unsigned lose_samples;   /* number of the next load samples to lose */
-    bool stuck_load_cell;    /* repeats its last count */
+    bool stuck_load_cell;    /* the load cell repeats its last count */
     float stuck; /* the drive stage gives this share of the supply for any command; 0: no fault */
-    bool deaf;   /* and for any enable; the watchdog still cuts it */
-    bool freewheels; /* the drive stage cannot brake: it only drives */
+    bool deaf;   /* the drive stage ignores the enable, too; the watchdog still cuts it */
+    bool freewheels; /* the drive stage can only drive, not brake */
 } hal_virtual_faults;
 
 typedef struct hal_virtual_rig {
@@ -50,29 +50,29 @@ typedef struct hal_virtual_rig {
     wh_state state;
     uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_status status;      /* WH_E_DIVERGED: the model diverged; the rotor stands still */
-    uint32_t ticks;        /* now, 1 MHz, wrapping */
+    uint32_t ticks;        /* time now, 1 MHz, wrapping */
     uint32_t step_ticks;   /* one step of the model */
-    float volts;           /* as commanded, */
-    bool enabled;          /* and whether the drive is on */
+    float volts;           /* commanded voltage */
+    bool enabled;          /* the drive is on */
     float supply_V;        /* HAL_VIRTUAL_RATED_V at the start; may be set at any time */
     uint32_t sample_ticks; /* time of the next load sample */
     int32_t last_raw;
     hal_slot_edge pulse[HAL_VIRTUAL_PULSES];
     unsigned pulses;
-    uint32_t overruns; /* pulses without room */
+    uint32_t overruns; /* number of pulses that were lost for lack of room */
     hal_load_sample sample[HAL_VIRTUAL_SAMPLES];
     unsigned samples;
     bool watched; /* the watchdog is armed */
-    bool cut;     /* it has cut the motor */
+    bool cut;     /* the watchdog has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
-    bool stop_cuts; /* a short press of stop has cut the drive, until it is off. May be set at any
-                     * time */
-    bool stop_pressed; /* by a person at the rig: may be set at any time */
-    hal_reset cause;   /* why the processor started, */
-    bool in_reset;     /* or starting: the plant goes on meanwhile */
+    bool stop_cuts;    /* a short press of stop has cut the drive until the next hal_motor_off().
+                     * May be set at any time */
+    bool stop_pressed; /* a person at the rig presses stop: may be set at any time */
+    hal_reset cause;   /* why the processor started */
+    bool in_reset;     /* the processor is in reset or starting; the plant goes on meanwhile */
     uint8_t remembered[HAL_REMEMBER_BYTES];
-    unsigned remembers; /* their number */
+    unsigned remembers; /* number of remembered bytes */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
@@ -80,15 +80,15 @@ typedef struct hal_virtual_rig {
  * one angle, one input, at least one output, whole microseconds a step. */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
-/* Advance time to `ticks`, in whole steps of the model: may end up to one step later. */
+/* Advance time to `ticks`, in whole steps of the model: it may end up to one step later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
 /* Reset the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples not yet taken
  * are lost, and the timer restarts; the rotor keeps turning. hal_clock_start() then starts no other rig. */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* Input of the drive stage: a voltage, the enable on; or off. As hal_motor_off(), hal_slots_take(), hal_loadcell_take()
- * on this rig; only leading edges of slots. */
+/* The drive stage's input: a voltage, with the enable on; or off. The functions do on this rig what hal_motor_off(),
+ * hal_slots_take() and hal_loadcell_take() do. The slots give only leading edges. */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
