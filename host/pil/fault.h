@@ -24,67 +24,71 @@ typedef enum fault_place {
 /* X(which, word, place, default size, least, most, unit, words). If least equals most, the fault has no size. */
 #define FAULT_ROWS(X) \
     X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
-    X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "so many pulses are lost") \
+    X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "this number of pulses is lost") \
     X(FAULT_EDGE_DOUBLE, "edge-double", FAULT_EDGES, 1e-3, 1e-6, 10, "s", \
-      "each pulse comes again so much later") \
+      "each pulse comes again after this time") \
     X(FAULT_EDGE_INVENTED, "edge-invented", FAULT_EDGES, 1, 1, 1e6, "", \
-      "so many pulses of nothing, up to 0.1 s from one to the next") \
-    X(FAULT_EDGE_STORM, "edge-storm", FAULT_EDGES, 5e3, 1, 1e6, "Hz", "so many pulses a second") \
+      "this number of false pulses, up to 0.1 s apart") \
+    X(FAULT_EDGE_STORM, "edge-storm", FAULT_EDGES, 5e3, 1, 1e6, "Hz", "false pulses at this rate") \
     X(FAULT_EDGE_SWAPPED, "edge-swapped", FAULT_EDGES, 0, 0, 0, "", \
-      "first and second sensor are exchanged") \
+      "the first and the second sensor are exchanged") \
     X(FAULT_EDGE_STAMP, "edge-stamp", FAULT_EDGES, 1e-6, -10, 10, "s", \
-      "time stamps are off by so much: positive is in the future") \
+      "error of the time stamps, positive into the future") \
     X(FAULT_EDGE_LATE, "edge-late", FAULT_EDGES, 5e-3, 0, 10, "s", \
-      "pulses are told of so much later, with their right stamps") \
-    X(FAULT_EDGE_PLACE, "edge-place", FAULT_SENSORS, 2, -180, 180, "deg", \
-      "a sensor stands off its place") \
+      "pulses arrive late, with correct stamps") \
+    X(FAULT_EDGE_PLACE, "edge-place", FAULT_SENSORS, 2, -180, 180, "deg", "a sensor is displaced") \
     X(FAULT_EDGE_JITTER, "edge-jitter", FAULT_SENSORS, 60e-6, 0, 1, "s", \
-      "standard deviation of their times") \
+      "random errors of the pulses' times with this standard deviation") \
     X(FAULT_CELL_DEAD, "cell-dead", FAULT_SAMPLES, 0, 0, 0, "", "no samples come") \
     X(FAULT_CELL_LOST, "cell-lost", FAULT_SAMPLES, 0.1, 0, 1, "", \
       "this share of the samples is lost") \
-    X(FAULT_CELL_FROZEN, "cell-frozen", FAULT_SAMPLES, 0, 0, 0, "", \
-      "the last value comes on and on") \
+    X(FAULT_CELL_FROZEN, "cell-frozen", FAULT_SAMPLES, 0, 0, 0, "", "the last value repeats") \
     X(FAULT_CELL_OPEN, "cell-open", FAULT_SAMPLES, 0, 0, 0, "", \
-      "disconnected, and the converter says so") \
+      "the cell is disconnected, and the converter says so") \
     X(FAULT_CELL_PICKUP, "cell-pickup", FAULT_SAMPLES, 5, 0, 1e6, "N", \
-      "disconnected, unnoticed: 60 Hz of this amplitude about nothing") \
+      "the cell is disconnected, and its line picks up 60 Hz of this amplitude about zero") \
     X(FAULT_CELL_HUM, "cell-hum", FAULT_SAMPLES, 5, 0, 1e6, "N", \
-      "60 Hz of this amplitude are added") \
+      "60 Hz of this amplitude is added") \
     X(FAULT_CELL_NOISE, "cell-noise", FAULT_SAMPLES, 1, 0, 1e6, "N", \
-      "standard deviation of noise") \
+      "noise with this standard deviation is added") \
     X(FAULT_CELL_SPIKES, "cell-spikes", FAULT_SAMPLES, 50, 0, 1e6, "N", \
-      "one sample in 50 is off by this, either way") \
+      "one sample in 50 has this error, either way") \
     X(FAULT_CELL_SATURATED, "cell-saturated", FAULT_SAMPLES, 0, 0, 0, "", \
-      "at its end, and the converter says so") \
+      "samples are at the end of the range, and the converter says so") \
     X(FAULT_CELL_REPEATED, "cell-repeated", FAULT_SAMPLES, 0, 0, 0, "", "each sample comes twice") \
     X(FAULT_CELL_LATE, "cell-late", FAULT_SAMPLES, 10e-3, 0, 10, "s", \
-      "samples are told of so much later, with their right stamps") \
-    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "samples say this, whatever is") \
-    X(FAULT_CELL_TURNED, "cell-turned", FAULT_INPUT, 0, 0, 0, "", "polarity reversed") \
-    X(FAULT_CELL_GAIN, "cell-gain", FAULT_INPUT, 0.5, -100, 100, "", "times its gain") \
-    X(FAULT_CELL_OFFSET, "cell-offset", FAULT_INPUT, 10, -1e6, 1e6, "N", "a jump of its zero") \
-    X(FAULT_SUPPLY, "supply", FAULT_INPUT, 0.5, 0, 10, "", "times the supply's voltage") \
+      "samples arrive late, with correct stamps") \
+    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "samples have this value") \
+    X(FAULT_CELL_TURNED, "cell-turned", FAULT_INPUT, 0, 0, 0, "", "the polarity is reversed") \
+    X(FAULT_CELL_GAIN, "cell-gain", FAULT_INPUT, 0.5, -100, 100, "", \
+      "the gain is multiplied by this factor") \
+    X(FAULT_CELL_OFFSET, "cell-offset", FAULT_INPUT, 10, -1e6, 1e6, "N", \
+      "the zero jumps by this force") \
+    X(FAULT_SUPPLY, "supply", FAULT_INPUT, 0.5, 0, 10, "", \
+      "the supply's voltage is multiplied by this factor") \
     X(FAULT_FREEWHEEL, "freewheel", FAULT_INPUT, 0, 0, 0, "", "the drive stage cannot brake") \
     X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 1, 0.01, 1, "", \
-      "the drive stage ignores the duty, at this share of the supply; it obeys its enable") \
-    X(FAULT_STUCK, "stuck", FAULT_INPUT, 1, 0.01, 1, "", "it ignores its enable, too") \
-    X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", "times the motor's torque") \
-    X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", "of the arms' bearings") \
-    X(FAULT_JAM, "jam", FAULT_INPUT, 20, 0, 1e3, "N*m", "so much friction holds the arms") \
-    X(FAULT_COUPLING, "coupling", FAULT_INPUT, 0.1, 0, 100, "", "times the coupling's stiffness") \
+      "the drive stage ignores the duty, at this share of the supply, but obeys its enable") \
+    X(FAULT_STUCK, "stuck", FAULT_INPUT, 1, 0.01, 1, "", \
+      "as runaway, but the drive stage ignores its enable, too") \
+    X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", \
+      "the motor's torque is multiplied by this factor") \
+    X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", \
+      "the arms' bearings have this friction") \
+    X(FAULT_JAM, "jam", FAULT_INPUT, 20, 0, 1e3, "N*m", "friction holds the arms") \
+    X(FAULT_COUPLING, "coupling", FAULT_INPUT, 0.1, 0, 100, "", \
+      "the coupling's stiffness is multiplied by this factor") \
     X(FAULT_INERTIA, "inertia", FAULT_PARAMETER, 2, 0.01, 100, "", \
-      "times all that turns; the whole run") \
+      "the inertia is multiplied by this factor, for the whole run") \
     X(FAULT_STOP, "stop", FAULT_INPUT, 0, 0, 0, "", "somebody presses stop") \
     X(FAULT_RESET, "reset", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
-      "the controller is reset, and starts again so much later") \
+      "the controller is reset, and starts again after this time") \
     X(FAULT_WATCHDOG_RESETS, "watchdog-resets", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
-      "a starved watchdog resets it, instead of cutting; it starts again so much later") \
-    X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", \
-      "computing takes so many times as long, where it is counted") \
-    X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer takes so much longer") \
-    X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer takes so much longer") \
-    X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", "the watchdog hears nothing") \
+      "a starved watchdog resets the controller instead of cutting; it starts again after this time") \
+    X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", "computing is slower by this factor") \
+    X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer is late by this time") \
+    X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer is late by this time") \
+    X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", "kicks do not reach the watchdog") \
     X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts") \
     X(FAULT_READINGS_LOST, "readings-lost", FAULT_LINE, 0.1, 0, 1, "", \
       "this share of the readings comes empty") \
