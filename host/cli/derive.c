@@ -184,7 +184,7 @@ static void print_usage(FILE *out) {
     options_usage(out, &options_of_derive);
     fprintf(
         out,
-        "Only %s depends on the method and on --number fixed.\n"
+        "The method and --number fixed change only %s.\n"
         "All other code is the same for float and double. With --matrix every form shows the matrix;\n"
         "with --as octave it replaces the equations.\n",
         forms_with(has_steps, said));

@@ -54,9 +54,9 @@ static const command_usage usage = {
         "step, in float unless --number says otherwise (docs/price.md). If these rows take more than a\n"
         "second, Whirl leaves them out.\n"
         "\n"
-        "Warnings go to standard error. A finer run, the energy balance and other checks cause them. They\n"
-        "name options that Whirl tried and that cure the fault (docs/warnings.md). The exit status is then\n"
-        "1, after all outputs are written.\n"
+        "Warnings go to standard error. They come from a finer run, the energy balance and other checks,\n"
+        "and name options that Whirl tried and that cure the fault (docs/warnings.md). The exit status is\n"
+        "then 1, after all outputs are written.\n"
         "\n"
         "Summary, records and plot use the declared units. A column whose name has no unit is SI: theta\n"
         "[deg] is in degrees, theta in radians. No output file may be the model file.\n",

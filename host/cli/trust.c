@@ -46,7 +46,7 @@ static const command_usage usage = {
         "  --quiet              no progress; no words if there is --csv\n",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "the run diverged; the output has the time of this, and the trusted time",
+                "the run diverged; the output has the time of divergence and the trusted time",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
             [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
 

@@ -28,7 +28,7 @@ named=$(those_with '--name NAME, with' "$scratch/help")
 headed=$(those_with '--header FILE, with' "$scratch/help")
 derived=$(those_with '--steps, with' "$scratch/help")
 folded=$(those_with '--folded, with' "$scratch/help")
-stepped=$(those_with 'The method matters to' "$scratch/help")
+stepped=$(those_with 'fixed change only' "$scratch/help")
 is_one_of() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }
 
 # only_with OPTION VALUE FORM FORMS (a switch has no value): accepted if that form is one of them, else refused, naming them
