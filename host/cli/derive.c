@@ -100,7 +100,7 @@ static const form_row forms[] = {
      .print = text,
      .print_steps = steps,
      .shows = true,
-     .text = "one equation a coordinate, its events, and the first-order form (default)"},
+     .text = "one equation per coordinate, its events, and the first-order form (default)"},
     {.word = "latex",
      .print = latex,
      .print_steps = latex_steps,
@@ -176,7 +176,7 @@ static void print_usage(FILE *out) {
         "the derivation: the Lagrangian, and for each coordinate dL/dq', its time derivative, "
         "dL/dq, dF/dq' and Q");
     print_option(out, "--folded", has_folded,
-                 "values instead of parameter names, one operation a line");
+                 "values instead of parameter names, one operation per line");
     print_option(out, "--header FILE", has_a_header,
                  "its header, for C and C++: names, units, memory (docs/embedding.md)");
     print_option(out, "--name NAME", has_a_name,

@@ -77,7 +77,7 @@ static const command_usage map_usage = {
         "\n"
         "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
         "\n"
-        "  --over RANGE         twice, as in `whirl sweep`; no --set, --start or --step of a swept name\n",
+        "  --over RANGE         needed twice, as in `whirl sweep`. No other option may set a swept name.\n",
     .groups = OPTIONS_SCENE,
     .tail =
         "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
