@@ -1,5 +1,5 @@
-/* apart.c: places by Newton's method with the least change, rates by one such step. Only coordinates without a start of their
- * own change if these suffice. */
+/* apart.c: start values that fit the holds: places by Newton's method with the least change, rates by one such step. Coordinates
+ * that the scene gives a start change only if the others do not suffice. */
 #include "apart.h"
 
 #include <math.h>
@@ -15,9 +15,9 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* The error of an expression that should be zero is above APART_LEAST, and below this share of its terms. */
+/* A held expression is meant to be zero if its error is below this share of its terms. Above APART_LEAST it is reported. */
 #define OFF_MOST 0.5
-/* A moment is this share of a step. */
+/* "A moment later" is this share of a step later. */
 #define SOON 1e-6
 
 typedef struct apart {
@@ -28,8 +28,8 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* active holds at the start */
     int holds;
-    bool vanishes[HOLDS]; /* near the start, and changes its sign there: a distance does not */
-    bool closes;          /* one is slightly off zero, within OFF_MOST */
+    bool vanishes[HOLDS]; /* its sign changes near the start, which a distance's does not */
+    bool closes;          /* one expression is slightly off zero, within OFF_MOST */
     double place[N];
     double rate[N];
 } apart;
@@ -51,7 +51,7 @@ static double along(const apart *a, int h, const double *x) {
     return sum;
 }
 
-/* The terms of an expression, in size, and of its rate. */
+/* The sum of the sizes of the terms of an expression, or of its rate. */
 static double terms(const apart *a, int h, const double *x, bool places) {
     double sum = 0.0;
     for (int i = 0; i < a->n; i++) {
@@ -60,8 +60,8 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* The error of a curved hold, if it is meant to be zero; else 0. If one of several is meant so, all are, with any error: they
- * close one linkage. */
+/* The error of a curved hold that is meant to be zero; else 0. If one of several holds is meant to be zero, all are, whatever their
+ * errors: they close one linkage. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -105,7 +105,8 @@ static bool has_zero(apart *a, int h) {
     return changes;
 }
 
-/* Solve for n unknowns: of each row, the last entry is the right-hand side, and then the unknown. False: it is singular. */
+/* Solves n equations, rows of n + 1 entries. The last entry of a row is the right-hand side, and is replaced by the unknown. False:
+ * the matrix is singular. */
 static bool solve(int n, double *matrix) {
     int lead[HOLDS];
     if (gauss_reduce(matrix, n, n + 1, n, false, 1e-12, lead) < n) {
@@ -117,7 +118,7 @@ static bool solve(int n, double *matrix) {
     return true;
 }
 
-/* x changes by the least that moves the expressions by `by`: of coordinates that `may`. */
+/* The least change of x, in coordinates that `may` move, that changes the expressions by `by`. */
 static bool move(const apart *a, const bool *may, const double *by, double *x) {
     double matrix[HOLDS * (HOLDS + 1)] = {0.0};
     const int n = a->holds;
@@ -143,7 +144,7 @@ static bool move(const apart *a, const bool *may, const double *by, double *x) {
 
 static bool fit_places(apart *a, const bool *may) {
     double worst = 1.0;
-    double wanted[HOLDS]; /* zero for a wrong one; the others stay */
+    double wanted[HOLDS]; /* 0 for a hold with an error; the others keep their values */
     for (int h = 0; h < a->holds; h++) {
         const double value = law_of(a, h)[WH_LAW_FIRST];
         wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;
@@ -173,7 +174,7 @@ static bool fit_rates(apart *a, const bool *may) {
     return move(a, may, by, a->rate);
 }
 
-/* Those without a start of their own first, then all. */
+/* Tries the coordinates without a start of their own first, then all. */
 static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     const apart before = *a;
     for (int all = 0; all < 2; all++) {
@@ -220,7 +221,7 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
         const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
         const char *si = u->unit[primes].si;
         const bool has_unit = strcmp(si, "1") != 0;
-        /* Pasted in place of the scene's own start: those that do not change are in it, too. */
+        /* The user pastes this in place of the scene's starts, so it includes the unchanged ones. */
         if (value != was || (u->start_at[primes].source != NULL && !u->driven)) {
             fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
                     has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");
@@ -275,7 +276,7 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-/* Its error or rate, as a part of its terms; 0: it fits. */
+/* The error or rate of a hold, as a part of its terms; 0: it fits the start. */
 static double part_of(const apart *a, int h) {
     const double off = fabs(off_zero(a, h));
     const double speed = fabs(moving(a, h));

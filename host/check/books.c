@@ -44,7 +44,7 @@ void books_close(books *b) {
     }
 }
 
-/* --- how far it went to and fro ----------------------------------------------------------------*/
+/* --- swings ------------------------------------------------------------------------------------*/
 
 static void spread_enter(spread *s, double value, uint64_t before) {
     if (before == 0) {
@@ -76,11 +76,11 @@ double books_swing_J(const books *b) {
 
 /* --- round-off ---------------------------------------------------------------------------------*/
 
-/* The smallest normal float; how often a step rounds each of its entries: at its stages and moments. */
+/* The smallest normal float, and how often a step rounds each of its entries, at its stages and events. */
 #define FLOAT_LEAST 0x1p-126
 #define SUMS_OF_A_STEP 8.0
 
-/* A change of a component by which the energy's slope is taken. */
+/* Relative change of a component for the difference quotient of the energy. */
 #define SLOPE_SHARE 0x1p-20
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
@@ -93,7 +93,7 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
     }
 }
 
-/* For values, and for bounds on their errors. */
+/* The balanced energy in the results of the books list, or in their error bounds. */
 static double energy_of(const image *im, const double *value) {
     const double *entry = value + im->count;
     return im->has_integral ? entry[BOOK_MOMENTA + im->count]
@@ -113,7 +113,7 @@ typedef struct state_rounding {
 static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
                                             const void *run, int i, double value) {
     const bool turns = kind == &engine_float && i < im->angles;
-    if (kind->unit != NULL) { /* its own round-off, and that of sums with it */
+    if (kind->unit != NULL) { /* round-off of the component, and of sums with it */
         const double unit = kind->unit(run, i);
         return (state_rounding){unit, number_most(SLOPE_SHARE * fabs(value), unit)};
     }
@@ -121,7 +121,7 @@ static state_rounding rounding_of_component(const image *im, const engine_kind *
                  : (state_rounding){unit_rounding(kind) * fabs(value), SLOPE_SHARE * value};
 }
 
-/* By how much the energy changes when each component of the state is rounded once. */
+/* The energy change when each component of the state is rounded once. */
 static double state_rounding_J(const books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -134,7 +134,7 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
         const double kept = *at;
         const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
         const component c = image_component(im, i);
-        /* a rate that nothing ever changed, as a clock's, was never rounded */
+        /* a rate that nothing ever changed, such as a clock's, was never rounded */
         const spread *rate = &b->rate[c.unknown];
         const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
         if (rounding.change != 0.0 && !still) {
@@ -148,8 +148,8 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
     return isfinite(sum) ? sum : 0.0;
 }
 
-/* Energy change of a step by the round-off of its accelerations, and of its work by that of the powers. Small
- * differences of large terms, such as balanced forces, are off by parts of those terms. */
+/* Energy change of a step by the round-off of its accelerations and of its powers. A small difference of large
+ * terms, such as balanced forces, has a round-off in proportion to the terms. */
 static double step_rounding_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     const double *entry = b->value + im->count;
@@ -188,7 +188,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Momenta are sums over the rates, and of terms without rates. */
+/* A momentum is a sum of masses times rates, and of terms without rates. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -241,8 +241,8 @@ static double rule_off_J(double step_s, double begin_W, double middle_W, double 
     return rules_J > 0.1 * change_J ? change_J : rules_J;
 }
 
-/* Simpson's rule needs pairs of steps: between them, the last step counts as a trapezoid, which the
- * next entry takes back. */
+/* Simpson's rule needs pairs of steps. After an odd number of steps the last one counts as a trapezoid, which the
+ * next entry removes. */
 static void add_work(books *b, const double power_W[2]) {
     double *work[2] = {&b->input_J, &b->loss_J};
     for (int k = 0; k < 2; k++) {
@@ -262,7 +262,7 @@ static void add_work(books *b, const double power_W[2]) {
 
 /* --- terms linear in the rates -------------------------------------------------------------------*/
 
-/* The kinetic energy at this place with every rate reversed; its momenta into lean[]. */
+/* The kinetic energy at this place with every rate reversed. lean[] gets its momenta. */
 static double reversed_J(books *b, const double *angle_rad, const double *from) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -274,15 +274,14 @@ static double reversed_J(books *b, const double *angle_rad, const double *from) 
     return b->value[im->count + BOOK_KINETIC];
 }
 
-/* The mean of these momenta and of those at the unreversed rates, just evaluated. */
+/* lean[] becomes the mean of the momenta with reversed rates and of those just evaluated with the actual rates. */
 static void take_lean(books *b) {
     for (int i = 0; i < b->image->count; i++) {
         b->lean[i] = 0.5 * (b->lean[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
     }
 }
 
-/* Tests places and rates near the start without any special value. A coordinate that comes from its momentum has no rate to
- * reverse. */
+/* Tests generic places and rates near the start. A coordinate that is recovered from its momentum has no rate to reverse. */
 static bool find_leans(books *b) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -318,7 +317,7 @@ enum { FRAME_MOST = 24 };
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 
-/* How fast each momentum changes at a drawn place, with drawn rates; false: not known there. */
+/* The rate of each momentum at a random place with random rates; false: not finite there. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
     double angle_rad[2][IMAGE_COMPONENTS_MAX];
@@ -385,7 +384,7 @@ static void find_frame(books *b) {
     free(a);
 }
 
-/* A kinetic energy that is negative by this part of all energies is no rounding. */
+/* A kinetic energy that is negative by more than this part of all energies is not round-off. */
 #define NEGATIVE 1e-6
 
 /* --- all of a step ---------------------------------------------------------------------------------*/

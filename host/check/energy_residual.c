@@ -7,8 +7,8 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* Round-offs of a whole step that a run of one step may be off by. N steps may be off by this times the root of
- * N. Up to a thousand steps this also covers N errors of one sign, as of an evenly growing rate. */
+/* The allowance for round-off, after N steps, is this many times the energy change of one step's rounding, times the
+ * root of N. Up to a thousand steps this also covers N errors of one sign, as for an evenly growing rate. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
@@ -32,8 +32,8 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account_free(&kept);
 }
 
-/* Energy that steps gave back had been lost before, so it counts as missing. If nothing had been lost, and only the energy's
- * round-off was corrected, it counts as excess. */
+/* Energy that steps gave back was lost before, so it counts as missing. If nothing was lost, and the steps only corrected the
+ * energy's round-off, it counts as excess. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
@@ -148,14 +148,14 @@ void kept_account_free(kept_account *k) { free(k->entry); }
 
 /* === the books in words ========================================================================== */
 
-/* The columns that the text of a line gets. */
+/* Width of the text column. */
 #define ACCOUNT_WIDTH 44
 
 static void account_print_level(FILE *out, const char *text, const double level[2]) {
     fprintf(out, "  %-*s %.9g -> %.9g\n", ACCOUNT_WIDTH, text, level[0], level[1]);
 }
 
-/* `more` follows it, or is "". */
+/* `more` is printed after the number; may be "". */
 static void account_print_entry(FILE *out, const char *text, double given, const char *more) {
     fprintf(out, "  %-*s %+.9g%s\n", ACCOUNT_WIDTH, text, number_shown(given), more);
 }
@@ -221,7 +221,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
 
 /* --- by statement ------------------------------------------------------------------------------------*/
 
-/* The entries of an account, without contacts that gave nothing. */
+/* The entries of an account, without contacts that changed nothing. */
 static void print_entries(FILE *out, const kept_account *kept, const char *unknown) {
     char text[ACCOUNT_WIDTH + 1];
     for (int i = 0; i < kept->entries; i++) {

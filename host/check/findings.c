@@ -141,7 +141,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
         a->at_s, a->value);
 }
 
-/* The contact with the most events in such steps, except for `besides`; -1: no events. */
+/* The contact, other than `besides`, with the most events in steps with too many events; -1: none. */
 static int busiest(const run_checks *v, int besides) {
     int found = -1;
     for (int k = 0; k < v->image->contacts; k++) {
@@ -186,21 +186,21 @@ static void (*const say[FINDINGS])(FILE *, const run_checks *) = {
 };
 
 /* --- trying remedies --------------------------------------------------------------------------------------*/
-/* Options with which a run has no finding. Each is tried before it is named: the run again with it, judged as the run was. */
+/* Options that leave a run without findings. Before Whirl names an option, it runs the scene with it and checks that run, too. */
 
 typedef enum remedy_outcome {
-    REMEDY_DOES, /* the run has no findings with it */
-    REMEDY_NONE, /* all those tried failed */
-    REMEDY_DEAR  /* the budget is spent, or it was interrupted */
+    REMEDY_DOES, /* a run with these options has no findings */
+    REMEDY_NONE, /* no tried option helped */
+    REMEDY_DEAR  /* the budget was exhausted, or the user interrupted */
 } remedy_outcome;
 
 enum { REMEDY_TEXT = 120 };
 
-/* A remedy keeps this part of the limit: the lists of a user's run may round a little otherwise. */
+/* A remedy must stay below this part of the limits, because the lists of the user's next run may round differently. */
 #define LEAVES 0.3
-/* No more parts of a step are tried. */
+/* The finest tried step is the run's, divided by this. */
 #define PARTS_MOST 20000.0
-/* A float's sums are compensated if they have this many times more steps. */
+/* In float, a remedy with this many times more steps also gets compensated sums. */
 #define COMPENSATED_FROM 10.0
 
 typedef struct search {
@@ -208,9 +208,9 @@ typedef struct search {
     const image *plain;
     const engine_kind *kind;
     budget *budget;
-    double part;   /* of the limits */
-    double a_step; /* operations of one, judged, and stages in them */
-    double stages;
+    double part;   /* factor of the limits (run_checks.h) */
+    double a_step; /* operations of a step of the run, with its checks */
+    double stages; /* of the run's method */
     bool dear;
 } search;
 
@@ -221,7 +221,7 @@ typedef struct wish {
     bool in_double;
 } wish;
 
-/* The same scene with it; false if the number of steps is not whole, or if it would be the same run. */
+/* The scene with the wish's settings; false if the end is not a whole number of steps. */
 static bool image_with(const image *im, const wish *w, image *made) {
     *made = *im;
     made->settings.method = w->method;
@@ -239,8 +239,8 @@ static bool image_with(const image *im, const wish *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* Is it wrong from its begin on? A motion that is chaotic is right for longer. A float run is to be right to its end: if
- * it is not, the run in double is tried. */
+/* Is the run inaccurate almost from its begin on? A chaotic motion stays accurate for longer. A float run must be accurate to
+ * its end; otherwise the same run is tried in double. */
 static bool is_off_at_once(const run_checks *v) {
     if (v->twins == NULL) {
         return false;
@@ -258,7 +258,7 @@ static bool does(const run_checks *v) {
            !is_off_at_once(v);
 }
 
-/* Of no use any more once it has jumped. */
+/* False ends the trial: after a jump over a pole the remedy has failed. */
 static bool see(void *of, uint64_t step) {
     run_checks *v = of;
     (void)step;
@@ -266,7 +266,7 @@ static bool see(void *of, uint64_t step) {
     return !pole_crossing_some(v->jumped);
 }
 
-/* Steps with contacts cost more with events, which are not predicted. */
+/* Predicted operations of the trial; 0 with contacts, because the number of events is unknown. */
 static double operations(const search *s, const image *with) {
     return with->contacts > 0 ? 0.0
                               : (double)with->steps * s->a_step *
@@ -298,7 +298,7 @@ static bool try(search *s, const wish *w) {
     return good;
 }
 
-/* In the run's number; after a failure in float also in double. */
+/* Tries the run's number type, and if float fails also double. */
 static bool try_either(search *s, wish *w) {
     if (try(s, w)) {
         return true;
@@ -327,7 +327,7 @@ static void write_options(const search *s, const wish *w, char text[REMEDY_TEXT]
     snprintf(text, REMEDY_TEXT, "%s", all + 1);
 }
 
-/* Finer and finer steps, 1, 2 and 5 times powers of ten. */
+/* Tries ever finer steps: 1, 2 and 5 times powers of ten. */
 static bool try_steps(search *s, wish w, double parts, char text[REMEDY_TEXT]) {
     w.step_s = step_nice_s(s->image->step_s / number_most(parts, 2.0));
     while (w.step_s > 0.0 && w.step_s * PARTS_MOST > s->image->step_s && !s->dear) {
@@ -360,7 +360,7 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
         }
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
-        w.method = WH_METHOD_DEFAULT; /* and with it finer steps */
+        w.method = WH_METHOD_DEFAULT; /* the finer steps are tried with it, too */
         wish usual = w;
         if (try_either(s, &usual)) {
             write_options(s, &usual, text);
@@ -371,8 +371,8 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
     return try_steps(s, w, parts, text) ? REMEDY_DOES : s->dear ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-/* For a finished run, with the budget that its checks have left: "--step 50us --compensated". `parts`: this many of a
- * step are tried first, 1 or more. */
+/* Finds options such as "--step 50us --compensated" for a finished run, within the budget that its checks left. The first
+ * trial divides the step by `parts`, at least 1. */
 static remedy_outcome remedy_find(const run_checks *v, double parts, char text[REMEDY_TEXT]) {
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
@@ -402,7 +402,7 @@ bool remedy_not_needed(const image *im, const image *plain, const engine_kind *k
 
 static bool is_told(const run_checks *v, finding_id id) { return v->found[id].told; }
 
-/* Causes that no step cures. */
+/* Names a cause that no smaller step removes. */
 static bool say_cause(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const char *hint = NULL;
@@ -434,7 +434,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
-/* The number of parts of a step to try first, from the order of the method. */
+/* The divisor of the step for the first trial, from the order of the method. */
 static double first_parts(const run_checks *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
@@ -557,7 +557,7 @@ void findings_say_failed(FILE *out, const run_checks *v) {
     }
 }
 
-/* --- why a run has ended before its time ------------------------------------------------------------------*/
+/* --- runs that failed -------------------------------------------------------------------------------------*/
 
 static bool starts_beyond(const image *im) {
     bool found = false;
@@ -593,7 +593,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* In a linkage's flat position, a step past it does not know which motion follows. */
+        /* A linkage has several motions out of its flat position, so a step past it would choose one. */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

@@ -8,7 +8,7 @@
 #include "run_checks.h"
 
 /* One line for each finding, "whirl run: warning: ... [word]", then hints with remedies that have been tried. `fails`: the
- * energy finding fails the run, whatever limit the user set. */
+ * energy finding is printed as an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
 /* The text of a reported finding, without its word. findings_where() gives the coordinate or contact; false if the finding is
  * about the whole run. */

@@ -9,22 +9,22 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* Factor for round-off outside the bound: of a step's own sums and of the library's functions. */
+/* Factor on the round-off bound, for what it leaves out: a step's own sums, and the library's functions. */
 #define ROUNDING_ROOM 8.0
-/* The least range of a rate, as a part of its size. A rate that stays at 34.56 rad/s within 0.007 has no correct thousandth
- * in float. A place has no such floor, because its origin may be anywhere. */
+/* Least range of a rate, as a part of its size. For a rate of 34.56 rad/s that varies by 0.007, float cannot resolve a thousandth
+ * of the variation. A place has no such least range, because its origin may be anywhere. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
 /* A place is constant up to round-off if it moves by less than this part of its distance from the origin, or of one metre
- * or radian. The same part applies to the motion of others of its unit. */
+ * or radian. So it is beside a place with the same unit that moves much further (BESIDE_OTHERS). */
 #define STAYS 1e-9
 /* In float, a place that moves by less than this part of its distance is constant. */
 #define FLOAT_STAYS 3e-7
 #define BESIDE_OTHERS 1e-3
-/* A start that is computed by sums and is at most this part of a metre or radian is round-off. Others are the scene's. */
+/* A start computed by sums counts as round-off of zero if it is at most this part of a metre or radian. */
 #define STARTS 1e-12
-/* The bound is some twenty times the actual round-off, eight times if that is the same at all states, as for a root of a nearly
- * constant value. If the bound is that large, the finer run has the same round-off. */
+/* The bound is about twenty times the actual round-off. It is only eight times as large if the round-off is the same at all states,
+ * as for a root of a nearly constant value. At that size the finer run has the same round-off as the run. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -46,20 +46,20 @@ bool horizon_moves(const step_doubling *t, int k) {
     return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);
 }
 
-/* A lower bound of its size: it stays at the scene's value, and is not one metre from zero by chance. */
+/* The size with which round-off is compared: the value of a start that the scene gives, else at least one SI unit. */
 static double least_size(const step_doubling_column *c) {
     const double least = c->written ? 0.0 : STARTS * c->one;
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* Does round-off affect both runs alike? A constant column has no range to compare with. It may be constant for lack of
- * digits if round-off might move it by more than its size, or by one metre or radian if it starts at zero. */
+/* May both runs have the same round-off? A constant column has no range to compare the round-off with. It may be constant only for
+ * lack of digits, if round-off might move it by more than its size, or by one metre or radian if it starts at zero. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
 }
 
-/* Double has enough digits for nearly constant values. */
+/* Double has more digits for nearly constant values, so their least range is smaller. */
 static double least_range(const step_doubling *t) {
     return t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
 }
@@ -131,17 +131,17 @@ void horizon_free(horizon *h) {
 }
 
 /* === aliasing ==================================================================================== */
-/* Detects forcing that aliases with the step. A force of 1 kHz, in steps of 4 ms, is the same at every stage,
- * like a constant force. So it is in steps of half the length, and the finer run agrees. A third run takes a step that
+/* Detects forcing that aliases with the step. In steps of 4 ms a force of 1 kHz is the same at every stage,
+ * like a constant force. In steps of 2 ms it is, too, so the finer run agrees. A third run takes a step that
  * shares no period with either: the run's span over a prime number of steps. It samples such a force at varying phases,
  * and ends elsewhere. The runs are compared at the end of the finer run's trusted span. */
 
-/* Steps of the third run in one of the run's: more than one, so that it is the more accurate, and near no simple ratio. */
+/* Steps of the third run per step of the run. It is above one, so that the third run is more accurate, and near no simple ratio. */
 #define STEPS 1.41
 /* The third run may differ by this many times the difference of the run and the finer one, because of its steps
  * alone. */
 #define ITS_OWN 2.0
-/* SI: no column that is as near as this differs. */
+/* Smaller differences do not count, SI. */
 #define ALIKE 1e-9
 
 static bool is_prime(uint64_t n) {
@@ -153,7 +153,7 @@ static bool is_prime(uint64_t n) {
     return n % 2U == 1U;
 }
 
-/* False: its step is no ratio of two numbers. */
+/* False: the third run's step is not a ratio of two 64-bit numbers. */
 static bool third_image(const step_doubling *t, uint64_t steps, image *im) {
     const image *run = t->shape->image;
     *im = t->finer;
@@ -208,7 +208,7 @@ static uint64_t trusted_steps(const step_doubling *t, const horizon *h) {
     return until_s < t->end_s ? (uint64_t)(until_s / im->step_s) : im->steps;
 }
 
-/* The state at the end of all steps of this image: row[columns]. */
+/* Runs the image to its end; row[columns] gets the last state. */
 static loop_end end_of(const step_doubling *t, const image *im, const budget *of, double *row) {
     wh_status status;
     records *r = records_open(NULL, im, &engine_double);
@@ -315,7 +315,7 @@ static void print_column(FILE *out, const horizon *h, int k) {
     }
 }
 
-/* --- after the horizon -------------------------------------------------------------------------------*/
+/* --- quantities that stay correct --------------------------------------------------------------------*/
 
 static void print_momenta(FILE *out, const horizon *h) {
     const image *im = image_of(h);

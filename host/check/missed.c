@@ -14,12 +14,12 @@
 /* Bounds of an operation list on a part of a step, by Taylor forms of second order in the time (Moore, Kearfott,
  * Cloud, Introduction to Interval Analysis, 2009, chapter 6).
  *
- * Natural interval bounds of a multiplied-out polynomial are wide: x occurs in it several times, as if each were another x.
- * Here each operation carries its value and slope at the middle of the part, and bounds of value, slope and curvature on the
- * part. Each value is cut with  f(m) + f'(m) d + f''(part) d^2/2  and with  f(m) + f'(part) d. */
+ * Natural interval bounds of a multiplied-out polynomial are wide, because they treat each occurrence of x as another variable.
+ * Here each operation carries its value and slope at the middle m of the part, and bounds on value, slope and curvature over the
+ * part. Each value is intersected with  f(m) + f'(m) d + f''(part) d^2/2  and with  f(m) + f'(part) d. */
 typedef struct taylor_bounds taylor_bounds;
 
-/* A value on a part of the way. NaN: not known. */
+/* A value on a part of the way; NaN: unknown. */
 typedef struct form {
     enclosure middle;       /* at the middle of the part */
     enclosure middle_slope; /* its slope */
@@ -43,9 +43,9 @@ struct taylor_bounds {
     form *rate;         /* [coordinates] */
     form *of;           /* [operations] */
     bool *needs;        /* [results * operations] */
-    enclosure *natural; /* [operations] bounds on the whole way, */
-    bool glanced;       /* if they are known */
-    double half;        /* of the part's width */
+    enclosure *natural; /* [operations] bounds on the whole way */
+    bool glanced;       /* natural[] is set */
+    double half;        /* half the part's width */
 };
 
 static const enclosure unknown = {(double)NAN, (double)NAN};
@@ -96,7 +96,7 @@ static void taylor_bounds_close(taylor_bounds *a) {
 
 /* --- forms ----------------------------------------------------------------------------------------------*/
 
-/* The intersection, or the known one. Round-off may make it empty: then the first. */
+/* The intersection, or the one that is known. If round-off makes it empty, the result is `a`. */
 static enclosure both(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? a : b;
@@ -157,7 +157,7 @@ static form over(const form *a, const form *b) {
     return q;
 }
 
-/* A function of u, given it at the middle and on the part. */
+/* A function of u, from its slopes at the middle and on the part. */
 static form chain(const form *u, slopes at, slopes on) {
     return (form){at.f[0], enclosure_mul(at.f[1], u->middle_slope), on.f[0],
                   enclosure_mul(on.f[1], u->slope),
@@ -165,7 +165,7 @@ static form chain(const form *u, slopes at, slopes on) {
                                 enclosure_mul(on.f[1], u->curve))};
 }
 
-/* One of two, or either: a kink has slopes between those at its sides, and no curvature. */
+/* One of two forms, if it is unknown which. At a kink the slope is between those of the two, and there is no curvature. */
 static form either(form a, form b, enclosure middle, enclosure value) {
     return (form){middle, enclosure_hull(a.middle_slope, b.middle_slope), value,
                   enclosure_is_finite(a.slope) && enclosure_is_finite(b.slope)
@@ -390,7 +390,7 @@ static enclosure natural_of(const taylor_bounds *a, const op *o) {
     return unknown;
 }
 
-/* The bounds of the middle and of the slopes bound the value. */
+/* Narrows the value by the bounds at the middle and those of the slopes. */
 static void cut(form *f, double half) {
     const enclosure way = {-half, half};
     const enclosure bend = {0.0, enclosure_above(0.5 * half * half)};
@@ -422,7 +422,7 @@ static void taylor_bounds_way(taylor_bounds *a, const double *from, const double
     a->glanced = false;
 }
 
-/* Between two numbers, and bent by no more than that. */
+/* Bounds between two end values, widened by the bend. */
 static enclosure between(double a, double b, double bend) {
     return (enclosure){enclosure_below(number_least(a, b) - bend),
                        enclosure_above(number_most(a, b) + bend)};
@@ -458,7 +458,7 @@ static void go(taylor_bounds *a, double low, double high) {
     }
 }
 
-/* Costs in operations: of an operation's bounds, a coordinate's way, a form, and a function's form. */
+/* Costs, in operations, of an operation's bounds, a coordinate's way, a form, and a function's form. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 /* Natural bounds of one result on the whole way: a quick test. */
@@ -485,7 +485,7 @@ static void taylor_bounds_look(taylor_bounds *a, int result, double low, double 
         if (needs == NULL || needs[i]) {
             const op_code code = t->ops[i].code;
             a->of[i] = value_of(a, &t->ops[i]);
-            if (op_rows[code].kind > OP_IS_LEAF) { /* those are as narrow as can be */
+            if (op_rows[code].kind > OP_IS_LEAF) { /* a leaf's bounds are already exact */
                 engine_operations += code == OP_CALL || code == OP_POW ? CALLED : FORM;
                 cut(&a->of[i], a->half);
             }
@@ -502,7 +502,7 @@ static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
     return a->of[a->list->result[result]].middle;
 }
 
-/* By how much it would change on the whole way, at its slope and curvature there. */
+/* How much the result would change over the whole way, with its slope and curvature on the part. */
 static double taylor_bounds_change(const taylor_bounds *a, int result) {
     const form *f = &a->of[a->list->result[result]];
     const double slope = enclosure_size(f->middle_slope);
@@ -511,14 +511,14 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 /* === what a step passes ========================================================================== */
 
-/* Halvings of a step, and its most parts for one contact. */
+/* Most halvings of a step, and most parts of it for one contact. */
 #define HALVINGS 24
 #define PARTS_MOST 400
-/* A touch is below this share of the gap at the ends, or of its change at the slope there. It may also be below this many
- * times the bounds' width, which is round-off. */
+/* A negative margin is a mere touch if its size is below TOUCH times the margin at the ends, or times its change over the way. It
+ * is round-off if it is below WIDTHS times the width of the bounds. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* A hidden acceleration is this many times those at both ends, and over a step would change the rate by this share. */
+/* A hidden acceleration is HIDDEN times those at both ends, and would change the rate by the share TURNS in a step. */
 #define HIDDEN 2.0
 #define TURNS 0.05
 /* A gap's slope that changes by this share of its size in 2^-EDGE_HALVINGS of a step has an edge there. */
@@ -528,18 +528,18 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 struct missed {
     const image *image;
     taylor_bounds *signals; /* or NULL */
-    taylor_bounds *accel;   /* if there is one to test, or NULL */
-    bool hills;             /* an exponential function is in them */
+    taylor_bounds *accel;   /* of the accelerations, if one must be tested; or NULL */
+    bool hills;             /* the accelerations contain an exponential function */
     bool edges;             /* a gap may have an edge */
-    taylor_bounds *laws;    /* of the contacts if a friction's limits move, or NULL */
+    taylor_bounds *laws;    /* of the contacts' laws, if a friction's limits move; or NULL */
     double *from;           /* [angles + reals] the state before the step, */
     double *to;             /* and after it */
-    int *mode;              /* [contacts] the same */
+    int *mode;              /* [contacts] modes before and after the step */
     int *mode_to;
-    double *most;              /* [coordinates] more is hidden from both ends */
+    double *most;              /* [coordinates] a larger acceleration is hidden from both ends */
     const engine_piece *piece; /* the present piece */
-    double size;               /* the larger margin at its ends */
-    int parts;                 /* tested so far */
+    double size;               /* the larger of the margins at the piece's ends */
+    int parts;                 /* parts tested so far */
 };
 
 static bool has_exponential(const op_list *t) {
@@ -612,7 +612,7 @@ void missed_close(missed *m) {
 
 /* --- parts of a piece -----------------------------------------------------------------------------------*/
 
-/* Positive: the contact keeps its mode. */
+/* The margin of contact k: positive if the contact keeps its mode. */
 static enclosure margin(const missed *m, int k, enclosure signal) {
     const bool is = m->image->contact[k].kind == WH_STOP || m->piece->mode[k] > 0;
     return is ? signal : enclosure_neg(signal);
@@ -624,7 +624,7 @@ typedef int looking(missed *m, int k, double low, double high, double bar);
 /* The finest part: a thinner contact does not count. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
-/* `beyond`: the largest negative margin of an end, because of the error of a located event. */
+/* `beyond`: the size of a negative margin at an end, which the error of a located event explains. */
 static int look_contact(missed *m, int k, double low, double high, double beyond) {
     taylor_bounds_look(m->signals, 2 * k, low, high);
     const enclosure middle = margin(m, k, taylor_bounds_middle(m->signals, 2 * k));
@@ -679,14 +679,14 @@ static int passes(missed *m, looking *look, int k, double low, double high, doub
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
-/* The earlier result, or this one: the first certain one counts. */
+/* The earlier result, or this one. The first certain one wins. */
 static missed_found or_this(missed_found found, int passed, int what) {
     return passed > 0 || (passed < 0 && found.what < 0)
                ? (missed_found){.what = what, .sure = passed > 0}
                : found;
 }
 
-/* A hold that would close has no effect if its expression rests all the way. */
+/* A hold that would close has no effect if its expression does not move on the way. */
 static bool is_idle(missed *m, int k) {
     if (m->image->contact[k].kind != WH_HOLD || m->piece->mode[k] != WH_FREE) {
         return false;
@@ -848,7 +848,7 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* The coordinate with an acceleration on the way that neither end shows. At rest in balance the bounds are underflow alone. */
+/* Finds a coordinate with an acceleration on the way that neither end shows. In balanced rest the bounds are only underflow. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
@@ -878,7 +878,7 @@ static missed_found force_passed(missed *m) {
 static missed_found piece_passed(missed *m, const engine_piece *piece) {
     missed_found found = MISSED_NOTHING;
     if (piece->span_s <= m->image->step_s / (1 << HALVINGS)) {
-        return found; /* as thin as is_finest() has it */
+        return found; /* thinner than is_finest() */
     }
     m->piece = piece;
     taylor_bounds *const bounds[] = {m->signals, m->accel, m->laws};

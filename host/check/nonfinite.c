@@ -128,7 +128,7 @@ static double sine_limit_rad(const nonfinite_at *at) {
     return at->turns ? ANGLE_SINE_MOST_FLOAT_RAD : ANGLE_SINE_MOST_RAD;
 }
 
-/* Is node i a sine that no run knows (core/number/sine.h)? In float those of turn angles are known everywhere. */
+/* Is node i a sine outside the range of core/number/sine.h? In float the sine of a turn angle has no such range. */
 static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bool *turning) {
     const diagnostics_node *n = &v->image->blame.node[i];
     const double angle_rad = is_sine(n) ? v->value[n->a] : 0.0;
@@ -136,7 +136,7 @@ static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bo
     return beyond && !(at->turns && turning[n->a]);
 }
 
-/* [blame.nodes]: those that depend on an angle kept as turns; the caller frees it. */
+/* [blame.nodes]: true for nodes that depend on a turn angle; the caller frees it. */
 static bool *nodes_that_turn(const image *im) {
     bool *turning = alloc(im->blame.nodes, sizeof *turning);
     for (int i = 0; i < im->blame.nodes; i++) {
@@ -174,7 +174,7 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
 
 /* --- questions ---------------------------------------------------------------------------------*/
 
-/* The innermost part that is not finite though its operands are; -1 when the whole is finite. */
+/* The innermost part that is not finite but has finite operands; -1 if the whole is finite. */
 static int innermost(const blamed *v, int node) {
     const diagnostics_node *n = &v->image->blame.node[node];
     int part = -1;
@@ -210,7 +210,7 @@ static void report(const nonfinite_at *at, place where, place part, const char *
                what, text);
 }
 
-/* The reason why node i, the innermost, is not finite. */
+/* A hint for node i, the innermost one that is not finite. */
 static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     static char hint[200];
     const diagnostics_node *n = &v->image->blame.node[i];
@@ -240,7 +240,7 @@ static bool find(const blamed *v, const nonfinite_at *at, int first, int count, 
     return false;
 }
 
-/* Tries these questions on the state and on the way that it was about to go. */
+/* Tries these questions at the state and at places ahead of it along its rates. */
 static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     bool found = false;

@@ -59,15 +59,15 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The part of the budget beyond the needs of the remaining steps. Below 0, checks less important than the finer run are skipped. So
- * they are spread over all of the run, not done at its begin alone. */
+/* The remaining part of the budget, minus the share of the remaining steps. While it is below 0, checks that are less important than
+ * the finer run are skipped. So they are spread over the whole run, not only over its begin. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
     return budget_left(v->budget) / BUDGET_LEAST - share;
 }
 
-/* Below this the finer run alone costs too much, and would not finish. */
+/* If part_left() falls below this, the finer run alone costs too much, and is given up. */
 #define BEHIND (-1.0 / 16.0)
 
 void run_checks_enter(run_checks *v) {
@@ -97,7 +97,7 @@ void run_checks_enter(run_checks *v) {
 
 /* --- judging -----------------------------------------------------------------------------------------------*/
 
-/* An acceleration that rounding moves by less than the tolerance of trust leaves the run right: a note. */
+/* Reports a finding. FINDING_MASS is only a note if rounding changes the accelerations by less than HORIZON_TOLERANCE. */
 static void tell(run_checks *v, finding_id id, double value, double at_s, int of) {
     const bool is_note = finding_rows[id].severity == FINDING_NOTE ||
                          (id == FINDING_MASS && value <= HORIZON_TOLERANCE);
@@ -109,7 +109,7 @@ static double end_s(const run_checks *v) {
     return ratio_times(v->kind->steps(v->run), v->image->step);
 }
 
-/* Is it accurate to the end, according to the finer run? */
+/* Is the run accurate to its end, according to the finer run? */
 static bool is_right(const run_checks *v) {
     if (v->twins == NULL) {
         return false;
@@ -143,7 +143,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* Less energy than this part of all is that of a speed which float's rounding of the others covers. */
+/* A speed with less than this part of all energy is smaller than float's rounding of the other speeds. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -153,7 +153,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     double own = 0.0;
-    double fastest = 0.0; /* of the finer run as well: float's may be zero */
+    double fastest = 0.0; /* includes the finer run's rates, because float's may be zero */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
@@ -166,7 +166,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* An angle of a float run moves by units, and is always uncertain by two of them. */
+/* A float run's turn angle moves by whole units, and is always uncertain by two. */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->twins->column[k];
     const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
@@ -174,7 +174,7 @@ static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
            own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
 }
 
-/* Rates jump at contacts, and differ for the steps in which two runs do not jump together. */
+/* Rates jump at contacts. Two runs may jump in different steps, so there their rates differ. */
 static bool is_asked(const run_checks *v, int k) {
     const record_column *c = &v->twins->shape->column[k];
     return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->twins, k) &&
@@ -186,8 +186,8 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* The column that is accurate to a hundredth for the shortest time and has an error that grew as a power of time at most, or -1. In
- * a chaotic motion errors grow faster, and no step helps; the accuracy line reports that. */
+/* The column that is accurate to a hundredth for the shortest time, among those with an error that grew no faster than a power of
+ * time; or -1. In a chaotic motion errors grow faster, and no step helps. The accuracy line reports that. */
 static int first_off(const run_checks *v, const horizon *h) {
     const step_doubling *t = v->twins;
     int found = -1;
@@ -205,8 +205,8 @@ static int first_off(const run_checks *v, const horizon *h) {
     return found;
 }
 
-/* The position with an error that grew RUN_CHECKS_SUDDEN times to the tolerance of trust in few steps, or -1. Then the steps do
- * not resolve a place of the motion, such as a singularity of the coordinates. A resolved chaotic motion does not do that. */
+/* The position with an error that grew by RUN_CHECKS_SUDDEN to HORIZON_TOLERANCE within a few steps, or -1. Such steps do not
+ * resolve a place of the motion, such as a singularity of the coordinates. In a resolved chaotic motion errors grow more slowly. */
 static int first_sudden(const run_checks *v, const horizon *h) {
     int found = -1;
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
@@ -224,7 +224,7 @@ static int first_sudden(const run_checks *v, const horizon *h) {
     return found;
 }
 
-/* Steps with too many events, and runs cut off for another reason, have findings of their own. */
+/* Does nothing after too many events or another early end of the comparison, because those have findings of their own. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->twins;
     horizon h = horizon_of(t, v->part * RUN_CHECKS_TOLERANCE);

@@ -94,7 +94,7 @@ static void put_findings(json *j, const run_checks *v) {
     json_close(j, ']');
 }
 
-/* The lines that begin with "hint: ", without that. */
+/* Writes the lines that begin with "hint: ", without this word. */
 static void put_hints(json *j, const char *said) {
     static const char begin[] = "hint: ";
     const size_t skip = sizeof begin - 1;
@@ -109,7 +109,7 @@ static void put_hints(json *j, const char *said) {
     json_close(j, ']');
 }
 
-/* The failure's reason: the line with "error: ", without that. */
+/* Writes the reason of a failure: the line with "error: ", from after this word. */
 static void put_error(json *j, const char *said) {
     const char *at = said != NULL ? strstr(said, "error: ") : NULL;
     if (at == NULL) {

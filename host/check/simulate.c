@@ -22,7 +22,7 @@
 #include "host/os/system.h"
 #include "run_json.h"
 
-/* Events that a picture marks at most. */
+/* A picture marks at most this many events. */
 #define MARKS 400.0
 
 typedef struct simulation {
@@ -36,18 +36,18 @@ typedef struct simulation {
     FILE *vcd;
     traces *traces;   /* NULL without --vcd */
     decimation *plot; /* NULL without a picture */
-    plot_run course;  /* names and marks of a picture, and of the file about the CSV file */
-    opening opening;  /* of the summary */
-    uint64_t steps;   /* wanted */
+    plot_run course;  /* names and marks for a picture, and for the description of the CSV file */
+    opening opening;  /* first sentence of the summary */
+    uint64_t steps;   /* of the whole run */
     bool write_failed;
-    double shown_s;   /* when progress was, of the clock */
-    char *said;       /* the findings */
-    diags *undefined; /* values beside the motion that were not finite */
+    double shown_s;   /* clock time when the progress was last shown */
+    char *said;       /* text of the findings */
+    diags *undefined; /* errors about energies and outputs that were not finite */
     bool energies_told;
-    int output;           /* the first output that was not a finite number, or -1, */
-    double output_s;      /* when, */
-    double trusted_s;     /* the plot is shaded after it; not above 0: nowhere */
-    uint64_t output_rows; /* in how many of the records and points */
+    int output;           /* the first output that was not a finite number, or -1 */
+    double output_s;      /* time when it was first not finite */
+    double trusted_s;     /* the plot is shaded after this time; no shade if not above 0 */
+    uint64_t output_rows; /* number of records and points in which an output was not finite */
 } simulation;
 
 /* True if the file is open or there is no file to open. */
@@ -84,7 +84,7 @@ static bool open_files(simulation *sim) {
     return true;
 }
 
-/* Undefined energies make a run fail at its end: the motion goes on, and so do its records. */
+/* Undefined energies make a run fail at its end. Until then the motion and its records continue. */
 static void tell_energies(simulation *sim) {
     const books *b = sim->verdict->books;
     if (b == NULL || !b->undefined || sim->energies_told) {
@@ -99,7 +99,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* The same for outputs that are recorded or drawn, and for all at the end. */
+/* Undefined outputs do the same. They are checked when they are recorded or drawn, and at the end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -223,7 +223,7 @@ static void say_interrupted(const simulation *sim) {
             (double)sim->steps * step_s, has_records(sim) ? "; the records so far are kept" : "");
 }
 
-/* Values that were clamped to their ranges: not an error of the run, but hardly intended. */
+/* Values were clamped to their ranges. The run has not failed, but this is hardly intended. */
 static void say_saturated(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const uint64_t held = kind->saturated != NULL ? kind->saturated(sim->run) : 0;
@@ -338,7 +338,7 @@ static bool is_taken(FILE *file) {
     return file == NULL || file == stdout || (fflush(file) == 0 && ferror(file) == 0);
 }
 
-/* All of the records and the file about them replace the old ones, or all old ones stay. */
+/* Either all record files and their description replace the old ones, or all old files stay. */
 static bool close_records(simulation *sim, bool keep) {
     const simulation_settings *s = sim->settings;
     keep = keep && is_taken(sim->csv) && is_taken(sim->columns) && is_taken(sim->vcd);
@@ -416,7 +416,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
 }
 
-/* Until when the run is trusted; NULL: not known. */
+/* Fills in *to, from the horizon if there is one (`h` may be NULL). */
 static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     const run_checks *v = sim->verdict;
     *h = horizon_of(v->twins, HORIZON_TOLERANCE);

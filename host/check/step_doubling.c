@@ -15,8 +15,8 @@
 /* Sensitivity of a scene's accelerations to the folding of its constants to double. Compares the scene's
  * lists with those that fold constants in other ways (host/number/folding.h). Most scenes have no such lists. */
 
-/* Error of each way, off[ways * count], relative to the largest one. Components are scaled separately because their units
- * differ. */
+/* Adds to share[ways] each way's errors off[ways * count], relative to the largest error of the same component. Components have
+ * different units. */
 static void add_shares(const double *off, int ways, int count, double *share) {
     for (int i = 0; i < count; i++) {
         double most = 0.0;
@@ -68,8 +68,8 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* The image of the way with the largest difference near the scene's start; NULL if there is no other way. Evaluates at the start, and with each component one unit further, because other components may be zero there and
- * hide a factor. */
+/* The image of the way with the largest difference near the scene's start; NULL if there is no other way. Evaluates at the start,
+ * and with each component moved by one unit, because a component that is zero at the start may hide a factor. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -107,8 +107,8 @@ static whole_ratio half_of(whole_ratio step) {
     return ratio_of(0.5 * ratio_times(1, step));
 }
 
-/* Do its slopes have kinks or edges? The error of a step across one depends on its place in the step, also in the finer run. So
- * the order is only one. */
+/* Do the slopes have kinks or edges? The error of a step across a kink depends on the kink's place in the step, also in the finer
+ * run. So the order is only one. */
 static bool has_kinks(const image *im) {
     const op_list *step = im->list[IMAGE_STEP];
     bool found = false;
@@ -143,7 +143,7 @@ bool step_doubling_plain(const image_settings *of, image_settings *plain) {
     return plain->tables != of->tables || plain->compensated != of->compensated;
 }
 
-/* Otherwise both runs would have the same round-off of folding. */
+/* Gives the finer run other folded constants: with the same ones both runs would have the same round-off. */
 static void fold_the_other_way(image *im) {
     const image *other = constant_sensitivity_furthest(im);
     for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
@@ -237,15 +237,15 @@ typedef struct rounded {
     double *input;
     double *result;
     double *off;
-    double *most;   /* [results]: of the looks with a bound, */
-    uint64_t *lost; /* [results]: looks without a bound, */
-    uint64_t looks; /* of all */
+    double *most;   /* [results]: largest bound of all looks that had one */
+    uint64_t *lost; /* [results]: number of looks without a bound */
+    uint64_t looks; /* number of all looks */
 } rounded;
 
 /* Unit round-off of double. */
 #define UNIT 0x1p-53
 
-/* Is result i of a step's list the highest derivative of an unknown, for which equations are solved? */
+/* Is result i of a step's list a highest derivative that comes from solving the equations? */
 static bool is_solved_for(const image *im, int i) {
     if (im->form == WH_SECOND_ORDER) {
         return true;
@@ -293,7 +293,7 @@ static void rounded_close(rounded *r) {
     free(r->lost);
 }
 
-/* The result of the list that is this derivative, or -1. */
+/* The index of the list's result that is this derivative, or -1. */
 static int result_of(const image *im, int unknown, int primes) {
     if (im->form == WH_SECOND_ORDER) {
         return primes == 2 ? im->place[unknown] : -1;
@@ -301,7 +301,7 @@ static int result_of(const image *im, int unknown, int primes) {
     return image_find_component(im, unknown, primes - 1);
 }
 
-/* Each derivative's rounding, the highest first, moves the next lower one for all of the time: in the columns' units. */
+/* Sums the round-off of each derivative over the whole time, from the highest on, into the next lower one, in the columns' units. */
 static void take_rounding(step_doubling *t, const rounded *r) {
     for (int k = t->columns - 1; k > 0; k--) {
         const record_column *c = &t->shape->column[k];
@@ -344,7 +344,7 @@ static void take_places(step_doubling *t) {
     }
 }
 
-/* A step before it fails. */
+/* An angle above this part of the sine's range counts as outside: the next step may fail. */
 #define UNWRAPPED 0.9
 
 /* --- side by side ------------------------------------------------------------------------------------*/
@@ -361,11 +361,11 @@ typedef struct pair {
     double look_s;   /* the last look, */
     double before_s; /* and the one before it */
     uint64_t looks;
-    bool owns; /* the run, and its monitors */
+    bool owns; /* the pair owns the run and its monitors */
 } pair;
 
-/* With contacts, a difference at a single look does not count: one run may have had an event that the other has within
- * the step. A run of one step has only that look. */
+/* Compares the two runs. With contacts, a difference at a single look does not count: the other run may have the same event within
+ * the step. A run of one step has only one look, which counts. */
 static void look(pair *p, double time_s) {
     step_doubling *t = p->to;
     const bool events = p->wish.image->contacts > 0 && p->wish.image->steps > 1U;
@@ -423,7 +423,7 @@ static bool is_unwrapped(const pair *p) {
     return found;
 }
 
-/* Nothing is known after this time. */
+/* Every column exceeds every level after this time, because nothing is known there. */
 static void end_passages(step_doubling *t, double time_s) {
     for (int k = 1; k < t->columns; k++) {
         passages_enter(&t->column[k].off, time_s, (double)INFINITY);
@@ -431,7 +431,7 @@ static void end_passages(step_doubling *t, double time_s) {
     t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
 }
 
-/* A step with more events than it takes lets stops rest that do not: with half the step as well, so that the two agree. */
+/* A step with too many events lets stops rest that would not rest. A step of half the length does so, too, and the two runs agree. */
 static bool has_overrun(const pair *p) {
     uint64_t ours = 0;
     uint64_t finers = 0;
@@ -444,7 +444,7 @@ static bool has_jumped(const pair *p) {
     return pole_crossing_some(p->our_jumps) || pole_crossing_some(p->finer_jumps);
 }
 
-/* The finer one catches up with the step that the run has just done. */
+/* The finer run catches up with the step that the run has just taken. */
 static void follow(pair *p, uint64_t begin) {
     step_doubling *t = p->to;
     const bool failed = t->finer_failed_s < 0.0 && !step_finer(p);

@@ -85,8 +85,7 @@ char *about_tables(const image *im) {
 
 /* === the opening sentence ===================================================================== */
 
-/* Sampled rows of a long run, and the most coordinates that are named. An output is constant if it moves by less than
- * STAYS of the furthest coordinate of its unit. */
+/* Sampled rows of a long run, and the most coordinates that are named. */
 enum { ROWS = 100000, NAMED = 3 };
 #define STAYS 1e-6
 
@@ -110,7 +109,7 @@ void opening_enter(opening *o, const records *r) {
     }
 }
 
-/* How far the values of this unit went, rates apart. */
+/* The largest range of all values with this unit, except rates. */
 static double furthest(const opening *o, const records *r, const char *si) {
     double most = 0.0;
     for (int i = 1; i < r->columns; i++) {
@@ -126,7 +125,7 @@ static double strayed(const opening *o, int i) {
     return number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
 }
 
-/* A length among the outputs that stays while another length moves. The test does not depend on its name. */
+/* Is output i a length that stays while another length moves? An output is constant if it moves by less than STAYS of `most`. */
 static bool stays(const opening *o, const records *r, int i, double most) {
     const record_column *c = &r->column[i];
     return c->unknown < 0 && strcmp(c->unit->si, "m") == 0 &&
@@ -140,7 +139,7 @@ static bool moves(const opening *o, const records *r, int i, bool is_output) {
            (is_output ? c->unknown < 0 && strcmp(c->unit->si, "m") == 0 : c->unknown >= 0);
 }
 
-/* The next marked column in order of names, or -1. So the order of the file does not matter. */
+/* The next marked column in the order of names, or -1. By names, the result does not depend on the file's order. */
 static int next_by_name(const records *r, const bool *marked) {
     int next = -1;
     for (int i = 1; i < r->columns; i++) {
@@ -179,7 +178,7 @@ static bool print_staying(FILE *out, const opening *o, const records *r) {
     return named > 0;
 }
 
-/* From the start to the end, or between the extremes if start and end are less than half the range apart. */
+/* Prints a motion from start to end, or between the extremes if start and end are less than half the range apart. */
 static void print_way(FILE *out, const opening *o, const records *r, int i, bool is_first) {
     const record_column *c = &r->column[i];
     const bool swings = fabs(r->row[i] - o->first[i]) < (o->high[i] - o->low[i]) / 2.0;
@@ -212,7 +211,7 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
 }
 
 /* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", for the first length with a conserved
- * momentum. That of an angle, such as a clock's, does not show where the device goes. */
+ * momentum. The momentum of an angle, such as a clock's, does not show where the device goes. */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {
@@ -265,7 +264,7 @@ static void print_state(FILE *out, const image *im, const engine_kind *kind, voi
     records_close(r);
 }
 
-/* Stops that stayed open and inactive holds, of a run without events, because they had no effect. */
+/* For a run without events, lists the stops that stayed open and the inactive holds: they had no effect. */
 static void print_idle(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     int mode[WH_CONTACTS_LIMIT];
     kind->modes(run, mode);

@@ -7,7 +7,7 @@
 
 #include "host/image/image.h"
 
-/* An event of a contact (its number in the image) in a step, and its mode before the event (core/state.h). */
+/* An event of a contact in a step: the contact's number in the image, and its mode before the event (core/state.h). */
 typedef struct engine_event {
     int contact;
     int mode;
@@ -35,7 +35,7 @@ typedef struct engine_piece {
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
     int digits;       /* significant digits that carry a number of this kind through text */
-    void *(*start)(const image *im); /* must outlive the run */
+    void *(*start)(const image *im); /* the image must outlive the run */
     void (*stop)(void *run);
     wh_status (*step)(void *run);
     void (*set_input)(void *run, int input, double value);
@@ -48,25 +48,25 @@ typedef struct engine_kind {
     int (*fault)(const void *run);
     /* Events since the start, and steps with more than WH_EVENTS_MAX moments. */
     uint64_t (*events)(const void *run, uint64_t *overruns);
-    /* Of the last step, in their order, list[WH_EVENT_LOG]; returns how many. */
+    /* The events of the last step in their order, list[WH_EVENT_LOG]; returns their number. */
     int (*happened)(const void *run, engine_event *list);
-    /* The contacts' modes, mode[contacts]; at the start those that hold when the first step begins. */
+    /* The contacts' modes, mode[contacts]; at the start those with which the first step begins. */
     void (*modes)(const void *run, int *mode);
-    /* Evaluations of the accelerations since the start; *most: declared for one step with contacts. */
+    /* Evaluations of the accelerations since the start; *most: the declared bound for one step with contacts. */
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* Of component i, angles first: the largest round-off of its increments to whole units, summed since the start, and
-     * the span that they asked for; SI. For numbers without a unit(): turn angles only, which move by units of 2^32 a
-     * turn in float. 0 in double, and compensated. */
+    /* For component i, angles first: the largest sum since the start of the round-off of its increments to whole units, and
+     * *span, the sum of the exact increments; SI. Without unit() only turn angles count, which move by 2^-32 turn in float.
+     * 0 in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* Values that were clamped to their range since the start; NULL: this number has no ranges. */
     uint64_t (*saturated)(const void *run);
     /* The unit of component i; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
-    engine_clamped (*clamped)(const void *run); /* NULL: there are no impacts */
-    /* The pieces of the last step, if it was searched for events; else an empty list. NULL:
-     * unknown. */
+    engine_clamped (*clamped)(const void *run); /* NULL: this number type has no impacts */
+    /* The pieces of the last step, if it was searched for events; else an empty list. NULL: not
+     * available. */
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
@@ -83,8 +83,8 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const op_list *t);
 void evaluator_free(evaluator *ev);
-/* From now on sines are those of the angles within a turn. For the state of a float run, with turn angles
- * that may exceed the range of the double build's sine. */
+/* From now on wrap angles to one turn before taking sines. A float run's turn angles may exceed the range of the double
+ * build's sine. */
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);

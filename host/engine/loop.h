@@ -11,12 +11,12 @@
  * rows of accuracy and cost. */
 typedef struct budget {
     uint64_t own;   /* operations of the run's steps so far */
-    uint64_t spent; /* by completed checks */
+    uint64_t spent; /* operations of completed checks */
     uint64_t since; /* engine_operations when the present one began */
     int depth;      /* open checks: they may nest */
 } budget;
 
-#define BUDGET_LEAST 2.4e8 /* about a second's */
+#define BUDGET_LEAST 2.4e8 /* operations in about a second */
 
 void budget_begin(budget *b);
 void budget_end(budget *b);
@@ -27,8 +27,8 @@ typedef struct loop {
     const engine_kind *kind;
     void *run; /* started, and stopped, by the caller */
     uint64_t steps;
-    budget *own;        /* gets the operations of the steps; NULL: unused */
-    const budget *pays; /* budget for them; NULL: unlimited */
+    budget *own;        /* counts the operations of the steps; NULL: unused */
+    const budget *pays; /* the steps must stay within this budget; NULL: no limit */
     /* Called at the start and after each step; false: stop. NULL: no call. */
     bool (*see)(void *of, uint64_t step);
     void *of;
@@ -37,7 +37,7 @@ typedef struct loop {
 typedef enum loop_end {
     LOOP_DONE,
     LOOP_FAILED, /* the step's status has the reason */
-    LOOP_ENOUGH, /* for an observer */
+    LOOP_ENOUGH, /* see() returned false */
     LOOP_INTERRUPTED,
     LOOP_SPENT /* the budget is empty */
 } loop_end;

@@ -5,8 +5,7 @@
 
 #include "host/base/alloc.h"
 
-/* Larger values are infinite in float. A quotient by such a value has lost all of its digits, in units of float's
- * round-off. */
+/* Larger values are infinite in float. A quotient by such a value has lost all of its digits. */
 #define FLOAT_MOST 0x1.fffffep127
 #define ALL_LOST 0x1p24
 
@@ -14,12 +13,12 @@ static bool is_beyond(const rounding_values *at, double value) {
     return at->least > 0.0 && fabs(value) > FLOAT_MOST;
 }
 
-/* A constant that float holds is exact in either number. */
+/* A constant that float represents exactly has no round-off in either number type. */
 static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
 }
 
-/* Sum of |terms|, each of which is rounded. */
+/* A phase is a sum of terms, each of which is rounded. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {

@@ -1,4 +1,4 @@
-/* rounding.h: how far off a list's results may be for the rounding of its own operations. */
+/* rounding.h: bounds on the round-off of a list's results by its own operations. */
 #ifndef ENGINE_ROUNDING_H
 #define ENGINE_ROUNDING_H
 
@@ -12,8 +12,8 @@ typedef struct rounding_values {
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
     double
-        least; /* smaller results have its absolute error: float's smallest normal number; beyond float's largest number infinite;
-                * 0: no underflow */
+        least; /* float's smallest normal number: smaller results have this absolute error, and results above float's largest
+                * number an infinite one; 0: neither underflow nor overflow */
 } rounding_values;
 
 /* Bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,

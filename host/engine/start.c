@@ -31,7 +31,7 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
     return text;
 }
 
-/* The rows that take these systems and no others. */
+/* Writes the methods that support these systems and no others. */
 static void put_only(char text[METHODS_TEXT_SIZE], uint8_t takes, const char *what) {
     const char *before = "; ";
     for (int i = 0; i < WH_METHODS; i++) {
@@ -112,7 +112,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
     return good;
 }
 
-/* The unknown with a rate that the accelerations use, or -1. */
+/* An unknown with a rate that the accelerations depend on, or -1. */
 static int rate_taken(const image *im) {
     const op_list *t = im->list[IMAGE_STEP];
     for (int k = 0; k < t->count; k++) {
@@ -125,8 +125,8 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* The stages of a composition have no rates, so accelerations, contacts and the balance may not use
- * any. */
+/* The stages of a composition have no rates, so accelerations, contacts and the balance may not depend on
+ * rates. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

@@ -18,15 +18,14 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
  * semicolons. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
-/* False, with a report for each stop that the run would start beyond, by more than round-off, or
- * with an undefined gap. Also for each angle outside the range of a run of this kind. */
+/* False, with a report for each error: a stop that is passed at the start by more than round-off, an undefined gap, an
+ * angle outside the range of this number type. */
 bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
-/* The angles' part of it: false, reported, if float, as in generated C, cannot represent one. */
+/* The same for angles only: false, reported, if float, as in generated C, cannot represent one. */
 bool start_angles_are_held(const image *im, diags *errors);
 
-/* False, reported, when the method's row (core/method.h) does not take systems of the form that the image runs in, or not
- * accelerations like these. */
+/* False, reported, if the method (core/method.h) does not support the image's form, or accelerations that depend on rates. */
 bool start_has_method(const image *im, wh_method method, diags *errors);
 
 #endif

@@ -1,8 +1,8 @@
 /* vector_field.h: a scene's right-hand side in double, independent of the run's numbers: slopes at any state. Contact forces are not included.
  *
  * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in the
- * balance. Slopes and energies do not depend on time, because they may not name anything that does (a place that conserve
- * recovers, host/derive/conserve.c). */
+ * balance. Slopes and energies do not depend on time: only a place recovered from its momentum does
+ * (host/derive/conserve.c), and they may not contain one. */
 #ifndef ENGINE_VECTOR_FIELD_H
 #define ENGINE_VECTOR_FIELD_H
 
@@ -14,7 +14,9 @@ typedef struct vector_field {
     evaluator *evaluator;
     double *value; /* results of the image's books list at the last state */
     double *input;
-    int *next; /* [n] the component that is the slope of this one; else -1 - its unknown */
+    int *
+        next; /* [n] the component that is the slope of this one; or -1 - unknown, if the slope is that unknown's highest
+                * derivative */
 } vector_field;
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind);
@@ -22,7 +24,8 @@ void vector_field_close(vector_field *f);
 
 /* slope[n] at the state x[n]. */
 void vector_field_slope(vector_field *f, const double *x, double *slope);
-/* Bounds on the double round-off of the highest derivatives in the last slope, at the same state x[n]: off[n]; 0 for all others. */
+/* off[n]: bounds on the double round-off of the highest derivatives in the last slope, at the same state x[n]; 0 for all other
+ * components. */
 void vector_field_rounding(vector_field *f, const double *x, double *off);
 
 #endif

@@ -18,11 +18,12 @@ typedef struct figure {
     const figure_data *data;
     int count;
     int panels;
-    int curves;       /* in this panel, */
-    int named;        /* number of curves in the legend */
-    bool varied;      /* omit marks of the original motion */
-    double trusted_s; /* the least of its curves over time; 0: all are trusted to the end */
-    char *plot;       /* their gnuplot text */
+    int curves;  /* number of curves in this panel */
+    int named;   /* number of curves in the legend */
+    bool varied; /* omit marks of the original motion */
+    double
+        trusted_s; /* least trusted time of the panel's curves over time; 0: all are trusted to the end */
+    char *plot; /* gnuplot text of the curves */
     char *xlabel;
 } figure;
 

@@ -89,7 +89,7 @@ static void set_look(gnuplot *g, int height) {
           g->to);
 }
 
-/* The end of a picture that failed to begin. */
+/* Cleans up after a picture failed to begin. */
 static bool give_up(gnuplot *g) {
     FILE *const files[] = {g->drawn, g->said};
     (void)atomic_file_close(g->picture, g->file, false);
@@ -115,7 +115,7 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
         perror("whirl: error: a temporary file");
         return give_up(g);
     }
-    /* It draws to its standard output, so it never receives the file's name, which could begin with | or ~. Its
+    /* gnuplot draws to its standard output, so it never receives the file's name, which could begin with | or ~. Its
      * messages are shown only after a failure. */
     g->to = system_write_to("LC_ALL=C.UTF-8 gnuplot", g->drawn, g->said);
     if (g->to == NULL) {
@@ -173,7 +173,7 @@ static void copy_picture(const gnuplot *g) {
     }
 }
 
-/* gnuplot does not notice a full disk. So check for the end that such a picture has. */
+/* Does the picture end as its format requires? gnuplot does not notice a full disk. */
 static bool is_whole(const gnuplot *g) {
     char last[17] = {0};
     const bool there = fseek(g->drawn, -16, SEEK_END) == 0 && fread(last, 1, 16, g->drawn) == 16;

@@ -71,7 +71,7 @@ typedef struct gnuplot {
     const char *text;
 } gnuplot;
 
-/* The same; false is reported, with the option that named the file. */
+/* Does the file's name end in .svg, .png or .pdf? If not, reports the option that named the file. */
 bool gnuplot_can_draw_for(const char *command, const char *option, const char *file);
 
 /* False, reported on standard error, if gnuplot is missing. */
@@ -86,7 +86,7 @@ bool gnuplot_close(gnuplot *g);
 
 /* Literal text, for places with gnuplot's "noenhanced". */
 void gnuplot_quote(FILE *to, const char *text);
-/* One character of it, text[at], between gnuplot's double quotes. */
+/* Write one character, text[at], between gnuplot's double quotes. */
 void gnuplot_character(FILE *to, const char *text, size_t at);
 
 #endif

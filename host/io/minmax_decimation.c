@@ -16,7 +16,7 @@ typedef struct extent {
 
 struct decimation {
     int columns;
-    bool samples;    /* of each bucket its first row */
+    bool samples;    /* keep the first row of each bucket */
     uint64_t size;   /* steps a bucket */
     uint64_t filled; /* steps in the last bucket */
     unsigned count;  /* buckets, the last one included */

@@ -102,7 +102,7 @@ static bool find_columns(const char *command, const char *name, const plot_run *
     return first >= 0;
 }
 
-/* `panel` below 0: the panel of its unit. */
+/* Adds a quantity to a panel; with `panel` < 0, to the panel with the quantity's unit. */
 static bool add(panels *p, const char *command, const char *name, const plot_run *runs, int panel) {
     panels_quantity *q = &p->quantity[p->quantities];
     const char *unit = NULL;
@@ -228,7 +228,7 @@ bool plot_is_path(const plot_choice *choice) {
     return choice->x != NULL && strcmp(choice->x, "t") != 0 && strcmp(choice->x, "time") != 0;
 }
 
-/* False is reported. Call panels_free() in any case. */
+/* Returns false after an error, which it has reported. Call panels_free() in any case. */
 static bool panels_make(panels *p, const char *command, const plot_choice *choice,
                         const plot_run *runs, int count) {
     *p = (panels){.runs = count, .x = alloc(count, sizeof *p->x)};
@@ -313,7 +313,7 @@ void plot_run_close(plot_run *run) {
     *run = (plot_run){0};
 }
 
-/* --- the file about it --------------------------------------------------------------------------------------------- */
+/* --- the description, CSV.toml ------------------------------------------------------------------------------------- */
 
 char *plot_run_quoted(const char *text) {
     char *made = NULL;
@@ -714,8 +714,8 @@ static int quantities_in(const panels *p, int panel) {
     return count;
 }
 
-/* The names of a panel's quantities, or of all (-1), separated by commas; free it. If too long for an axis: their
- * number. */
+/* The names of a panel's quantities, or of all (-1), separated by commas. If they are too long for an axis, the number of
+ * quantities. Free it. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names = alloc_words("%s", "");
     int count = 0;
@@ -734,7 +734,7 @@ static char *names_of(const panels *p, int panel, size_t most) {
     return names;
 }
 
-/* The quantity, for one run with its description if that fits; for several runs, the run. */
+/* For one run: the quantity's name, with its description if there is room. For several runs: the run's label. */
 static char *legend_of(const panels *p, const panels_quantity *q, int k, const plot_run *run) {
     const char *text = run->column[q->column[k]].text;
     const int together = quantities_in(p, q->panel);
@@ -766,7 +766,8 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* "" if all is trusted; short for several runs, since a legend's columns are as wide as its longest entry. */
+/* The legend's entry for the shade; "" if all is trusted. It is short for several runs, because a legend's columns are as wide as
+ * its longest entry. */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? alloc_words("%s", "")

@@ -31,16 +31,16 @@ void plot_run_open(plot_run *run, const char *title, const char *label, int colu
 void plot_run_name(plot_run *run, int column, const char *name, const char *unit, const char *text);
 void plot_run_close(plot_run *run);
 
-/* Read the CSV file, and its description CSV.toml if that exists. A quantity's field that is not a number is NaN. False
- * is reported; call plot_run_close() in any case. */
+/* Read the CSV file, and its description CSV.toml if that exists. A quantity's field that is not a number is NaN.
+ * Returns false after an error, which it has reported. Call plot_run_close() in any case. */
 bool plot_run_read(const char *command, const char *csv, plot_run *run);
 
-/* Write CSV.toml, which describes the run: `facts` are lines of TOML for its head, `tables` for its end. False is
- * reported. */
+/* Write CSV.toml, which describes the run: `facts` are lines of TOML for its head, `tables` for its end. Returns
+ * false after an error, which it has reported. */
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 
 /* Close the CSV file of a command about a scene ("" for none), as atomic_file_close() does. If it is a regular file,
- * first write CSV.toml, with version, command and scene. False is reported. */
+ * first write CSV.toml, with version, command and scene. Returns false after an error, which it has reported. */
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene);
 
@@ -64,7 +64,7 @@ typedef struct plot_choice {
     const char *ylabel; /* of the panels, separated by commas; default: quantities and unit */
 } plot_choice;
 
-/* Does each name have a quantity, and each panel one unit? Needs columns, no data. False is reported. */
+/* Does each name have a quantity, and each panel one unit? If not, reports it. Needs columns, but no data. */
 bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count);
 /* True if x is a quantity other than column 0. */
 bool plot_is_path(const plot_choice *choice);
@@ -91,12 +91,12 @@ typedef struct panels {
 } panels;
 
 /* Draw to `file` (gnuplot.h). Titles and names (UTF-8) appear literally, with blanks for control characters. In a unit,
- * the exponent after ^ is raised. Neither they nor the file's name can act as gnuplot commands. False, reported, if the
- * choice does not fit, the file cannot be written, or gnuplot is missing or fails. */
+ * the exponent after ^ is raised. No text and no file name can act as a gnuplot command. Returns false after an error,
+ * which it has reported: the choice does not fit, the file cannot be written, or gnuplot is missing or fails. */
 bool plot_draw(const char *command, const char *file, const plot_choice *choice,
                const plot_run *runs, int count);
 
-/* gnuplot's command for the shade in the background of a panel, from this time on. */
+/* Write gnuplot's command that shades the background of a panel from this time on. */
 void plot_shade(FILE *to, double from_s);
 
 #endif

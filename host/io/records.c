@@ -74,7 +74,8 @@ static int column_of(const records *r, int unknown_index, int primes) {
 /* The text around the columns of a line. */
 typedef struct layout {
     const char *header, *between, *end;
-    const char *unit; /* before a unit's bracket: a blank would part columns */
+    const char
+        *unit; /* text before a unit's bracket: in plain columns a blank would split the column */
 } layout;
 
 static const layout csv = {"", ",", "\r\n", " "};
@@ -166,11 +167,11 @@ bool records_write(const records *r) {
 
 /* === waves of a run =========================================================================== */
 
-/* Doubles know whole numbers to twice this. */
+/* Most units of time in a dump. Doubles represent all whole numbers up to twice this. */
 #define TICKS_MOST 0x1p52
-/* Of a step in which events are located. */
+/* Least units of time in a step in which events are located. */
 #define TICKS_LEAST 1000.0
-/* Of a ratio's numerator. */
+/* Largest numerator of a ratio. */
 #define NUMERATOR_MOST ((uint64_t)1 << 60)
 
 struct traces {
@@ -179,10 +180,10 @@ struct traces {
     FILE *out;
     whole_ratio step; /* in units */
     double units_per_s;
-    int *signal;   /* [columns], the time's not used */
-    int *mode_of;  /* [contacts] wires, */
-    int *event_of; /* [contacts] and events, or -1 */
-    int *mode;     /* [contacts] room */
+    int *signal;   /* [columns] signal of a column; the time has none */
+    int *mode_of;  /* [contacts] wire of a contact */
+    int *event_of; /* [contacts] event signal of a contact, or -1 */
+    int *mode;     /* [contacts] scratch */
 };
 
 /* --- times ------------------------------------------------------------------------------------------------------ */

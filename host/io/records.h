@@ -14,7 +14,7 @@
 
 typedef struct record_column {
     const char *name; /* of the unknown or output; NULL: the time */
-    int unknown;      /* index; -1 for an output */
+    int unknown;      /* index of the unknown; -1 for an output */
     int primes;
     const image_unit *unit; /* of the numbers */
 } record_column;
@@ -24,7 +24,7 @@ typedef struct records {
     FILE *plain; /* plain columns; may be NULL, as records_open leaves it; stays the caller's */
     const image *image;
     const engine_kind *kind;
-    double *row;           /* [columns]: time, values, derivatives, outputs, as they are shown */
+    double *row;           /* [columns]: time, values, derivatives, outputs, in displayed units */
     double *output;        /* [image->outputs] SI */
     record_column *column; /* [columns] */
     int columns;
@@ -38,7 +38,7 @@ char *records_name(const record_column *c);
 void records_header(records *r);
 /* Read the run's state into r->row; time is given, since it is steps * step. */
 void records_read(records *r, void *run, double time_s);
-/* Write r->row to both files. False when writing failed. */
+/* Write r->row to both files. False if writing failed. */
 bool records_write(const records *r);
 
 /* === waves of a run =================================================================================== */
@@ -49,22 +49,22 @@ bool records_write(const records *r);
  * above its value. A stop and a crossing also have an event at the located instant of the impact or crossing (core/state.h
  * logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
 
-/* The unit of its times, 10^-power s. It is the coarsest one, of at most a second, that divides the records' spacing;
- * with contacts also at most a thousandth of the step. If there is no such power of ten (a step of 1/3 ms), or the run's
- * end is 2^52 units or more, it is the finest that the end permits. Times are then rounded, and still differ. False if
- * they would not: records less than a femtosecond apart. */
+/* The unit of the dump's times, 10^-power s. It is the coarsest unit, of at most a second, that divides the records' spacing;
+ * with contacts it is also at most a thousandth of the step. There may be no such power of ten (a step of 1/3 ms), or the run's
+ * end may be 2^52 units or more. Then it is the finest unit that the end permits: times are rounded, but still differ. False if
+ * they would not differ, because records are less than a femtosecond apart. */
 bool traces_power(const image *im, uint64_t every, int *power);
 
 typedef struct traces traces;
 
-/* Writes the head to `out`, which stays the caller's. Records have this form, one every `every` steps, with a
- * unit from traces_power(). */
+/* Writes the head to `out`, which stays the caller's. `form` has the records' columns; a record follows every `every` steps.
+ * Call it only after traces_power() returned true. */
 traces *traces_open(FILE *out, const records *form, uint64_t every);
 /* Enters the contacts' events of the last step, after this many steps. */
 void traces_step(traces *w, const void *run, uint64_t steps);
-/* r->row is the record of that moment, after its traces_step(). False if writing failed. */
+/* Enters the record in r->row after this many steps; call traces_step() first. False if writing failed. */
 bool traces_record(traces *w, uint64_t steps);
-/* The end of time; frees it. NULL is fine. */
+/* Writes the end time, and frees it. NULL is fine. */
 void traces_close(traces *w);
 
 #endif

@@ -53,9 +53,9 @@ static void read_run(const reading *r, void *run) {
 
 /* --- the tolerances ----------------------------------------------------------------------------------- */
 
-/* Relative to a state's size, and to the range of another state of the same unit: a smaller range hardly moves. */
+/* Least range, as a part of a state's size, or of the range of another state with the same unit. */
 #define LITTLE 1e-3
-/* SI, replaces the range if neither this state nor another of its unit moves: the tube has a width even there. */
+/* Replaces the range, SI, if no state with this unit moves. The tube has a width even then. */
 #define STILL 1e-9
 
 static const char *unit_of(const containment_wish *w, int i) {
@@ -169,8 +169,7 @@ static void look_now(going *g) {
     }
 }
 
-/* Compare the records within the open step of length h_s; *last_s: the time of the last one in it. Returns their
- * number. */
+/* Compare the records within the open step of length h_s. Returns their number; *last_s is the time of the last one. */
 static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
@@ -208,7 +207,7 @@ static bool go_on(going *g) {
     return good && g->next_s.low > 0.0;
 }
 
-/* The reason for an end now; CONTAINMENT_AT_END if there is none yet and `more` is to come. */
+/* The reason to end now; CONTAINMENT_AT_END if there is none. `on`: the result of go_on(). */
 static containment_end ended(const going *g, bool on) {
     const containment_wish *w = g->wish;
     const bool spent = w->products_most > 0.0 && flowpipe_products(g->tube) > w->products_most;

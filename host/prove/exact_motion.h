@@ -16,14 +16,13 @@ typedef struct exact_motion {
     int states;
     exact_state *state; /* [states] */
     enclosure *start;   /* [states] SI */
-    int *rate;          /* [states] nodes of the program: x' */
-    /* Nodes of the rates: the variables first, 0 to states - 1, then the others in order of evaluation. */
+    int *rate;          /* [states] the node of each state's rate */
+    /* All nodes: the variables first, 0 to states - 1, then the others in order of evaluation. */
     node *node;
     int nodes;
 } exact_motion;
 
-/* NULL if it cannot be enclosed, which is reported: contacts, functions with corners, expressions undefined at the
- * start. */
+/* NULL, reported, if the motion cannot be enclosed: contacts, functions with corners, expressions undefined at the start. */
 exact_motion *exact_motion_make(const instance *inst, diags *errors);
 void exact_motion_free(exact_motion *m);
 

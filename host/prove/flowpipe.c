@@ -1,7 +1,4 @@
-/* flowpipe.c: the deviation of a point from a centre as a zonotope: a known drift plus generators, each times a number
- * from -1 to 1. (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61,
- * 1998.) A linear map transforms them exactly, except for round-off, which becomes new generators. Only when there are
- * too many generators are the smallest ones enclosed in a box. */
+/* flowpipe.c: a tube around the exact motion; its axes, zonotopes and steps (flowpipe.h has the sources). */
 #include "host/prove/flowpipe.h"
 
 #include <math.h>
@@ -217,7 +214,7 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
     }
 }
 
-/* Axes and their inverse; if those of the generators are unsuitable, the unit axes. */
+/* Axes along the generators and their inverse; the unit axes if that inverse has no enclosure. */
 static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     const int n = z->n;
     double *columns = alloc((int64_t)n * n, sizeof *columns);
@@ -351,7 +348,7 @@ void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
 
 /* === the tube ================================================================================= */
 
-/* The step is as long as the remainder, relative to the largest value of a state so far, stays below this, */
+/* Bound on the remainder of a step, relative to the largest value of a state so far. It limits the step, */
 #define REMAINDER 0x1p-54
 /* but a step shorter than this is useless, s. */
 #define STEP_LEAST_S 1e-9
@@ -362,18 +359,18 @@ struct flowpipe {
     const exact_motion *motion;
     int states;
     int order;
-    int first;        /* coefficients up to this one use derivatives, */
-    taylor *middle;   /* from the centre; the later ones are so small */
-    taylor *all;      /* that they are evaluated over the whole box */
-    taylor *over;     /* over a whole step, one order more */
-    double *centre;   /* [states] x is centre plus off, */
-    zonotope *off;    /* which lies in a box... */
-    enclosure *box;   /* [states] of x, along the state axes, */
-    double *axes;     /* [states * states] and along these axes */
-    enclosure *along; /* [states] */
+    int first;        /* coefficients up to this one use derivatives; later ones are small */
+    taylor *middle;   /* coefficients at the centre */
+    taylor *all;      /* coefficients over the whole box, with derivatives up to `first` */
+    taylor *over;     /* coefficients over a whole step, one order more */
+    double *centre;   /* [states] a point x of the tube is centre plus off */
+    zonotope *off;    /* deviation from the centre */
+    enclosure *box;   /* [states] box of x along the state axes */
+    double *axes;     /* [states * states] axes that turn with the motion */
+    enclosure *along; /* [states] box of the deviation along these axes */
     enclosure *turn;  /* [first + 1][states * states] coefficients of the derivatives times the axes
                        */
-    enclosure *stay;  /* [states] over the step */
+    enclosure *stay;  /* [states] box that contains the motion over the whole step */
     double *largest;  /* [states] */
     double open_s;    /* length of the open step; 0: not open */
     double guess_s;   /* for the next step */
@@ -454,9 +451,9 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
 
 static enclosure widened(enclosure a, double by) { return enclosure_add(a, (enclosure){-by, by}); }
 
-/* Does every motion from the box stay in `stay` for h_s? Assume that one leaves it first at t. Its Taylor polynomial
- * with Lagrange's remainder over `stay` up to t would put it inside: a contradiction. *excess: the largest remainder
- * relative to the wanted one. */
+/* Does every motion from the box stay in `stay` for h_s? Assume that one first leaves it at t. Its Taylor polynomial
+ * with Lagrange's remainder over `stay` up to t is inside `stay`, a contradiction. *excess: the largest remainder
+ * relative to REMAINDER's bound. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;

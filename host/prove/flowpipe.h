@@ -1,10 +1,10 @@
 /* flowpipe.h: a tube around the exact motion from its start: at each time a box that provably contains it. The steps are
  * Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson, Corliss,
- * Validated solutions of initial value problems, 1999). First, a box is found that contains the motion over [0, h],
- * since its own Taylor series leads back into it. Then x(t + tau) is a sum of three parts. They are the Taylor
- * polynomial from the centre of the current set, its derivatives times the deviation from the centre, and the remainder
- * over that box. The deviation is a box along axes that turn with the motion. All numbers are enclosures: they include
- * round-off, and parameters that no double represents. */
+ * Validated solutions of initial value problems, 1999). First, a box is found that contains the motion over [0, h]:
+ * the Taylor series with the remainder over this box stays inside the box. Then x(t + tau) is a sum of three parts: the
+ * Taylor polynomial from the centre of the current set, its derivatives times the deviation from the centre, and the
+ * remainder over that box. The deviation is a box along axes that turn with the motion. All numbers are enclosures,
+ * because of round-off, and of parameters that no double represents. */
 #ifndef PROVE_FLOWPIPE_H
 #define PROVE_FLOWPIPE_H
 

@@ -80,10 +80,10 @@ typedef struct reader_symbols {
     int *
         first; /* [coordinate_count] the variable of an unknown's value; its rate is the next one */
     int *
-        order; /* [coordinate_count] of its highest derivative, which is variable highest + unknown */
+        order; /* [coordinate_count] order of the highest derivative, which is variable highest + unknown */
     int highest;    /* number of variables of the state */
     int *parameter; /* [parameter_count] nodes; -1: not yet */
-    int *let;       /* [let_count] the same */
+    int *let;       /* [let_count] nodes; -1: not yet */
     diags *errors;
 } reader_symbols;
 

@@ -8,8 +8,8 @@
 
 typedef struct taylor {
     const exact_motion *motion;
-    int order;        /* coefficients from 0 to this one, */
-    int slopes_to;    /* derivatives of coefficients 0 to this one; -1: no derivatives */
+    int order;        /* coefficients 0 to this one are computed */
+    int slopes_to;    /* coefficients 0 to this one have derivatives; -1: none */
     int width;        /* 1, or 1 + states: with slopes */
     enclosure *value; /* [nodes][order + 1][width] */
 } taylor;
@@ -20,7 +20,7 @@ void taylor_free(taylor *t);
 /* Compute all coefficients at the states x[states]. False if one is not finite there. */
 bool taylor_find(taylor *t, const enclosure *x);
 
-/* Estimated products of enclosures for this. */
+/* Estimated products of enclosures of one taylor_find(). */
 double taylor_products(const taylor *t);
 
 /* Coefficient k of state i: the value, then, up to slopes_to, its derivatives. */

@@ -1,4 +1,4 @@
-/* choice.h: of a table (price_table.h) the rows that keep an error and limits: the fewest cycles, and the least flash. */
+/* choice.h: the rows of a table (price_table.h) with the fewest cycles and with the least flash, within an error and limits. */
 #ifndef STUDY_CHOICE_H
 #define STUDY_CHOICE_H
 
@@ -21,18 +21,18 @@ typedef struct choice_wish {
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* with the stack; 0: no limit */
     bool counts; /* answers will be counted: a prediction may exceed a limit by its error bound */
-    const char *prices;                           /* for people: how they are known */
+    const char *prices;                           /* the source of the prices, in words */
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_wish;
 
-/* A row by the limits. Loads are parts of the period, or of a second without a rate: of the longest step. */
+/* A row compared with the limits. A load is the time of the longest steps, as a part of the period, or of a second without a rate. */
 typedef struct choice_row {
     int row;      /* of the table, or -1 */
-    double worst; /* cycles, or instructions, of a second of the longest steps, at most */
-    double load;  /* 0: not known */
+    double worst; /* upper bound on the cycles (or instructions) of a second of the longest steps */
+    double load;  /* 0: unknown */
     double load_most;
     bool fails[CHOICE_LIMITS];
-    bool unknown[CHOICE_LIMITS]; /* there is a limit, and no figure */
+    bool unknown[CHOICE_LIMITS]; /* there is a limit, but no figure */
 } choice_row;
 
 typedef struct choice {
@@ -47,12 +47,12 @@ typedef struct choice {
 
 choice choice_make(const trials *t, const table *made, const choice_wish *w);
 
-/* The same, with everything counted that it names: no row that is named is a prediction. With contacts rows that were not
- * counted are expected to take as many cycles an evaluation as the last counted one in their number. */
+/* The same, but rows are counted until no row of the choice is a prediction. With contacts, a row that was not counted is
+ * expected to take as many cycles an evaluation as the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);
 
-/* Both answers; or that no row fits, and the nearest one. */
+/* Prints both answers; or that no row fits, with the nearest row. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words);
 /* The same as one JSON object (docs/warnings.md has the schema), without the hint of limits that would fit;

@@ -6,14 +6,14 @@
  * (below) times the figures of the board and number (cost_rows.h, written by `make price-table`). It needs neither
  * a source tree nor a compiler. docs/price.md gives its error.
  *
- * With the source tree and the board's compiler and emulator the same is counted by
+ * With the source tree and the board's compiler and emulator, this command counts the price instead:
  *
  *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
  *
  * It prints COST_HEADER and one row, which cost_measured() reads. Exit status 2: wrong words, or a tool is missing. 1:
  * the scene cannot be derived, does not fit or does not run.
  *
- * Neither includes wait states of flash, caches, interrupts, and other compilers and flags. */
+ * Neither price includes wait states of flash, caches or interrupts. Other compilers and flags have other prices. */
 #ifndef STUDY_COST_H
 #define STUDY_COST_H
 
@@ -54,9 +54,9 @@ typedef struct cost_board {
     cost_basis cycles;
     double cycles_least; /* COST_RANGE only, else 0 */
     double cycles_most;
-    double clock_Hz;  /* of a chip with a clock set by the board, or 0 */
+    double clock_Hz;  /* the chip's clock as the board sets it, or 0 */
     long flash_bytes; /* of the chip, or 0 if the board is no single chip */
-    long ram_bytes;   /* the same */
+    long ram_bytes;   /* of the chip, or 0 */
 } cost_board;
 
 #define COST_BOARD_DEFAULT "mps2-an386"
@@ -105,7 +105,7 @@ typedef struct cost_counts {
     double code[COST_CLASSES]; /* times that the firmware contains it */
 } cost_counts;
 
-/* In fixed point the image has its step in fixed point. */
+/* For COST_FIXED the image must contain its step in fixed point (image.h, `fixed`). */
 cost_counts cost_count(const image *im, const cost_board *board, cost_number number);
 
 /* A row of the table of figures (cost_rows.h). */
@@ -122,8 +122,8 @@ typedef struct cost_row {
     const char *board;
     cost_number number;
     cost_quantity quantity;
-    double within;  /* the factor of error of nine of ten counted steps */
-    double longest; /* the longest step over the mean; 1 of bytes */
+    double within;  /* nine of ten counted steps are within this factor of the prediction */
+    double longest; /* the longest step divided by the mean step; 1 for bytes */
     double figure
         [COST_CLASSES]; /* cost of one operation; COST_UNSEEN: no counted step has the class */
 } cost_row;
@@ -134,7 +134,7 @@ typedef struct cost_row {
 const double *cost_counted(const cost_counts *c, cost_quantity quantity);
 
 /* === the price of a step ====================================================================== */
-/* A figure: the value is between `least` and `most`, of a prediction in nine of ten cases. COST_RANGE has no value.
+/* A figure: the value is between `least` and `most`; for a prediction this holds in nine of ten cases. COST_RANGE has no value.
  * COST_NOT_KNOWN: all are 0. */
 typedef struct cost_figure {
     cost_basis basis;
@@ -156,15 +156,16 @@ typedef struct cost {
     cost_figure state_bytes; /* of these RAM bytes, the scene's own: WH_MEMORY_BYTES */
 } cost;
 
-/* In fixed point the image has its step in fixed point. A scene with contacts has no prediction: its price depends on the
- * motion. */
+/* For COST_FIXED the image must contain its step in fixed point. A scene with contacts has no prediction, because its price
+ * depends on the motion. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
 cost_figure cost_known(double value, cost_basis basis);
-/* On a board whose cycles are not counted, fills in ranges of them. True: it is one. */
+/* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
 bool cost_ranges(const cost_board *board, cost *c);
 
-/* Reads a row of measure_one.sh. Values that the row lacks (state_bytes) stay. False: not a row, or another board's. */
+/* The header of measure_one.sh's rows. cost_measured() reads a row; values that the row lacks (state_bytes) stay. False: not a
+ * row, or a row of another board. */
 #define COST_HEADER \
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"

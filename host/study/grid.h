@@ -54,7 +54,7 @@ char *number_shortest(double value, char text[NUMBER_SIZE]);
 /* === values of a point as changes ============================================================= */
 /* The swept values of one point as changes of the command line. */
 
-/* Those of `base`, followed by the point's values, which take precedence. Numbers have 17 digits, so they are exact.
+/* The changes of `base`, followed by the point's values, which take precedence. Numbers have 17 digits, so they are exact.
  * Free with changes_forget(). */
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);
 void changes_forget(const overrides *base, overrides *changes);

@@ -111,7 +111,7 @@ typedef struct point_notes {
     unsigned against;  /* the warnings among them, */
     unsigned fails;    /* and those for which the exit status is 1 */
     unsigned unlooked; /* run_checks_unlooked() */
-    double end_s;      /* of the run */
+    double end_s;      /* end of the run */
 } point_notes;
 
 /* Runs the image; value[count + 1] gets the measures and the energy residual (NAN if unknown). False if the run
@@ -154,8 +154,8 @@ void sweep_header(const sweep *s, FILE *out);
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
-/* The image of a point, and the one of its finer run if step_doubling_plain() requires one. NULL, reported: it has no image that
- * can start. `plain` may be NULL. */
+/* The image of a point. *plain: the image of the finer run if step_doubling_plain() requires one; `plain` may be NULL. Returns
+ * NULL, reported, if the point has no image that can start. */
 image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors);
 
 /* Runs the point and writes its row, including the line's end. The columns stay empty if the run fails, or

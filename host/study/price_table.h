@@ -8,7 +8,7 @@
 #include "host/study/trial.h"
 
 /* === the table ================================================================================ */
-/* The cost of a simulated second: rows are sorted by it. */
+/* The unit of the cost of a simulated second. Rows are sorted by this cost. */
 typedef enum table_unit {
     PRICE_CYCLES,
     PRICE_INSTRUCTIONS, /* on boards without counted cycles */
@@ -25,9 +25,9 @@ typedef struct table_price {
 
 /* With contacts, all steps of a run are counted, at each place of a range. */
 typedef struct counted_run {
-    double steps; /* counted, of all places; 0: these were no whole runs */
+    double steps; /* counted steps at all places; 0: no whole runs were counted */
     double
-        instructions_bound; /* the most that a step is declared to take (docs/dev/events.md); 0: not known */
+        instructions_bound; /* declared upper bound for a step (docs/dev/events.md); 0: unknown */
     double cycles_bound;
 } counted_run;
 
@@ -39,16 +39,16 @@ typedef struct table_row {
     counted_run run;
     table_price price;
     bool counted;  /* its cost was counted, or could not be */
-    bool on_front; /* no row is as cheap and errs less */
+    bool on_front; /* no row with at most this price has a smaller error */
 } table_row;
 
 typedef struct table {
     table_row *row; /* [count] by price, then by error */
     int count;
-    int settings;    /* that the scene takes */
-    int unpriced;    /* of these, without a price; left out: */
-    const char *why; /* of one of them, or "" */
-    int broken_off;  /* finer steps would have taken more operations */
+    int settings;    /* number of settings that the scene allows */
+    int unpriced;    /* number of settings without a price, which are left out */
+    const char *why; /* the reason for one unpriced setting, or "" */
+    int broken_off;  /* settings with finer steps left untried for lack of operations */
 } table;
 
 /* The requested error, divided by the largest permitted error of a chosen row. */
@@ -57,25 +57,26 @@ typedef struct table {
 typedef struct table_wish {
     double operations;  /* most that all trials may evaluate */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
-    double error; /* steps need not be finer than keep half of this; 0: until rounding stops them */
+    double
+        error; /* steps get finer until the error is half of this; 0: until round-off stops the gain */
     double rate_Hz;   /* of calls, each of which takes whole steps; 0: any step */
-    uint64_t periods; /* of 1/rate in a record's spacing; 1 without a rate */
+    uint64_t periods; /* number of 1/rate_Hz in a record's spacing; 1 without a rate */
     int workers;
     void (*progress)(void *context, int done, int of); /* may be NULL */
     void *context;
 } table_wish;
 
-/* The paces that are tried, rung by rung: finer by 2 to 2.5 each; or 1, 2, 3, ... steps of a period. False: there are no
- * more. */
+/* The tried paces, by rung. Each is finer than the one before by 2 to 2.5; with a rate they are 1, 2, 3, ... steps a period.
+ * False: there are no more. */
 bool table_pace(const table_wish *w, int rung, deviation_pace *pace);
-/* Steps of a period; 0 without a rate. */
+/* Steps a period; 0 without a rate. */
 uint64_t table_substeps(const table_wish *w, const table_row *row);
 
-/* Tries settings on several processors, each with its own share of the operations: the rows do not depend on
- * either. Check t->stopped. */
+/* Tries the settings in several worker processes. Each setting has its own share of the operations, so the rows do not
+ * depend on the workers. Check t->stopped. */
 table *table_new(trials *t, const table_wish *w);
 void table_free(table *made);
-/* By price, and the front marked. */
+/* Sorts the rows by price, and marks the front. */
 void table_sort(table *made);
 
 /* *known: false without a price. */
@@ -92,11 +93,11 @@ typedef struct three_rows_wish {
     const cost_board *board;
     setting setting;         /* the run's, in the board's number */
     image_settings plain;    /* of the reference's image */
-    wh_method method;        /* the reference's, */
+    wh_method method;        /* the reference's method, */
     int order;               /* and the order by which its error falls */
-    double limit;            /* as of reference_steps */
-    whole_ratio step;        /* the run's, s */
-    whole_ratio priced_step; /* as of trial_wish */
+    double limit;            /* as in reference_steps */
+    whole_ratio step;        /* the run's step, s */
+    whole_ratio priced_step; /* as in trial_wish */
     uint64_t steps;          /* of the run */
 } three_rows_wish;
 
@@ -108,7 +109,7 @@ typedef struct three_rows {
     cost cost[THREE_ROWS];
 } three_rows;
 
-/* Operations that the rows evaluate, about. */
+/* Estimated operations of all rows. */
 double three_rows_operations(const three_rows_wish *w, const image *im);
 /* Check trial.stopped, then trial.reliable. At least two steps; three_rows_end() in any case. */
 void three_rows_make(three_rows *t, const three_rows_wish *w);
@@ -142,12 +143,12 @@ void table_csv(FILE *out, const trials *t, const table *made, const table_words 
 /* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
 void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
                 int status);
-/* The keys with which it begins, and those of a row. */
+/* The first keys of that object, and the keys of a row. */
 void table_json_begin(json *j, const char *command, const trials *t);
 void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
 
-/* The lines that do a row again: `whirl run ...` at a place, and `whirl derive ... --as c` with the scene's own values, as
- * a product has them. Free them. */
+/* Command lines that repeat a row: `whirl run ...` at a place of the ranges, and `whirl derive ... --as c` with the scene's own
+ * values, as in a product. Free them. */
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words);
 char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
@@ -163,15 +164,15 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
 
 typedef enum measured_end {
     MEASURED_COUNTED,
-    MEASURED_MISSING /* a tool is */
+    MEASURED_MISSING /* a tool is missing */
 } measured_end;
 
 /* The reason why counting is impossible on a board. NULL: it is possible, and the files that are compiled once exist.
  * `text` has room for the answer. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
-/* Counts the steps of a row (seconds), for all rows of its setting; with contacts its whole run. The table is sorted again.
- * Rows that cannot be built, linked or run lose their price and leave the table. */
+/* Counts the steps of a row for all rows of its setting; with contacts, the row's whole run. Takes seconds. The table is sorted
+ * again. Rows that cannot be built, linked or run lose their price and leave the table. */
 measured_end measured_count(const trials *t, table *made, int row, const table_words *words);
 /* Counts the rows of the front until all of them are counted. */
 measured_end measured_front(const trials *t, table *made, const table_words *words,

@@ -2,8 +2,8 @@
  * settings. The difference of the two is its error estimate, and limits the time until which it is trusted.
  *
  * Without contacts the method is extrapolation in long double (below), which shares only the operation list with
- * the judged runs. With contacts, or if a jump or a pole stops it, it is RK4 in double with compensated sums. Its steps
- * are far finer than the scene's, and it is compared with half as many. */
+ * the compared runs. With contacts, or if a jump or a pole stops the extrapolation, the method is RK4 in double with compensated
+ * sums. Its steps are far finer than the scene's, and the second computation takes half as many. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -16,10 +16,10 @@
 
 /* === functions and lists in long double ======================================================= */
 /* The language's functions, and an operation list, in long double: 64 binary digits on x86, 113 on AArch64.
- * The reference (reference_run.h) is computed with them. They share no code with the core or with a library. If a double's
- * value begins an iteration, the missing digits are computed here.
+ * The extrapolated reference is computed with them. They share no code with the core or with a library. Where an iteration begins
+ * with a double's value, the missing digits are computed here.
  *
- * Errors are a few units of the last place; of powers some |exponent log(base)| of them. */
+ * Errors are a few units of the last place; for powers they are about |exponent log(base)| times as large. */
 
 /* Does long double have more digits than double? If not, the reference reports that. */
 #define LONG_IS_LONGER (LDBL_MANT_DIG > DBL_MANT_DIG)
@@ -70,33 +70,34 @@ enum { EXTRAPOLATION_COLUMNS = 12 };
 
 typedef enum extrapolation_status {
     EXTRAPOLATION_OK,
-    EXTRAPOLATION_SMALL, /* no step is small enough: a jump, a pole, or no finite number */
-    EXTRAPOLATION_LONG   /* more operations than it may take */
+    EXTRAPOLATION_SMALL, /* no step is small enough, because of a jump, a pole, or a value that is not finite */
+    EXTRAPOLATION_LONG /* the limit of operations was reached */
 } extrapolation_status;
 
-/* At the image's start. It must outlive this. `operations`: most that it may evaluate in all. */
+/* Starts at the image's start; the image must outlive it. `operations`: limit on all evaluated operations. */
 extrapolation *extrapolation_new(const image *im, extrapolation_setting how, double operations);
 void extrapolation_free(extrapolation *e);
-/* On by span_s, which need not be a whole number of anything. */
+/* Advances by span_s, which may have any length. */
 extrapolation_status extrapolation_go(extrapolation *e, long double span_s);
-/* The state: angles first, as engine_kind.state() has it; long as the extrapolation. */
+/* The state, angles first, as engine_kind.state() has it. Valid until extrapolation_free(). */
 const long double *extrapolation_state(const extrapolation *e);
 double extrapolation_operations(const extrapolation *e);
 
 /* === the reference ============================================================================ */
 /* A cheap reference: a run in double with compensated sums, compared with one of twice its step. */
 typedef struct reference_steps {
-    uint64_t steps; /* in a record's spacing, even; 0: not wanted, but the best reference */
+    uint64_t steps; /* steps in a record's spacing, even; 0: compute the best reference instead */
     wh_method method;
-    int order;    /* by which its error falls as the step gets shorter */
-    double limit; /* it is trusted while the two differ by less of a component's largest value */
+    int order; /* of the method's error */
+    double
+        limit; /* trusted while the two runs differ by less than this part of a component's largest value */
 } reference_steps;
 
 typedef struct reference_wish {
     const image *image;  /* with any step and end */
     whole_ratio spacing; /* of the records, s */
-    int records;         /* after the start */
-    double operations;   /* most that each of the two computations may evaluate */
+    int records;         /* number of records after the start */
+    double operations;   /* limit on the operations of each of the two computations */
     reference_steps by;
 } reference_wish;
 
@@ -109,32 +110,33 @@ typedef enum reference_kind {
 /* The extent of a column's numbers. */
 typedef struct reference_column {
     bool
-        counts; /* among the worst of all components: a value or rate that the reference knows at all */
-    long double largest; /* size, over the records */
-    long double off;     /* the most that the two computations differ by */
+        counts; /* enters the worst error of all components: a value or rate that the reference knows */
+    long double largest; /* largest size over the records */
+    long double off;     /* largest difference of the two computations */
 } reference_column;
 
 typedef struct reference {
     reference_kind kind;
     records *shape;           /* names and units of the columns, as `whirl run --csv` has them */
-    int columns;              /* those of the shape; column 0 is the time */
+    int columns;              /* as in the shape; column 0 is the time */
     int wanted;               /* requested records after the start, */
     int records;              /* and those that can be trusted */
     long double *row;         /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
-    double limit; /* a record is trusted while no column differs by more of its largest value */
-    char *how;    /* the two settings, in words */
-    char *why;    /* the reason for an early end of the trust, or for no reference at all; "" */
-    bool broken;  /* it ends early for lack of small steps, not because the motions diverge */
-    bool still;   /* no reference, because nothing moves */
+    double
+        limit; /* a record is trusted while no column differs by more than this part of its largest value */
+    char *how;   /* the two settings, in words */
+    char *why;   /* the reason for an early end of the trust, or for no reference at all; else "" */
+    bool broken; /* the trust ends early for lack of small steps, not because the motions diverge */
+    bool still;  /* no reference, because nothing moves */
     bool stopped; /* interrupted: it is of no use */
 } reference;
 
 /* Always succeeds; check kind and stopped. The image must outlive it. */
 reference *reference_new(const reference_wish *w);
-/* From now on at most this many records after the start count. */
+/* From now on use at most this many records after the start. */
 void reference_cut(reference *r, int until);
-/* The most that the two computations differ by, of the columns that count, as a part of their largest values. */
+/* The largest difference of the two computations in columns that count, as a part of the column's largest value. */
 double reference_agreement(const reference *r);
 void reference_free(reference *r); /* NULL is fine */
 
@@ -145,16 +147,16 @@ int reference_find(const reference *r, const char *name, bool *noisy);
 /* A state in long double as a row of records. */
 typedef struct long_rows long_rows;
 
-long_rows *long_rows_new(const records *shape); /* which must outlive it */
+long_rows *long_rows_new(const records *shape); /* `shape` must outlive it */
 void long_rows_free(long_rows *l);
-/* row[shape->columns], in their units; `state` as engine_kind.state() has it, angles first. */
+/* Fills row[shape->columns] in the columns' units; `state` as engine_kind.state() has it, angles first. */
 void long_rows_read(long_rows *l, const long double *state, long double time_s, long double *row);
 
-/* A reference by the interpreter: RK4 in double with compensated sums, by steps far finer than the scene's. It shares much with the
- * runs that it judges.
+/* A reference by the interpreter: RK4 in double with compensated sums, by steps far finer than the scene's. It shares most of its
+ * code with the compared runs.
  *
- * Steps in a record's spacing, for the finer of the two computations; even. Either the requested ones, or enough for the scene
- * within the limit of operations. */
+ * fine_steps_of() is the number of steps in a record's spacing for the finer of the two computations, an even number. It is the
+ * requested number, or else the largest useful one within the limit of operations. */
 uint64_t fine_steps_of(const reference_wish *w);
 /* Fills row[(wanted + 1)][columns] with this many steps a record; returns the records after the start. */
 int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps, long double *row);
@@ -170,19 +172,19 @@ typedef struct deviation_pace {
 
 /* The compared columns. */
 typedef struct deviation_of_what {
-    int column; /* of the reference, in the column's unit; or -1: each that counts, as a part of its largest value */
+    int column; /* a column of the reference, compared in its unit; or -1: all that count, each as a part of its largest value */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 
 typedef struct deviation {
     bool usable;  /* it reached the end with errors below give_up and without clamped values */
-    double error; /* the largest of all records; if unusable, of those before the stop */
-    int column;   /* its column */
+    double error; /* largest error of all records; if unusable, of the records before the stop */
+    int column;   /* the column with that error */
+    double known; /* the reference's own error in that column: errors near it are only bounds */
+    double operations; /* evaluated */
     double
-        known; /* and how well the reference knows that column there: errors near it are no more than bounds */
-    double operations;       /* evaluated */
-    double evaluations;      /* of the accelerations, or of the matrix, a simulated second */
-    double evaluations_most; /* in one step */
+        evaluations; /* evaluations of the accelerations, or of the matrix, per simulated second */
+    double evaluations_most; /* most evaluations in one step */
 } deviation;
 
 /* `im`: the reference's scene, with a step of this pace. */

@@ -20,8 +20,9 @@
 typedef struct resumable_csv {
     FILE *out;
     const char *path;
-    bool is_file;    /* not standard output, a pipe or a device: can be gone on with */
-    uint64_t rows;   /* already there */
+    bool
+        is_file; /* a regular file, which can be continued: not standard output, a pipe or a device */
+    uint64_t rows;   /* existing rows */
     uint64_t failed; /* rows with empty measures */
     char *beside;    /* FILE.sweep */
     char *notes;     /* its lines "noted: WORD"; "" without any */
@@ -31,7 +32,7 @@ typedef struct resumable_csv_settings {
     const char *path;        /* "-" is standard output */
     const char *fingerprint; /* lines of "name: value" */
     const char *header;      /* header with its line's end, or "" */
-    uint64_t rows;           /* the whole sheet has, without the header */
+    uint64_t rows;           /* of the complete file, without the header */
     int measures;            /* fields after the swept ones; the first is empty if a point failed */
     /* The swept fields of row `row`, as in the file. */
     void (*swept)(const void *context, uint64_t row, FILE *out);
@@ -39,8 +40,8 @@ typedef struct resumable_csv_settings {
     bool fresh; /* start again, even over existing rows */
 } resumable_csv_settings;
 
-/* Opens and checks the file; writes a missing header. Returns an exit code: 0 good, 1 the file
- * could not be written, 2 it is another sweep's or in use (reported on standard error). */
+/* Opens and checks the file; writes a missing header. Returns an exit status: 0 good, 1 the file
+ * could not be written, 2 the file belongs to another sweep or is in use (reported on standard error). */
 int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s);
 /* Stores this word with the rows. False if it was not written (reported). */
 bool resumable_csv_note(resumable_csv *sh, const char *word);
@@ -64,7 +65,7 @@ typedef struct shard {
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);
 
-/* === a bar with rate and time to go, on one line that is drawn over again ===================== */
+/* === a bar with rate and remaining time, on one line that is redrawn ========================== */
 
 typedef struct progress {
     FILE *out;     /* NULL: no progress */
@@ -78,13 +79,13 @@ typedef struct progress {
 progress progress_start(FILE *out, uint64_t from, uint64_t end);
 /* Draw, at most five times a second. */
 void progress_show(progress *p, uint64_t done);
-/* Take the line away, so that something else can be written. */
+/* Erase the line, so that other text can be written. */
 void progress_clear(progress *p);
 double progress_elapsed_s(const progress *p);
 
 typedef struct session_settings {
     const char *csv;         /* file, or "-" for standard output */
-    const char *fingerprint; /* see below */
+    const char *fingerprint; /* from fingerprint_make() */
     uint64_t first;          /* points first <= point < end */
     uint64_t end;
     bool header; /* the rows have a header */

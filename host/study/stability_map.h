@@ -35,9 +35,9 @@ extern const map_verdict_row map_verdicts[MAP_VERDICTS];
 
 typedef struct map_cell {
     map_verdict verdict; /* MAP_NONE and MAP_UNTRIED have no other values */
-    double end_s;        /* until then it went */
-    double until_s;      /* until then it is right to the tolerance */
-    double left_over;    /* part of the energy's largest entry that is missing; NAN: not known */
+    double end_s;        /* the run's last time */
+    double until_s;      /* the run is accurate to the tolerance until this time */
+    double left_over;    /* energy residual as a part of the largest entry; NAN: unknown */
 } map_cell;
 
 typedef struct map_wish {
@@ -53,19 +53,19 @@ typedef struct stability_map {
     uint64_t done;  /* cells; fewer than points after an interrupt */
     uint64_t
         unlooked; /* cells whose runs were not checked for aliasing: the budget was too small */
-    int along;    /* the step's axis, or 1 if neither is the step */
-    bool by_step; /* one is the step */
+    int along;    /* the step's axis, or 1 if no axis is the step */
+    bool by_step; /* one axis is the step */
 } stability_map;
 
-/* Place by row, from the shortest step of each on. */
+/* Runs the map row by row, each from its shortest step on. */
 stability_map map_make(const map_wish *w);
 void map_free(stability_map *m);
 
 /* How many cells have this verdict. */
 uint64_t map_count(const stability_map *m, map_verdict verdict);
-/* The grid's point of the `at`-th value along m->along, from the least on, and of value `row` of the other axis. */
+/* The grid's point for value number `at` of the axis m->along, in rising order, and for value number `row` of the other axis. */
 uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
-/* These values: SI. */
+/* The values with these numbers, SI. */
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 

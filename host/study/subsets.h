@@ -12,15 +12,14 @@
 /* Most effects of a scene, and most that act for which all subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
-/* Figures of a price, in float; NAN: not known. Of contacts the declared worst step alone is known. */
+/* Figures of a price, in float; NAN: unknown. With contacts only SUBSET_WORST is known, as declared. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 
 /* The scene without the effects of the bits in `out`. */
 typedef struct subset {
     uint64_t out;
-    const char
-        *failed; /* why there is no run to the end, or it stopped there; NULL: there is one */
-    bool same;   /* its records are those of the full run, to the bit */
+    const char *failed; /* the reason why no run reached the end; NULL: one did */
+    bool same;          /* its records are those of the full run, to the bit */
     int contacts;
     double *moved; /* [columns] largest difference over the run, in the column's unit */
     double figure[SUBSET_FIGURES]; /* cycles of a step without events (or instructions), the most

@@ -7,8 +7,7 @@
 #include "host/study/reference_run.h"
 
 /* === settings ================================================================================= */
-/* The settings of a scene that are priced: every combination of the words below, each at several steps. A
- * choice more is a row of SETTING_AXES. */
+/* The priced settings of a scene: every combination of the words of SETTING_AXES, each at several steps. */
 
 /* The options of `whirl run` and `whirl derive`, except the step. */
 typedef struct setting {
@@ -28,18 +27,18 @@ typedef enum setting_axis { SETTING_AXES(SETTING_AXIS) AXES } setting_axis;
 #undef SETTING_AXIS
 
 const char *setting_heading(setting_axis axis);
-/* The word that a setting has on an axis. */
+/* The word of a setting on an axis. */
 const char *setting_word(const setting *s, setting_axis axis);
 
-/* All combinations that any scene takes. A matrix has neither method nor angles, and tables have no angles to turn. Fixed point
- * has one method and no other setting. */
+/* All combinations that make sense for some scene. With a matrix there is no choice of method or angles, and with tables no angle
+ * is turned. Fixed point has one method and no other setting. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
 /* Is its method requested? NULL: the default ones, rk4 and nystroem3 to 5. Over the points of docs/figures/price.csv the
  * others save nothing in the median. A matrix takes the place of the default method. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
-/* Its place among all, and its number's among the numbers: float, float compensated, double, fixed. */
+/* The setting's place among all, and the place of its number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
 enum { SETTING_NUMBERS = 4 };
 int setting_number(const setting *s);
@@ -48,17 +47,17 @@ cost_number setting_cost_number(const setting *s);
 /* May a scene refuse this form without an error? A matrix requires a linear scene, tables one turn angle. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Does this setting differ from earlier ones, for an image made with it? Not if its method does not take the system.
- * Not if its angles cannot turn either, because they are then looked up in any case. */
+/* Does this setting give another step than the earlier ones? `im` was made with it. False if the method does not take the system,
+ * or if the angles cannot turn, because they are then looked up in any case. */
 bool setting_is_own(const setting *s, const image *im);
-/* In fixed point a scene may have no step, or no step of this length (host/fixed). */
+/* Is the number type fixed point? Then a scene may have no step, or no step of this length (host/fixed). */
 bool setting_is_fixed(const setting *s);
 /* Does the cost of a step depend on its length? The entries of a matrix do, and so do shifts in fixed point. */
 bool setting_price_varies(const setting *s);
 
 /* Room for setting_options(). */
 enum { SETTING_TEXT = 160 };
-/* " --method rk4 --angles lookup": of `whirl derive`, or with the number those of `whirl run`. Returns text. */
+/* " --method rk4 --angles lookup": options of `whirl derive`, or with the number type those of `whirl run`. Returns text. */
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]);
 /* Additional option of `whirl derive --as c`: " --number fixed", or "". */
 const char *setting_form(const setting *s);
@@ -78,11 +77,11 @@ typedef struct trial_source {
 typedef struct trial_wish {
     const trial_source *source;
     const cost_board *board;
-    const char *of;              /* an output, coordinate or rate; NULL: the worst component */
-    whole_ratio spacing;         /* of the records, s */
-    int records;                 /* after the start */
-    reference_steps by;          /* the steps of the references */
-    const image_settings *plain; /* of their images; NULL: the default ones */
+    const char *of;      /* the compared output, coordinate or rate; NULL: the worst component */
+    whole_ratio spacing; /* of the records, s */
+    int records;         /* number of records after the start */
+    reference_steps by;  /* the steps of the references */
+    const image_settings *plain; /* settings of the references' images; NULL: the default ones */
     whole_ratio priced_step; /* its cost stands for all steps, if possible; 0: each has its own */
 } trial_wish;
 
@@ -93,36 +92,37 @@ typedef struct trial_planned {
 
 typedef struct trials {
     trial_wish wish;
-    int points;    /* the source's moving places; all of them if nothing moves at all */
-    int *place;    /* [points] their numbers in the source */
-    char *still;   /* the options of the places that were left out: " --set M=0,"; or NULL */
-    image **image; /* [points] of the references */
+    int points;  /* number of the source's places with motion; all places if nothing moves at all */
+    int *place;  /* [points] their numbers in the source */
+    char *still; /* the options of the omitted places: " --set M=0,"; or NULL */
+    image **image;          /* [points] of the references */
     reference **reference;  /* [points] */
     trial_planned *planned; /* [points] in fixed point: priced and to be run */
     int worst;              /* the point whose reference ends first, or is least accurate */
     int records;            /* records after the start for which all references are trusted */
     deviation_of_what what;
     double
-        tolerated; /* for one column: a run with this error is useful, however small the values are */
-    double planned_most; /* operations of a run that finds ranges of fixed point; 0: any */
-    bool reliable;       /* false: some reference is REFERENCE_NONE */
-    bool without_events; /* prices of scenes with contacts are those of a step that has no event */
+        tolerated; /* for one column: a run with this error is usable, however small the values are */
+    double
+        planned_most; /* most operations of a run that finds the ranges for fixed point; 0: no limit */
+    bool reliable;    /* false: some reference is REFERENCE_NONE */
+    bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
     double operations; /* evaluated in trials so far */
 } trials;
 
 /* The results of one setting at one step. */
 typedef struct trial_result {
-    bool ran; /* false: stopped, or there is no image */
-    bool
-        usable; /* at all points it came to the end, and was not off by more than the values themselves */
+    bool ran;    /* false: stopped, or there is no image */
+    bool usable; /* at all points the run reached its end, with an error below the largest value */
     double
-        error; /* the worst, in the unit of `of` or as a part of the largest value, plus the reference's own error */
-    bool bound;         /* it is no more than a bound: the reference does not know better */
-    int point;          /* with the worst error */
-    int column;         /* which component */
-    double evaluations; /* of the accelerations, a simulated second, at the place that takes most */
-    double evaluations_most; /* in one step */
+        error; /* the worst error, in the unit of `of` or as a part of the largest value, plus the reference's own error */
+    bool bound; /* `error` is only a bound, because the reference's own error is about as large */
+    int point;  /* the point with the worst error */
+    int column; /* the component with the worst error */
+    double
+        evaluations; /* evaluations of the accelerations per simulated second, at the place with most */
+    double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
 /* Computes the references. False, reported on standard error, if `of` is unknown to the scene, or an image is missing. */
@@ -132,12 +132,12 @@ void trial_end(trials *t);
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Estimated operations, without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* Its cost at the dearest of the points; *own: false if it equals another setting (setting_is_own()), or the scene
+/* The setting's cost at the most expensive point. *own: false if the setting equals another (setting_is_own()), or the scene
  * refuses it. */
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
-/* The same if a scene takes the setting only with finer steps, as in fixed point: by the first that it takes. */
+/* The same, with the first finer step that the scene accepts if it refuses this one, as in fixed point. */
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
-/* Would that take more than t->planned_most? */
+/* Would the search for the ranges of fixed point take more than t->planned_most operations? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
 
 /* The options of a point: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
@@ -146,7 +146,7 @@ whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);
 /* The unit of errors: "m", or "" for parts of the largest value. */
 const char *trial_unit(const trials *t);
-/* Converts an error from that unit to SI. */
+/* Converts an error from trial_unit() to SI. */
 double trial_error_si(const trials *t, double error);
 /* The component's name: "X", "theta'". Returns text. */
 enum { TRIAL_NAME = 96 };
