@@ -1,12 +1,12 @@
 #!/bin/sh
-# pil_own.sh: the pair of docs/pil.md, "A firmware of one's own": plant, firmware and commands are taken from that page, built
+# pil_own.sh: the pair of docs/pil.md, "Your own firmware": plant, firmware and commands are taken from that page, built
 # with gcc and clang, and run on tables that are drawn; where the table stands at the end is asked of the plant. Then the same
 # firmware with one bug each, which a run must tell of. WHIRL_FULL: more tables.
 . "$(dirname "$0")/../checks.sh"
 
 # block WORD: what the page's section has in blocks of that kind
 block() {
-    awk -v fence="\`\`\`$1" '/^## / { section = /A firmware of one/ } $0 == fence { into = section; next } /^```/ { into = 0 } into' docs/pil.md
+    awk -v fence="\`\`\`$1" '/^## / { section = /Your own firmware/ } $0 == fence { into = section; next } /^```/ { into = 0 } into' docs/pil.md
 }
 block whirl >"$scratch/table.whirl"
 block c >"$scratch/pil_table.c"
