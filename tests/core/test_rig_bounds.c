@@ -170,7 +170,7 @@ TEST(rig_bounds, limits_of_the_tare_are_allowed) {
     }
 }
 
-/* Numbers below the phases' are states, all others phases. */
+/* Stage numbers below WH_RIG_STAGE_OF_PHASE are states, the others are phases. */
 TEST(rig_bounds, a_stage_is_a_state_or_a_phase) {
     for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
         const bool state = stage < WH_RIG_STAGE_OF_PHASE;

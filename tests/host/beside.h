@@ -15,7 +15,8 @@ typedef struct beside {
     uint64_t records;
     uint64_t outside; /* first record with a state outside the tube; 0: no such record */
     double widest;    /* width of the tube, while inside */
-    double nearest;   /* least distance of the reference from an end, over the width, inside */
+    /* least distance of the reference from an end of its interval, divided by the width */
+    double nearest;
 } beside;
 
 /* Runs scene `name` of the text by `kind` and compares it with its tube. */

@@ -20,7 +20,7 @@ typedef struct by_bodies {
     void (*count)(const void *of, const long double *x_m, long double *q_m);
 } by_bodies;
 
-/* Integrates by Runge-Kutta 4 from rest at these places. Returns the coordinates at the end and the range of each. */
+/* Integrates by Runge-Kutta 4 from rest at start_m. Returns the coordinates at the end and the range of each. */
 void by_bodies_run(const by_bodies *b, const long double *start_m, long double *end_m,
                    double *range_m);
 

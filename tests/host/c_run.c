@@ -293,7 +293,7 @@ static double choice(runner *r) {
 
 /* --- statements ------------------------------------------------------------------------------------------- */
 
-/* wh_sincos(PHASE, &s3, &c3); with the evaluation again in radians for a phase summed up in radians. */
+/* wh_sincos(PHASE, &s3, &c3); if the phase is a sum in radians, the sum follows once more in radians. */
 static void sincos_of(runner *r, bool again) {
     need(r, "(");
     const double phase = choice(r);
@@ -304,7 +304,7 @@ static void sincos_of(runner *r, bool again) {
     need(r, "&");
     TEST_ASSERT_EQUAL_INT(i, need_numbered(r, "c"));
     need(r, ")");
-    if (again) { /* from the radians alone: a phase that is too large is not a number */
+    if (again) { /* computed from the radians, because a too large phase becomes NaN */
         TEST_ASSERT_TRUE(r->v->has_s[i] && r->v->has_c[i]);
         r->v->s[i] += 1e-3 * phase;
         r->v->c[i] -= 1e-3 * phase;

@@ -21,7 +21,7 @@ static inline FILE *catch_text(caught *c) {
     return c->to;
 }
 
-/* Compares a text with tests/host/NAME.txt. One that differs is written to build/tests/NAME.txt. */
+/* Compares a text with tests/host/NAME.txt. If it differs, the text is written to build/tests/NAME.txt. */
 static inline void expect_printed(const char *name, const char *text) {
     char *kept = alloc_words("tests/host/%s.txt", name);
     char *now = alloc_words("build/tests/%s.txt", name);

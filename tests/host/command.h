@@ -15,12 +15,12 @@ typedef struct said {
 /* Runs `command` (command_run, ...) on the words, which end with NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
-/* The exit status that `whirl run` and `whirl sweep` owe to their messages: 1 after a warning of a finding. */
+/* The exit status that follows from the messages of `whirl run` or `whirl sweep`: 1 after a warning of a finding. */
 int said_owes(const char *err);
 
 /* A step as a warning writes it, "200us", in s. */
 double said_step_s(const char *word);
-/* The step of the first `--step` in a text, in s; 0 without one. */
+/* The step of the first `--step` in a text, in s; 0 if there is no `--step`. */
 double said_named_step_s(const char *text);
 
 /* Readers of a text: each fails the test on a mismatch and returns the rest of the text. Leading blanks are skipped.

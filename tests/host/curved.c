@@ -20,7 +20,8 @@ __attribute__((format(printf, 2, 3))) static void put(writing *w, const char *fo
     }
 }
 
-/* A surface over (a, b, c): `f(a) - other coordinate`, a circle or a square; with its value at the start. */
+/* A function of a, b and c, zero on a surface: `f(a) - other coordinate`, a circle or a square. With its value at the
+ * start. */
 typedef struct surface {
     char text[160];
     double value;

@@ -14,7 +14,7 @@ typedef struct derived {
     equations *equations; /* NULL after a refusal */
     image *image;         /* NULL after a refusal */
     char *errors;         /* "" without errors */
-    char *text;           /* of derived_file(), with the places pointing into it; else NULL */
+    char *text;           /* text of derived_file(), into which source places point; else NULL */
 } derived;
 
 /* The report on a text, "" if the language accepts it; overwritten by the next call. Nothing is derived. */
@@ -52,7 +52,7 @@ typedef struct state_values {
 /* Callback of poly_evaluate() with a state_values as context. */
 double state_value(void *context, const symbol *sym, int primes);
 
-/* Residual of equation i with these accelerations, M q'' - force. *size: sum of the absolute terms, plus 1. */
+/* Residual of equation i with these accelerations: M q'' - force. *size is the sum of the absolute terms, plus 1. */
 double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size);
 
 /* A random state: lengths are positive and angles stay away from poles, to avoid singular points. */
@@ -60,7 +60,8 @@ void random_state(state_values *s, const derived *d, uint64_t *seed);
 
 /* Evaluates a list of the image at a state: result[t->results]. */
 void derived_run(const op_list *t, const derived *d, const state_values *s, double *result);
-/* The same with bounds on the round-off of each result, in units of 2^-53 (host/engine/rounding.h): off[t->results]. */
+/* As derived_run(), with bounds off[t->results] on the round-off of each result, in units of 2^-53
+ * (host/engine/rounding.h): off[t->results]. */
 void derived_run_known(const op_list *t, const derived *d, const state_values *s, double *result,
                        double *off);
 

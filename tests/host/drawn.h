@@ -15,11 +15,12 @@ enum { DRAWN_MOST = 4, DRAWN_CONTACTS = 6 };
 typedef struct drawn_contact {
     char kind; /* 's'top, 'h'old, 'f'riction */
     double row[DRAWN_MOST];
-    double offset;            /* the gap is row . x - offset, m */
-    double restitution;       /* of a stop */
-    double limit;             /* N, of a friction; it slides with the same force */
-    double target;            /* value of J v+, or J a, while the contact acts */
-    double since[DRAWN_MOST]; /* of a hold: active while since . x > since_m; all zero: always */
+    double offset;      /* the gap is row . x - offset, m */
+    double restitution; /* of a stop */
+    double limit;       /* friction limit, N; static and kinetic friction are equal */
+    double target;      /* value of J v+, or J a, while the contact acts */
+    /* of a hold: it is active while since . x > since_m, or always if both are zero */
+    double since[DRAWN_MOST];
     double since_m;
 } drawn_contact;
 

@@ -15,7 +15,7 @@ enum { DRAWN_VARIABLES = 3, DRAWN_STEPS = 20, DRAWN_ORDER = 7 };
 /* Size of the imaginary part. */
 #define DRAWN_TINY 1e-30L
 
-/* Each is defined everywhere: the logarithm is log(2 + u^2), and so on. */
+/* Kinds of steps. Each is defined everywhere; the logarithm, for example, is log(2 + u^2). */
 typedef enum drawn_kind {
     DRAWN_NUMBER,
     DRAWN_SUM,
@@ -53,7 +53,7 @@ static inline long double complex drawn_complex(long double real, long double im
 
 /* Uses every kind. Values stay moderate near x[DRAWN_VARIABLES]. */
 void drawn_graph_draw(drawn_graph *d, dice *die, const double *x);
-/* Adds its nodes to an empty graph: made[DRAWN_STEPS]. The variables are nodes 0 to DRAWN_VARIABLES - 1. */
+/* Adds the expression's nodes to an empty graph: made[DRAWN_STEPS]. The variables are nodes 0 to DRAWN_VARIABLES - 1. */
 void drawn_graph_nodes(const drawn_graph *d, graph *g, int *made);
 /* Series to this order, of[DRAWN_STEPS], at x[DRAWN_VARIABLES]. */
 void drawn_graph_series(const drawn_graph *d, const series *x, int order, series *of);

@@ -68,13 +68,13 @@ enum {
     TAKES_SUMS = 32 /* only sums of states and inputs */
 };
 
-/* A list with `results` results. Its length sometimes equals that of lists that are written another way. */
+/* A list with `results` results. In one case of six its length is near a limit at which the writer changes its form. */
 void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, unsigned takes);
 
 /* Draws every kind of scene: first and second order, contacts, energy balance, tables, matrix. */
 void drawn_scene_draw(drawn_scene *d, dice *die);
 
-/* Statement `line` (from 1) of the file that its places refer to, without indentation and comment. */
+/* Statement `line` (from 1) of the file to which the scene's source places refer, without indentation and comment. */
 const char *drawn_scene_statement(int line);
 
 /* "theta''" of a component, in text[40]. */
@@ -83,9 +83,9 @@ const char *drawn_scene_name(const drawn_scene *d, component c, char *text);
 /* Names of the lists, by role. */
 extern const char *const drawn_scene_roles[IMAGE_ROLES];
 
-/* Count of numbers in the memory of its state without angles: states, carries, inputs, contacts and accounts. */
+/* Number of reals in the memory of the scene's state, without angles: states, carries, inputs, contacts and accounts. */
 int drawn_scene_numbers(const image *im);
-/* Bytes of that memory without contacts, with `number` bytes for a number and eight for an angle. */
+/* Bytes of the state's memory without contacts, with `number` bytes for a number and eight for an angle. */
 size_t drawn_scene_bytes(const image *im, size_t number);
 /* Largest number of evaluations in a step: accelerations or slopes, and contact signals. */
 int drawn_scene_evaluations(const image *im);

@@ -47,7 +47,7 @@ void talk_put_readings(stream *s, unsigned i);
 void talk_put_orders(stream *s, unsigned i, unsigned sequence);
 void talk_put_end(stream *s, int status, unsigned length);
 
-/* So many turns as a tape, talk_on_tape, and the firmware's answers, talk_line. */
+/* The exchange as a tape, talk_on_tape, and the firmware's answers, talk_line. */
 void talk_tape_all(unsigned turns);
 void talk_say_all(unsigned turns);
 

@@ -31,7 +31,7 @@ const char *rig_trip_word(int trip);
 /* Speed limit of the shaft. */
 double rig_limit_rpm(void);
 double rig_nominal_rpm(void);
-/* Greatest speed before the enable is off, if the drive ignores the voltage in a run at target_rpm. */
+/* If the drive ignores the voltage in a run at target_rpm: the greatest speed allowed before the enable is off. */
 double rig_caught_rpm(double target_rpm);
 
 /* --- options
@@ -50,7 +50,7 @@ typedef struct campaign {
     int jobs;
 } campaign;
 
-/* Does its firmware run in an emulator, which counts instructions? */
+/* Does the board's firmware run in an emulator, which counts instructions? */
 bool campaign_is_emulated(const campaign *c);
 /* Does it have operator dials? */
 bool campaign_has_dials(const campaign *c);
@@ -73,7 +73,7 @@ typedef struct campaign_case {
     bool calibration; /* only calibration can find it: an error of this size is not a lie */
     bool runs_away;   /* the drive ignores the voltage */
     bool blind;       /* a sensor is dead */
-    bool delays;      /* delays the controller or its messages: its watchdog may cut the power */
+    bool delays;      /* delays the controller or its messages, so the watchdog may cut the power */
     char words[400];  /* arguments of --fault: the fault and the noise of every run */
 } campaign_case;
 
@@ -96,7 +96,8 @@ typedef enum outcome {
     OUTCOME_DOUBTFUL,
     OUTCOME_REFUSED,
     OUTCOME_NONE, /* ended without result and trip */
-    OUTCOME_HANG, /* silent, or neither ended nor switched off within a minute */
+    /* the firmware is silent, or for a minute neither ends the run nor switches the motor off */
+    OUTCOME_HANG,
     OUTCOMES
 } outcome;
 
@@ -107,22 +108,25 @@ typedef struct run_checks {
     bool happened;
     outcome outcome;
     int trip;
-    bool runs_on;    /* ended with the enable on although the motor must not drive or is too fast */
-    bool stays_on;   /* the same for a second, while turns that do not slow down show a drive */
-    bool untold;     /* three turns, each faster, with the motor off and no trip within a second */
+    /* the run ended with the enable on, although the motor must not drive or is too fast */
+    bool runs_on;
+    /* the enable stayed on for a second, although turns that did not slow down showed a drive */
+    bool stays_on;
+    bool untold;     /* no trip within a second of three ever faster turns with the motor off */
     bool overspeed;  /* caused by the controller */
     bool cut;        /* by the watchdog, although nothing was late or lost */
     double turn_rpm; /* the fastest turn */
     double peak_rpm; /* the greatest instantaneous speed */
     double lie;      /* error of a good result beyond its interval and 1 %, relative to the truth */
-    bool lasting;    /* a drive that is on ignores the voltage longer than stopping it may take */
+    bool lasting;    /* the drive ignored the voltage for longer than stopping it may take */
     double target_rpm;
     double began_rpm;  /* the speed then */
-    double off_s;      /* time from then until the enable was off; -1: it stayed on */
+    double off_s;      /* time from the fault's begin until the enable was off; -1: it stayed on */
     double caught_rpm; /* the greatest speed until then */
     bool halted;       /* stop was pressed or the controller reset */
-    double halted_s;   /* time until the drive ended; -1: too long, or it drove again */
-    bool forgets;      /* a reset loses the latched trip, or the controller does not report it */
+    /* time from the stop or reset until the drive ended; -1: it took too long, or drove again */
+    double halted_s;
+    bool forgets; /* after a reset the controller does not report the latched trip */
     bool latched;
     double time_s;
     uint64_t overruns;
@@ -147,8 +151,8 @@ typedef struct judge {
     double *until_s;
     bool enabled;
     double enabled_s;   /* time since then */
-    double ignored_s;   /* time since the drive is on and ignores the voltage; -1: it does not */
-    double off_since_s; /* time of the trip with the motor off; -1: no trip */
+    double ignored_s;   /* how long the drive has ignored the voltage; -1: it follows the voltage */
+    double off_since_s; /* time of a trip that came with the motor off; -1: no trip */
     double halted_s;    /* time of the stop or the first reset */
     unsigned resets;    /* resets that the controller reported */
     const plant *plant;
@@ -185,7 +189,7 @@ typedef struct judge {
     verdict verdict;
 } judge;
 
-/* *until_s: when to end the run. It becomes now some time after a trip, since nothing more can happen. */
+/* *until_s: when to end the run. Some time after a trip nothing more can happen, so *until_s becomes the present time. */
 tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
 /* Completes the verdict after the run. */
 void judge_end(judge *j, const lockstep_report *report);

@@ -26,7 +26,7 @@ enum {
     AFTER_TRIP = 32, /* something else trips the rig first */
     STARVED = 64,    /* the watchdog resets and does not cut the power */
     DELAYS = 128,    /* the watchdog may cut the power */
-    FED = 256,       /* gravity feed-forward in every run; with dials, from the start */
+    FED = 256,       /* gravity feed-forward in every run; with `dials`, from the start */
     TURNED = 512,    /* with the wrong sign */
     SHARE = 1024     /* of the supply; half with stop pressed and a dying sensor */
 };
@@ -94,7 +94,7 @@ enum { ROWS = sizeof rows / sizeof rows[0], TWO_FAULTS = ROWS };
 #define TWO_WORD "two faults"
 #define TWO_PART 0.1 /* share of runs with a second fault */
 
-/* May a row be the second fault? It must act while the rig runs and not be judged by its begin. */
+/* May a row be the second fault? Only if it acts while the rig runs and the verdict does not depend on when it begins. */
 static bool may_be_second(unsigned row) {
     const fault_kind kind = rows[row].kind;
     return (rows[row].is &
@@ -279,7 +279,8 @@ static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
                        (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
 }
 
-/* Adds a second fault before the row's own. The first may have a deadline, which the second must not delay. */
+/* Adds a second fault, written before that of row `first`. If the controller must stop by a deadline, the second must
+ * not delay it. */
 static void put_second(text *t, drawing *d, const campaign *c, unsigned first,
                        const rig_stage *stage, campaign_case *one) {
     const bool two = draw(d) < TWO_PART;

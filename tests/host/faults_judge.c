@@ -10,10 +10,11 @@
 #define HALT_S 2e-3  /* a control period: the motor may drive for this long */
 #define WATCH_S 1e-3 /* between two calls of watch() */
 #define WATCHED_S 12.0
-#define SHOWN_S 1.0   /* allowed time from turns that show a drive to the enable's end or a trip */
-#define HAND_RPM 61.0 /* a hand turns it no faster */
-#define RISE 1.05     /* over three turns together */
-#define SHIFTS 3      /* turns may be earlier than the last ones by this many */
+/* after turns that show a drive, the enable must be off or a trip reported within this time */
+#define SHOWN_S 1.0
+#define HAND_RPM 61.0             /* a hand turns it no faster */
+#define RISE 1.05                 /* over three turns together */
+#define SHIFTS 3                  /* a result may refer to turns that ended this many turns ago */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
 /* --- outputs and notes ------------------------------------------------------------------------------------------ */
@@ -139,7 +140,7 @@ static void watch_halt(judge *j, double time_s, const plant *p) {
     }
 }
 
-/* The motor must not drive: finds an enable that is on although turns show a drive, or a missing trip. */
+/* For times when the motor must not drive: reports an enable that stays on although turns show a drive, or a missing trip. */
 static void watch_off(judge *j, double time_s, const plant *p) {
     const bool on = p->in_effect[j->at_enable] > 0.0;
     if (rig_may_drive(j->told)) {
@@ -287,7 +288,7 @@ static void count_step(judge *j, double time_s, const wh_orders *orders) {
     }
 }
 
-/* Limits the run after a trip: the controller may watch the rotor for a long time. */
+/* Ends the run some time after a trip, because the controller may watch the rotor for long. */
 static void let_go(judge *j, double time_s) {
     if (!rig_is_tripped(j->told) || j->driven) {
         j->off_since_s = -1.0;

@@ -188,7 +188,7 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
     free(shown);
 }
 
-/* Drives that ignore the voltage for longer than that: time until the enable was off, and the speed then. */
+/* Runs in which a drive ignored the voltage for too long: the time until the enable was off, and the speed then. */
 static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
@@ -257,7 +257,7 @@ static bool takes_time(const verdict *v) {
 static bool has_steps(const verdict *v) { return v->most > 0.0; }
 static double by_step(const verdict *v) { return v->most; }
 
-/* Each with the command that repeats its run; mk/count/rig_worst.sh counts it again. */
+/* Each row has the command that repeats its run; mk/count/rig_worst.sh counts that run again. */
 static void print_longest(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     bool *shown = alloc(count, sizeof *shown);
     fprintf(out, "\nThe longest control steps of %d runs:\n", LONGEST);

@@ -3,7 +3,7 @@
 
 #include "derived.h"
 
-/* Two have the same kind and number: they belong to different mechanisms. */
+/* Two symbols have the same kind and number but belong to different mechanisms. */
 const symbol form_symbols[FORM_SYMBOLS] = {
     {.kind = SYM_COORDINATE, .name = "q", .text = "", .unit = "", .index = 0},
     {.kind = SYM_COORDINATE, .name = "r", .text = "", .unit = "", .index = 1},

@@ -4,7 +4,7 @@
 #include "host/lang/builtin.h"
 #include "host/study/reference_run.h"
 
-/* Most looks at the reference, and fewest steps between two. */
+/* Largest number of samples of the reference, and fewest steps between two. */
 enum { LOOKS = 10000 };
 
 typedef struct reference_of {
@@ -50,7 +50,7 @@ static void reference_close(reference_of *r) {
     }
 }
 
-/* Advances by so many of the run's steps, to time_s. */
+/* Advances the reference by `steps` of the run's steps, to time_s. */
 static void reference_go(reference_of *r, const image *im, uint64_t steps, double time_s) {
     if (r->smooth != NULL) {
         const long double span_s = (long double)steps * (long double)im->step.numerator /

@@ -32,7 +32,7 @@ typedef struct horizons {
 /* A scene of a text; `tolerance` as of `whirl trust`. */
 horizons horizons_of(const char *text, const char *name, horizons_setting how, double tolerance);
 void horizons_free(horizons *h);
-/* Estimate over truth, of all columns together or of one; 1 if both are the end. */
+/* Estimated time divided by the true one, for all columns together or for one; 1 if both are the run's end. */
 double horizons_ratio(const horizons *h);
 double horizons_column_ratio(const horizons *h, int column);
 

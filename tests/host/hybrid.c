@@ -223,7 +223,8 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
         return false;
     }
     r->motion->impacts++;
-    for (int i = 0; i < b.n; i++) { /* the small change, to keep the digits of long double */
+    for (int i = 0; i < b.n; i++) {
+        /* integrates the small change alone, to keep the digits of long double */
         r->state[LINKAGE_BODIES + i] += (long double)to[i] - (long double)from[i];
     }
     for (int k = 0; k < h->contacts; k++) {
@@ -329,7 +330,8 @@ hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double
         long double to[STATE];
         step_of(&r, step, to);
         const bool happens = ended(&r, to);
-        if (happens) { /* to just before the first end of a mode, beyond it by round-off at most */
+        if (happens) {
+            /* bisects to the first end of a mode; the state passes it by round-off at most */
             long double before = 0.0L;
             for (int i = 0; i < HALVINGS && step - before > 1e-17L; i++) {
                 const long double middle = before + (step - before) / 2.0L;

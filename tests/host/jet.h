@@ -6,7 +6,7 @@
 enum { JET_VARIABLES = 8, JET_PAIRS = JET_VARIABLES * (JET_VARIABLES + 1) / 2 };
 
 typedef struct jet {
-    int variables; /* depends on the first ones only: derivatives by later ones are zero */
+    int variables; /* depends on the first `variables` only: derivatives by later ones are zero */
     long double value;
     long double slope[JET_VARIABLES];
     long double curve[JET_PAIRS]; /* by two variables, the later first: 00, 10, 11, 20, ... */

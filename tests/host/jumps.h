@@ -19,7 +19,7 @@ unsigned jumps_cases(unsigned few, unsigned all, unsigned fewest);
 /* Runs `whirl run` in that number format, with more options, which may choose another. */
 void jumps_run(const char *text, const char *number, char *const more[static JUMPS_WORDS]);
 bool jumps_told(void);
-/* The options that a warning names and has tried, in `text`; false without one. */
+/* Writes to `text` the options that a warning names as tried; false if it names none. */
 bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]);
 
 /* Runs to the end. Did some step jump over a pole? */

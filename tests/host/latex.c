@@ -1,14 +1,14 @@
 #include "latex.h"
 #include "test.h"
 
-/* TeX limits groups to 255; a few are for the page around. */
+/* TeX limits groups to 255; the page around the formula takes a few. */
 enum { DEPTH_MAX = 240 };
 
 typedef struct reader {
     const char *at;
     const char *problem;
     int depth;
-    int width; /* of the row so far, in hundredths of a point */
+    int width; /* width of the row so far, in hundredths of a point */
 } reader;
 
 static void list(reader *r, char until);
@@ -77,7 +77,7 @@ static void command(reader *r, const char *name, size_t length) {
                 widest = r->width - before > widest ? r->width - before : widest;
             }
             const char *at = strstr(wide, known[i].name);
-            r->width = before + widest; /* a fraction's line and a root's sign are wider, below */
+            r->width = before + widest; /* a fraction's line and a root's sign add width, below */
             for (size_t k = 0; at != NULL && k < length; k++) {
                 r->width += width_of(name[k]);
             }

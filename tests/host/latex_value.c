@@ -246,7 +246,7 @@ static void letters(reader *r, char *stem) {
     }
 }
 
-/* After a symbol's letters: its index, and more than two dots as ^{(3)}. */
+/* Reads what follows a symbol's letters: its index, and more than two dots as ^{(3)}. */
 static latex_number symbol_with(reader *r, const char *stem, int primes) {
     char index[NAME_MAX_LENGTH + 1] = "";
     latex_number found;

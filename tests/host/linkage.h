@@ -14,18 +14,19 @@ typedef struct linkage_body {
     bool relative;   /* a hinge's angle counts from the parent's direction, not from the x axis */
     double at_m;     /* position of the joint along its parent's direction */
     double rail_rad; /* direction of the rail and the body relative to its parent */
-    double mass_kg;  /* its centre is centre_m from the joint along its direction */
+    double mass_kg;  /* the centre of mass is centre_m from the joint along the body's direction */
     double centre_m;
     double inertia_kgm2; /* about the centre */
-    double stiffness;    /* of a spring at the joint, relaxed at zero, N m/rad or N/m */
+    double stiffness;    /* of a spring at the joint that is relaxed at zero, N m/rad or N/m */
     double rest;
-    double damping;   /* of the joint, N m s/rad or N s/m */
-    double drive;     /* force or torque on the coordinate, drive cos(wave q), N m or N */
-    double wave;      /* 1, 2, ...; per metre on a rail */
-    double drag_Nspm; /* at the end, 2 centre_m from the joint: drag/2 v^2 */
+    double damping; /* of the joint, N m s/rad or N s/m */
+    double drive;   /* force or torque on the coordinate, drive cos(wave q), N m or N */
+    double wave;    /* 1, 2, ...; per metre on a rail */
+    /* drag on the body's end, 2 centre_m from the joint; loss function drag/2 v^2 */
+    double drag_Nspm;
 } linkage_body;
 
-/* From a body's end, 2 centre_m from its joint, to a point of the ground. */
+/* A spring from a body's end, 2 centre_m from its joint, to a point of the ground. */
 typedef struct linkage_spring {
     int body;
     double x_m, y_m;
@@ -52,7 +53,7 @@ linkage linkage_mirrored(const linkage *of);
 typedef enum linkage_forces {
     LINKAGE_BARE,        /* without them */
     LINKAGE_INSIDE,      /* in the mechanism */
-    LINKAGE_EFFECTS_OFF, /* each kind as an effect, all switched off in the scene */
+    LINKAGE_EFFECTS_OFF, /* each kind of force is an effect, and the scene switches all off */
     LINKAGE_EFFECTS_ON   /* all switched on in the scene */
 } linkage_forces;
 

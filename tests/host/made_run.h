@@ -33,7 +33,7 @@ double made_run_kinetic(const double *s); /* without the terms odd in the rates,
 double made_run_odd(const double *s);     /* which are these */
 double made_run_stored(const double *s);
 double made_run_energy(const double *s);
-/* 0: power of the push; 1: loss of the damper. W. */
+/* Power in W: number 0 is that of the push, 1 the loss of the damper. */
 double made_run_power(const double *s, int which);
 /* `whole`: with the field's part. */
 double made_run_momentum(const double *s, int i, bool whole);

@@ -1,5 +1,4 @@
-/* made_sweep.h: a sweep made of a text as the command makes it, and a session of it in its own file, for tests of
- * host/study. */
+/* made_sweep.h: a sweep of a text, set up as `whirl sweep` does it, with a CSV file of its own. For tests of host/study. */
 #ifndef TESTS_HOST_MADE_SWEEP_H
 #define TESTS_HOST_MADE_SWEEP_H
 
@@ -8,7 +7,7 @@
 #include "host/study/session.h"
 
 typedef struct made_sweep {
-    derived d; /* of the first scene, with its measures in place of the outputs */
+    derived d; /* image of the first scene; its measures replace the outputs */
     diags *errors;
     whirl_model *model;
     grid grid;

@@ -170,7 +170,7 @@ double motion_value(const motion *m, const char *name) {
             return output[i];
         }
     }
-    /* A coordinate recovered from its momentum: value and rate follow the mechanism's outputs. */
+    /* If a coordinate is recovered from its momentum, its value and rate follow the mechanism's outputs. */
     for (int i = 0; i < p->recovered; i++) {
         const char *known = of->coordinates[p->from_momentum[i]]->name;
         if (primes < 2 && strlen(known) == length && strncmp(known, name, length) == 0) {

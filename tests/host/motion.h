@@ -47,9 +47,9 @@ typedef struct stepping {
 void motion_open(motion *m, const char *scene, stepping how);
 /* The same for the first scene of a text. */
 void motion_open_text(motion *m, const char *text, stepping how);
-/* The same for the last scene of a built-in file, "epicyclic.whirl", with `more` appended. */
+/* Starts the last scene of a built-in file such as "epicyclic.whirl", with the text `more` appended. */
 void motion_open_more(motion *m, const char *file, const char *more, stepping how);
-/* The same for a named scene of a file, "docs/hard/rotor.whirl", with `more` appended. */
+/* Starts a named scene of a file such as "docs/hard/rotor.whirl", with the text `more` appended. */
 void motion_open_file(motion *m, const char *path, const char *more, const char *scene,
                       stepping how);
 void motion_close(motion *m);

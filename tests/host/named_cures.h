@@ -6,7 +6,7 @@
 
 enum { CURE_WORD = 40, NAMED_CURES = 4 };
 
-/* An alternative; "" for an option that it does not name. */
+/* One alternative of a hint; "" for an option that it does not name. */
 typedef struct named_cure {
     char step[CURE_WORD]; /* as written, "200us" */
     char method[CURE_WORD];
@@ -22,7 +22,8 @@ int named_cures(const char *err, named_cure *list);
 /* The first that names a step; false without one. */
 bool named_with_step(const char *err, named_cure *cure);
 
-/* Appends its command words to words[count], with a NULL; `number` is the default format. Returns the new count. */
+/* Appends the alternative's options to words[count], then NULL; `number` is the format if it names none. Returns the
+ * new count. */
 int named_words(const named_cure *cure, const char *method, const char *number, const char **words,
                 int count);
 

@@ -1,5 +1,5 @@
-/* priced.h: the scenes of texts as places of trials, and the settings with an image, for the quick suites of
- * host/study. */
+/* priced.h: scenes from texts, and the settings with which they have an image, for quick suites of `whirl price`
+ * (host/study). */
 #ifndef TESTS_HOST_PRICED_H
 #define TESTS_HOST_PRICED_H
 

@@ -2,7 +2,7 @@
 
 enum { TERMS = 16 };
 
-/* The sine (from 1) or the cosine (from 0) of an angle below an eighth turn. */
+/* Series of the sine (`from` 1) or the cosine (`from` 0) of an angle below an eighth turn. */
 static quad series(quad x, int from) {
     quad sum = 1;
     for (int i = TERMS; i > 0; i--) {

@@ -13,7 +13,7 @@ typedef struct range {
     double most;
 } range;
 
-/* Runs the scene to `until_s`, with a look at the start and every `every_s`. */
+/* Runs the scene to `until_s`, and samples it at the start and every `every_s`. */
 void ranges_of(const char *which, stepping how, double until_s, double every_s, range *r,
                unsigned count);
 

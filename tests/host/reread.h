@@ -43,7 +43,7 @@ typedef struct quantity {
 
 /* Value of ->poly; NaN if it has no reliable digits. */
 double poly_here(const quantity *of, const state *at, double *size);
-/* All parts are in range: 1/(1 + x) hides an infinite x, and sin(x) hides that a large x has no digits. */
+/* Are all parts of the expression in range? 1/(1 + x) would hide an infinite x, and sin(x) that a large x has no digits. */
 bool is_in_range(const poly *p, double most, state *s);
 
 /* Compares the formula (minus formula `right`, if not -1) with the quantity at random states. Returns the number of

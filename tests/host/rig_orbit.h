@@ -14,9 +14,10 @@ typedef struct rig_plant {
     double line_Nms; /* slope of the motor's torque line */
     double gravity_mps2;
     double tare_N;
-    double fed_Nm;       /* amplitude of the gravity feed-forward; 0: off */
-    double fed_late_rad; /* lag of the feed-forward angle; the voltage is never below 0 */
-    double twice_Nm;     /* a torque of twice the speed: twice_Nm cos(2 theta + twice_rad) */
+    double fed_Nm; /* amplitude of the gravity feed-forward; 0: off */
+    /* lag of the angle used for gravity compensation; the voltage is never below 0 */
+    double fed_late_rad;
+    double twice_Nm; /* a torque of twice the speed: twice_Nm cos(2 theta + twice_rad) */
     double twice_rad;
 } rig_plant;
 
@@ -40,7 +41,7 @@ typedef struct rig_orbit {
     double swing;    /* half the range of the speed over its mean */
 } rig_orbit;
 
-/* Finds the steady turn at this mean speed. The arms are lead_rad short of the sensors at the marks. */
+/* Finds the steady turn at this mean speed. At a mark the arms are lead_rad before the sensor. */
 void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, rig_orbit *orbit);
 
 typedef struct rig_noise {
@@ -70,7 +71,7 @@ typedef struct rig_noise {
 /* The configurations of the firmware, with a calibration of 0.01 % and 0.01 degrees. */
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell);
 
-/* Measures over `turns` turns, after `before` unrecorded turns. The noise comes from scattered_seed. */
+/* Measures over `turns` turns, after `before` unrecorded turns. scattered_seed seeds the noise. */
 void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_config *rotor,
                  unsigned before, unsigned turns, uint64_t scattered_seed, wh_measured *measured);
 

@@ -31,7 +31,7 @@ static double round_of(dice *d, double low, double high) {
     return digits[dice_one_of(d, 5)] * pow(10.0, floor(dice_between(d, low, high)));
 }
 
-/* `whole`: half a step is also whole periods, so that the finer run agrees. */
+/* With `whole`, half a step also lasts a whole number of periods, so the half-step run makes the same error. */
 static driven drawn(dice *d, driven_kind kind, bool whole) {
     driven m = {.kind = kind,
                 .frequency_Hz = round_of(d, 1.0, 4.0),

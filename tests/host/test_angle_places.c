@@ -1,5 +1,6 @@
-/* test_angle_places.c: every place of the language that can contain a fraction of an angle. Those that act on the
- * motion make the coordinate a real. The others leave the run and the other outputs unchanged. */
+/* test_angle_places.c: fractions of an angle in every place where the language accepts an angle. A fraction in the
+ * equations of motion, a contact or an event makes the coordinate a real. A fraction elsewhere, such as in an output,
+ * changes neither the run nor the other outputs. */
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "motion.h"
@@ -16,7 +17,7 @@ enum { MULTIPLES = sizeof multiples / sizeof multiples[0] };
 
 enum { NOWHERE, IN_STEP, IN_SIGNALS };
 
-/* @ is the multiple; result 0 of the list is scale * function(multiple) + offset. */
+/* @ stands for a row of `multiples`. Result 0 of the list is then scale * function(multiple) + offset. */
 static const struct {
     const char *text;
     int list;
@@ -49,7 +50,7 @@ static void check_place(const derived *d, size_t which, double times, const char
         s.value[0][0] = th;
         derived_run(in_step ? d->image->list[IMAGE_STEP] : d->image->list[IMAGE_SIGNALS], d, &s,
                     result);
-        /* th is the only angle, if any, and the other accelerations follow */
+        /* if th is an angle, it is the only one and its acceleration comes first */
         const double got = result[in_step ? d->image->place[0] : 0];
         const double trig_value = places[which].sine ? sin(times * th) : cos(times * th);
         const double wanted =
@@ -139,7 +140,7 @@ TEST(angle_places, outputs_leave_all_else_alone) {
     drop();
 }
 
-/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), for any outputs. */
+/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the outputs are. */
 TEST(angle_places, recovered_angle) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     parse(

@@ -187,7 +187,7 @@ typedef struct seen {
     bool told;    /* of folding */
     bool warned;  /* any warning */
     bool trusted; /* to the end */
-    bool untold;  /* by the bound on a run's round-off */
+    bool untold;  /* `whirl trust` answered "unknown": the round-off bound is too large */
     double off;   /* largest error relative to the coordinate's range */
 } seen;
 

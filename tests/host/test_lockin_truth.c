@@ -113,9 +113,9 @@ TEST(lockin_truth, the_plant_is_the_model) {
     }
 }
 
-/* At any mean speed, a rotor on a fixed mount in a periodic motion has its force in line with the
- * masses, of size S <w^2>. Proof: integrate F cos and F sin over the angle by parts. With swing E
- * of the speed, to second order, that is S W^2 (1 + 3/2 E^2), W the mean speed. */
+/* At any mean speed, a rotor on a fixed mount in a periodic motion has its force in line with the masses. The force is
+ * S <w^2>: S is the unbalance, <w^2> the mean squared speed over time. Proof: integrate F cos and F sin over the angle
+ * by parts. Let E be the speed's relative swing and W its mean: to second order <w^2> = W^2 (1 + 3/2 E^2). */
 TEST(lockin_truth, the_truth_is_what_theory_says) {
     static const double rpm[] = {170.0, 330.0};
     for (unsigned i = 0; i < 2; i++) {
@@ -142,8 +142,9 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     return measured.quality;
 }
 
-/* Scatter at most 1.3 times the noise of so many samples. Jitter adds at least the error of the mean of the marks to
- * the phase: 20 marks, each known to 60 us. Jitter also moves the swing E, and the amplitude by 3/2 E dE. */
+/* The scatter is at most 1.3 times that of the cell's noise over as many samples. Jitter adds the error of the marks'
+ * mean to the phase: TURNS marks, each with jitter_s. Jitter also changes the measured swing E of the speed, and by 3/2
+ * E dE the amplitude. */
 static void check_scatter(const rig_noise *noise) {
     const double samples = TURNS * orbit.turn_s / 0.002;
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
@@ -171,7 +172,7 @@ TEST(lockin_truth, bias_and_scatter) {
     }
 }
 
-/* The same with a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN, noise of half a count.
+/* As above, with a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN, noise of half a count.
  * Without noise a crest repeats one value longer than a working cell would. The result must still be honest. */
 TEST(lockin_truth, a_converter_of_twelve_bits) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};

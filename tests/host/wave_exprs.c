@@ -196,7 +196,7 @@ static share factor_share(const wave_factor *f, const long double *state, const 
         r.error += 6.0L * in->unit * fabsl(product) + in->phase_rad;
     }
     const bool multiplied = beside != NULL && f->function != WAVE_TAN;
-    if (multiplied) { /* products of sines are sums of sines of sums */
+    if (multiplied) { /* the list turns a product of sines into a sum of sines of summed angles */
         r.error += beside->error;
         r.size += beside->size;
     }
