@@ -15,7 +15,8 @@
 
 extern volatile uint32_t bench_stop;   /* not 0: stop is pressed */
 extern volatile uint32_t bench_silent; /* not 0: the load cell gives no samples */
-extern volatile uint32_t bench_rest;   /* not 0: the rotor is blocked, and released at rest */
+/* not 0: the rotor is blocked; when it becomes 0, the rotor is released at rest */
+extern volatile uint32_t bench_rest;
 volatile uint32_t bench_stop;
 volatile uint32_t bench_silent;
 volatile uint32_t bench_rest;

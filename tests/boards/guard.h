@@ -15,7 +15,8 @@ static inline void say(const char *words) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* The word above the strip belongs to the stack and takes a store. This excludes a board on which every store faults. */
+/* The word above the strip belongs to the stack, so a store there must work. On a board where every store faults, the test
+ * fails. */
 static inline void store_above_strip(void) {
     board_start();
     volatile uint32_t *const last = board_stack_limit;

@@ -157,7 +157,7 @@ static void adc_happens(void) {
     }
 }
 
-/* DMA's read of DR. Without DDS no request follows the last transfer. */
+/* DMA reads DR. Without DDS no request follows the last transfer. */
 static uint16_t adc_taken(bool last) {
     adc.unread = false;
     *reg(SR) &= ~EOC;
@@ -283,7 +283,7 @@ void dma_request_adc(void) {
         return;
     }
     memory[dma.whole - dma.left] =
-        adc_taken(dma.left == 1); /* also in a circular stream: the last of each round */
+        adc_taken(dma.left == 1); /* the last of each round, if the stream is circular */
     dma.left--;
     if (dma.left == dma.whole / 2U) {
         dma.flags |= HTIF;

@@ -28,7 +28,7 @@ static struct {
     uint64_t now;
     uint64_t random;
     uint64_t begun, may_take, power_at;
-    uint64_t quiet_until; /* no event and no interrupt before this time; 0: unknown */
+    uint64_t quiet_until; /* until this time no event and no interrupt comes; 0: unknown */
     jmp_buf back;
     bool trying, masked, handling, in_nmi, halted, nmi_taken, passing;
     bool power_ends;
@@ -135,7 +135,7 @@ static bool asks(unsigned interrupt) {
     return false;
 }
 
-/* Vectors by name. A NULL vector has no driver in this program, and its interrupt is a fault. */
+/* Vectors by name. A driver that this program lacks leaves its vector NULL, and that interrupt is a fault. */
 #define WEAK_ROW(number, name) __attribute__((weak)) void on_##name(void);
 BOARD_VECTOR_ROWS(WEAK_ROW)
 __attribute__((weak)) void on_nmi(void);

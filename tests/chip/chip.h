@@ -27,7 +27,7 @@ typedef enum chip_cause {
 /* How the program's run ended. */
 typedef enum chip_end {
     CHIP_RETURNED,
-    CHIP_RESET,     /* a reset: the chip has been reset, chip_start() restarts it */
+    CHIP_RESET,     /* the chip has been reset; chip_start() restarts it */
     CHIP_POWER_OFF, /* chip_power_off_after() */
     CHIP_HANGS      /* longer than chip_may_take() */
 } chip_end;
@@ -39,7 +39,7 @@ typedef enum chip_counter {
     CHIP_COUNTER_STILL /* as in emulators */
 } chip_counter;
 
-/* The world around the chip. All may change at any time, except by chip_crystal_stops(). */
+/* The world around the chip. A test may change all of it at any time; the crystal stops only by chip_crystal_stops(). */
 typedef struct chip_world {
     uint32_t crystal_Hz;
     bool crystal;           /* answers */
@@ -47,28 +47,29 @@ typedef struct chip_world {
     bool pll;               /* locks */
     uint64_t watchdog_Hz;   /* LSI: 17 to 47 kHz */
     bool
-        halt_disables; /* a timer's outputs when its counter stops with a halt: unverified on this chip */
+        /* does a halt of the counter disable a timer's outputs? Not verified on this chip */
+        halt_disables;
     double (*volts)(unsigned input, double s); /* voltage at an ADC1 input, at a time; NULL: 0 */
     double vdda_V;
     chip_counter counter;
-    unsigned access_cycles; /* core cycles of each register access, with the code around it */
+    unsigned access_cycles; /* core cycles of each register access and the code around it */
 } chip_world;
 extern chip_world world;
 
 /* A new chip of typical properties: erased flash, factory option bytes, no power yet. */
 void chip_new(uint64_t seed);
-/* Power-on, or another reset. The pins are as the world drives them. */
+/* Power-on or another reset. The pins have the levels that the world drives. */
 void chip_reset(chip_cause cause);
 unsigned chip_resets(void); /* count since the chip was new */
 
-/* The drivers' variables as in the image; board_clock_start() ran before. */
+/* The drivers' variables get the values of the flashed image; board_clock_start() has run before. */
 void drivers_as_flashed(void);
 
 /* Runs the program until a reset, the end of power or the time limit. Not nestable. */
 chip_end chip_try(void (*what)(void));
 chip_end chip_try_with(void (*what)(void *), void *with);
 void chip_may_take(uint64_t units); /* limit of chip_try() from its start (default 5 s) */
-/* Power fails instead of the store of this number from now, 0 the next. */
+/* Power fails in place of a later store: 0 means the next store, 1 the one after it. */
 void chip_power_off_after(unsigned stores);
 void chip_power_off_at(uint64_t when); /* or at a time */
 void chip_power_stays(void);
@@ -85,7 +86,7 @@ void chip_pass_us(uint64_t us);
 /* The core is halted by a debugger and takes no interrupt. */
 void chip_halt(bool halted);
 
-/* Violations since the chip was new; the first in words. */
+/* Number of violations since the chip was new, and the first of them in words. */
 unsigned chip_violations(void);
 const char *chip_violation(void);
 void chip_forgive(void);
@@ -113,12 +114,12 @@ uint32_t chip_tim2_count(void);
 uint64_t chip_tim1_tick_units(void);
 uint32_t chip_tim1_period_ticks(void);
 
-/* A busy bus: DMA takes the next value too late, and the ADC overruns. */
+/* A busy bus: DMA takes the next value too late, so the ADC overruns. */
 void chip_adc_overruns(void);
 
-/* Serial line of USART6: received bytes (at the end of the stop bit), and sent ones with the time of their end. */
+/* Serial line of USART6. A received byte comes at the end of its stop bit. Sent bytes are recorded with the time of their end. */
 void chip_serial_comes(uint64_t when, uint8_t byte);
-/* With these flags of SR: 2 a framing error, 4 noise. */
+/* A byte that sets these flags of SR: 2 a framing error, 4 noise. */
 void chip_serial_comes_as(uint64_t when, uint8_t byte, uint8_t flags);
 unsigned chip_serial_sent(void);
 uint8_t chip_serial_byte(unsigned at);

@@ -32,7 +32,8 @@ typedef enum flash_work { NOTHING, ERASES, PROGRAMS, OPTIONS_CHANGE } flash_work
 
 static struct {
     uint32_t acr, sr, cr, optcr;
-    unsigned keys, option_keys; /* 0, 1: keys so far; 2: open; 3: locked until a reset */
+    /* 0, 1: number of keys so far; 2: unlocked; 3: locked until a reset */
+    unsigned keys, option_keys;
     uint64_t busy_until;
     bool looked; /* BSY was read as 0 since the previous operation */
     flash_work does;

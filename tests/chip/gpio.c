@@ -115,7 +115,7 @@ bool pin_input(unsigned port, unsigned pin) {
     return level == CHIP_OPEN ? (drawn() & 1U) != 0 : level == CHIP_HIGH;
 }
 
-/* Inputs of other parts, which are notified of a change. */
+/* Tells the other parts that an input pin of theirs has changed. */
 static void tell(unsigned port, unsigned pin) {
     const uint8_t *channel = function_row(port, pin, TIM2_IN);
     if (channel != NULL) {
@@ -125,7 +125,7 @@ static void tell(unsigned port, unsigned pin) {
 }
 void pins_changed(void) { tim1_break_input(); }
 
-/* Is the break's input selected, and its level? An unconnected input is low. */
+/* The level at the break's input, if a pin is selected for it. An unconnected input is low. */
 bool break_pin_is_high(void);
 bool break_pin_is_high(void) {
     for (unsigned i = 0; i < FUNCTIONS; i++) {

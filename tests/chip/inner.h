@@ -56,7 +56,8 @@ bool core_halted(void);
 uint64_t drawn(void); /* a random number */
 void core_resets(
     chip_cause
-        cause); /* does not return to the program. In chip_pass() it returns: the chip is reset there */
+        /* does not return to the program; in chip_pass() it returns, after the chip was reset */
+        cause);
 volatile void *memory_at(uint32_t address); /* set by reg_address() */
 
 /* rcc.c: Hz, 0: the clock does not run. */
@@ -83,14 +84,14 @@ uint64_t flash_busy_until(void);
 void flash_power_goes(void);
 void flash_new(void);
 
-/* gpio.c: the level at a pin as an input sees it, and the selected function. */
+/* gpio.c: the level of a pin as its input reads it, and whether a function is selected. */
 bool pin_is_function(unsigned port, unsigned pin, unsigned function);
 bool pin_is_analogue(unsigned port, unsigned pin);
 bool pin_input(unsigned port, unsigned pin);
 void pins_changed(void); /* called when an output changed */
 void pins_new(void);
 
-/* tim1.c: its drive of PB13 as TIM1_CH1N; CHIP_OPEN: no drive. */
+/* tim1.c: the level that TIM1_CH1N drives at PB13; CHIP_OPEN: none. */
 chip_level tim1_ch1n(void);
 void tim1_break_input(void);  /* called when the pin may have changed */
 void tim1_clock_failed(void); /* CSS */
@@ -98,7 +99,7 @@ void tim1_clock_failed(void); /* CSS */
 /* timers.c */
 void tim2_input(unsigned channel, bool high); /* 1 ... 4 */
 
-/* adc.c: TIM3's update as its trigger output, and the EXTSEL number of that event. */
+/* adc.c: TIM3's update triggers the converter; `event` is its EXTSEL number. */
 void adc_trigger(unsigned event);
 bool adc_dma_takes(uint16_t *value);
 void dma_request_adc(void);
@@ -106,7 +107,7 @@ void dma_request_adc(void);
 /* dbgmcu */
 bool debug_stops(uint32_t offset, unsigned bit);
 
-/* The debugger holds the core; it is about to release it. */
+/* iwdg.c: a debugger holds the core, or is about to release it. */
 void iwdg_holds(void);
 void iwdg_goes_on(void);
 

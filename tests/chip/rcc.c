@@ -36,7 +36,7 @@ static struct {
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;
     uint32_t
-        enabled_late; /* a register with a newly set bit, and the bit: the next access may not touch its part */
+        enabled_late; /* enable register with a new bit, and the bit: the next access must not go to that peripheral */
 } rcc;
 
 static uint32_t *reg(uint32_t offset) { return &rcc.r[offset / 4U]; }

@@ -6,7 +6,7 @@
 #include "hal/clock.h"
 #include "tests/chip/chip.h"
 
-/* Clocks, variables, console and time base, the rig's hardware. *how: the result of hal_clock_start(), if it was reached. */
+/* Sets up clocks, variables, console, time base and the rig's hardware. *how: result of hal_clock_start(), if it was reached. */
 chip_end chip_start(hal_start *how);
 
 /* Memory that survives a reset holds earlier data (boards/cortexm/kept.c), or no data. */
@@ -32,7 +32,7 @@ void chip_wired(uint64_t seed);
 extern double (*chip_cell_V)(double s); /* at the load cell's pin, at a time */
 extern double chip_supply_V;            /* the pin has a tenth of it */
 
-/* The same with power on and the image started. The test fails if the start fails or violates a rule. */
+/* As above, with power on and the image started. The test fails if the start fails or violates a rule. */
 void chip_on(uint64_t seed);
 
 /* Only its clocks; the same chip after a power-off. */

@@ -20,7 +20,7 @@ static hal_load_sample got[ROOM];
 static double got_s[ROOM]; /* arrival, in the chip's time */
 static unsigned got_count;
 
-/* A timer tick in the chip's time, at most half the timer's range from now. */
+/* Converts a timer tick at most half the timer's range away from now to the chip's time. */
 static double second_of(uint32_t tick) {
     return chip_s() - (double)(int32_t)(chip_tim2_count() - tick) / 1e6;
 }
@@ -34,7 +34,7 @@ static void run_take(void) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(take));
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
-/* This many samples of the present force, without the ones already under way. */
+/* Takes this many samples of the present force, after the samples that were already under way. */
 static void collect(unsigned samples) {
     for (unsigned i = 0; i < 4; i++) {
         chip_pass_us(2000);
@@ -53,7 +53,8 @@ static double sine(double s) {
     return MIDDLE_V + offset_V + swing_V * sin(2.0 * PI * turns_Hz * s + phase);
 }
 
-/* Fits a sine of known frequency to the samples at their stamps by least squares: amplitude and time error. */
+/* Fits a sine of known frequency to the samples at their stamps, by least squares. Results: its amplitude and the stamps'
+ * error. */
 static void fit(double *amplitude, double *late_s, double *mean) {
     double m[3][4] = {{0}};
     const double from = got_s[0];
@@ -99,7 +100,8 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* Amplitude to 0.05 %, stamps to 1.5 us. Frequencies are the rig's, and ones at which a plain mean would be a percent low. */
+/* The amplitude is right to 0.05 %, the stamps to 1.5 us. Frequencies are the rig's, and higher ones at which a plain mean
+ * would be 1 % too low. */
 TEST(chip_cell, sines) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
@@ -163,7 +165,7 @@ static double level(double s) {
 TEST(chip_cell, ends) {
     begin(60);
     chip_cell_V = level;
-    /* a broken wire leaves the pin's leakage; an amplifier does not quite reach its rails */
+    /* after a broken wire the pin's leakage remains; an amplifier stops short of its rails */
     static const struct {
         double least_V, most_V;
         uint8_t status;
@@ -240,7 +242,8 @@ TEST(chip_cell, kept) {
 
 static void erase(void) { (void)hal_settings_erase(0); }
 
-/* The core stops at any instant for any time (erase, debugger). A sample reported as good is still the force at its stamp. */
+/* The core stops at any instant for any time, as during an erase or under a debugger. The force of every sample reported as
+ * good still belongs to its stamp. */
 static double ramp(double s) { return 0.4 + 2.4 * fabs(remainder(s, 1.0)); }
 TEST(chip_cell, core_that_stood) {
     for (unsigned i = 0; i < 30; i++) {
@@ -296,7 +299,7 @@ TEST(chip_cell, overrun) {
     collect(5);
 }
 
-/* Also on the chip's internal oscillator: a pair is converted before the next request, and the force is right. */
+/* On the chip's internal oscillator too, a pair is converted before the next request, and the force is right. */
 TEST(chip_cell, fallback) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(111);
@@ -313,7 +316,7 @@ TEST(chip_cell, fallback) {
     }
 }
 
-/* The supply channel: its value within the last 2 ms. */
+/* The supply channel gives the supply's value within the last 2 ms. */
 static float supply;
 static void read_supply(void) { supply = hal_motor_supply_V(); }
 TEST(chip_cell, supply) {
@@ -326,8 +329,8 @@ TEST(chip_cell, supply) {
     }
 }
 
-/* Any supply up to 60 V over a divider of 1 % resistors (1.8 % of its ratio). The guard accepts 12 to 30 V, and nothing above
- * 31.5 V plus that error, by its own limit or by any setting. */
+/* The supply has any voltage up to 60 V, its divider 1 % resistors (1.8 % of the ratio). The guard accepts 12 to 30 V and
+ * never more than 31.5 V plus the divider's error, whether its own limit or a setting applies. */
 TEST(chip_cell, supplies) {
     wh_guard_config guard = {.supply_min_V = 10.8F, .supply_max_V = hal_motor_supply_most_V()};
     begin(121);

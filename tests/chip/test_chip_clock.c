@@ -11,7 +11,7 @@ static hal_start how;
 static uint32_t ticks;
 static void read_ticks(void) { ticks = hal_clock_ticks(); }
 
-/* Checks the timer's ticks over so many seconds, to ppm of a microsecond. */
+/* Error of the timer's ticks over `s` seconds, in ppm; a tick is a microsecond. */
 static double ppm_over(double s) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_ticks));
     const uint32_t before = ticks;
@@ -69,7 +69,7 @@ TEST(chip_clock, no_lock) {
     fallback_is_taken(1000);
 }
 
-/* A slow crystal against the driver's timeout: one source or the other, and all limits hold. */
+/* A crystal starts about when the driver's timeout ends: the core runs on either source, and all limits hold. */
 TEST(chip_clock, crystals_that_are_late) {
     scattered_state = chip_seed(7);
     unsigned taken = 0;
@@ -89,7 +89,7 @@ TEST(chip_clock, crystals_that_are_late) {
     TEST_ASSERT_EQUAL(15, taken);
 }
 
-/* A loader in ROM left the core on its own PLL, with its crystal, buses and wait states; a core of any speed. */
+/* A loader in ROM has left the core on its own PLL, at any speed, with any crystal, buses and wait states. */
 #define RCC_AT(offset) (0x40023800U + (offset))
 static void wait_for(uint32_t offset, uint32_t bit) {
     while ((reg_load(RCC_AT(offset)) & bit) == 0) {
@@ -143,7 +143,7 @@ TEST(chip_clock, from_every_reset) {
 static uint32_t target;
 static void wait_there(void) { hal_clock_wait_until(target); }
 
-/* Never early, at most 0.1 ms late, also over the timer's wrap and with interrupts. */
+/* A wait is never too short and at most 0.1 ms too long, also over the timer's wrap and with interrupts. */
 TEST(chip_clock, waits) {
     scattered_state = chip_seed(5);
     chip_on(5);
@@ -173,7 +173,7 @@ static void drive(void) {
     hal_motor_set_voltage(6.0F);
 }
 
-/* A crystal that stops while the motor turns: the hardware pulls the output low before the NMI. */
+/* The crystal stops while the motor turns: the hardware pulls the output low before the NMI. */
 TEST(chip_clock, crystal_dies) {
     scattered_state = chip_seed(6);
     for (unsigned i = 0; i < 10; i++) {

@@ -30,7 +30,8 @@ TEST(chip_console, rate) {
         0.01, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
 }
 
-/* A write waits until all is sent, an offer does not. Bytes arrive in order, each once, in bursts, with or without pauses. */
+/* A write waits until all bytes are sent; an offer does not wait. Each byte arrives once and in order, in bursts, with or
+ * without pauses. */
 TEST(chip_console, out) {
     static uint8_t mine[16384];
     scattered_state = chip_seed(2);
@@ -64,7 +65,7 @@ TEST(chip_console, out) {
     }
 }
 
-/* The same with long delays between accesses and incoming bytes, so that interrupts come in between. */
+/* As above, with long delays between accesses and with incoming bytes, so that interrupts come between accesses. */
 TEST(chip_console, out_between_accesses) {
     scattered_state = chip_seed(10);
     chip_on(10);
@@ -93,7 +94,7 @@ TEST(chip_console, out_between_accesses) {
     }
 }
 
-/* Continuous offers never let the line idle: at least 11,000 bytes per second. */
+/* If bytes are always offered, the line is never idle: at least 11,000 bytes per second. */
 TEST(chip_console, out_is_full) {
     chip_on(4);
     const unsigned from = chip_serial_sent();
@@ -105,8 +106,8 @@ TEST(chip_console, out_is_full) {
     TEST_ASSERT_TRUE(chip_serial_sent() - from > 1100U);
 }
 
-/* Bytes arrive in order, and none is lost if read each control step. After a framing error or noise a zero stands for the byte,
- * except Escape. */
+/* Bytes arrive in order, and none is lost if the program reads each control step. A byte with noise or a framing error is
+ * read as zero, but an Escape remains an Escape. */
 TEST(chip_console, in) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);
@@ -171,7 +172,7 @@ TEST(chip_console, both) {
     }
 }
 
-/* Unread bytes are lost, also while the core stands. Those handed on are in order, and a zero stands for each gap. */
+/* Unread bytes are lost, also while the core stands. The program gets the others in order, with a zero for each gap. */
 static void lost(bool held) {
     static uint8_t seen[4096];
     chip_on(7U + (held ? 1U : 0U));
@@ -232,7 +233,7 @@ TEST(chip_console, core_that_stood) {
     lost(true);
 }
 
-/* With interrupts off, as in a fault's handler: all is sent by polling. */
+/* With interrupts off, as in a fault's handler, all bytes are sent by polling. */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 static void write_held(void) {

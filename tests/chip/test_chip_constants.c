@@ -240,7 +240,6 @@ TEST(chip_constants, interrupts) {
     TEST_ASSERT_EQUAL(sizeof theirs / sizeof *theirs, at);
 }
 
-/* Every #define of the header has a row here. */
 TEST(chip_constants, every_one_has_a_row) {
     FILE *file = fopen("boards/stm32f4/rm0090.h", "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, "to be run from the project's root");

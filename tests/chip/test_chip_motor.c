@@ -40,7 +40,7 @@ static void set_to(float V) {
 #define PERIOD_UNITS (CHIP_UNITS_PER_S / 20000U)
 #define TICKS 8400U
 
-/* Ticks of one period with the pin high. Interrupts would take time between two reads. */
+/* Number of ticks in one period with the pin high. No interrupts, because they would take time between two reads. */
 static unsigned high_ticks(void) {
     unsigned high = 0;
     const uint32_t before = reg_hold();
@@ -60,7 +60,7 @@ static void is_low_for(uint64_t units) {
 }
 static bool enabled(void) { return chip_pin('B', 14) == CHIP_HIGH; }
 
-/* Low in reset and before any start, also if off is called then. */
+/* The pin is low in reset and before any start, also if hal_motor_off() is called then. */
 TEST(chip_motor, before_the_start) {
     chip_wired(1);
     chip_reset(CHIP_BY_POWER);
@@ -70,7 +70,7 @@ TEST(chip_motor, before_the_start) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(off));
     is_low_for(PERIOD_UNITS);
     TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
-    chip_forgive(); /* its parts have no clock yet: the stores have no effect */
+    chip_forgive(); /* the motor's peripherals have no clock yet, so the stores have no effect */
     chip_on(1);
     is_low_for(PERIOD_UNITS);
     TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
@@ -143,7 +143,7 @@ TEST(chip_motor, what_is_out_of_range) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* The first store of off suffices, at any instant of the period and at any duty. */
+/* The first store of hal_motor_off() suffices, at any instant of the period and at any duty. */
 static unsigned stores;
 static void first_store(void) {
     if (stores++ == 0) {
@@ -195,7 +195,8 @@ TEST(chip_motor, fault_from_anywhere) {
     }
 }
 
-/* Stop or the drive stage's fault pulls the output low without software, until the next off, for any pulse length and order. */
+/* The stop input or a fault of the drive stage pulls the output low without software, and keeps it low until the motor has
+ * been switched off. For pulses of any length, in any order. */
 TEST(chip_motor, break) {
     scattered_state = chip_seed(6);
     chip_on(6);
@@ -234,7 +235,7 @@ TEST(chip_motor, break) {
     }
 }
 
-/* An order given while stop is pressed has no effect on release. It takes an off and another start. */
+/* A voltage ordered while stop is pressed has no effect on release. The motor must be switched off and started again. */
 TEST(chip_motor, ordered_while_pressed) {
     chip_on(7);
     chip_pass_us(10000);
@@ -256,7 +257,7 @@ TEST(chip_motor, ordered_while_pressed) {
     TEST_ASSERT_EQUAL(TICKS, high_ticks());
 }
 
-/* Stop was pressed for less than a step since the last off (one per step while the motor is off): a start has no effect. */
+/* While the motor is off, it is switched off again each step. If stop was pressed since the last time, a start has no effect. */
 TEST(chip_motor, pressed_before_a_start) {
     scattered_state = chip_seed(14);
     chip_on(14);
@@ -280,7 +281,7 @@ TEST(chip_motor, pressed_before_a_start) {
     }
 }
 
-/* A voltage has no effect before a start and after each off. */
+/* A voltage has no effect before a start or after the motor was switched off. */
 TEST(chip_motor, voltage_alone) {
     scattered_state = chip_seed(12);
     chip_on(12);
@@ -298,7 +299,7 @@ TEST(chip_motor, voltage_alone) {
     }
 }
 
-/* An interrupt switches off after the store that sets a voltage: the output stays off, for any voltages that follow. */
+/* An interrupt switches the motor off after the store that sets a voltage. The output stays off, whatever voltages follow. */
 static void off_behind(void) {
     chip_stored = NULL;
     hal_motor_off(way);
@@ -323,7 +324,7 @@ TEST(chip_motor, off_from_an_interrupt) {
     }
 }
 
-/* A start is atomic: an interrupt that switches off comes before its first store or after its last. */
+/* A start is atomic: an interrupt that switches the motor off comes before the first store of the start or after its last. */
 static void is_held(void) { TEST_ASSERT_TRUE_MESSAGE(chip_is_masked(), "an off may come between"); }
 TEST(chip_motor, start_is_whole) {
     chip_on(15);
@@ -380,7 +381,7 @@ TEST(chip_motor, debugger) {
     }
 }
 
-/* Each reset, at any instant: both pins float, and the resistors hold them low. */
+/* After a reset at any instant both pins float, and the resistors hold them low. */
 TEST(chip_motor, reset_at_any_instant) {
     scattered_state = chip_seed(10);
     for (unsigned i = 0; i < 12; i++) {

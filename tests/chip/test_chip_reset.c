@@ -51,7 +51,8 @@ TEST(chip_reset, words_are_cut) {
 
 #define LEVEL(options) ((options) >> 2 & 3U) /* BOR_LEV: 0 is level 3, 3 is off (3.9.10) */
 
-/* From any level to level 3. Other option bytes do not change (a violation otherwise), and it is written once. */
+/* From any level, the brown-out level becomes 3. It is written once, and other option bytes do not change (that would be a
+ * violation). */
 TEST(chip_reset, brown_out) {
     chip_wired(3);
     chip_reset(CHIP_BY_POWER);
@@ -70,7 +71,7 @@ TEST(chip_reset, brown_out) {
     }
 }
 
-/* Power fails at any instant of the write: the next start repairs it. */
+/* If power fails at any instant of the write, the next start repairs the level. */
 TEST(chip_reset, brown_out_torn) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 15; i++) {

@@ -39,7 +39,7 @@ static void run(void (*what)(void)) {
                              "longer than a call may take");
 }
 
-/* Both slots against the test's own memory, through erases and writes of any length; nothing else changes. */
+/* Both slots are compared with the test's own copy through erases and writes of any length. No other memory changes. */
 TEST(chip_settings, slots) {
     static uint8_t mine[2][HAL_SETTINGS_BYTES];
     scattered_state = chip_seed(1);
@@ -132,7 +132,8 @@ static void drawn_payload(void) {
 static uint8_t old[WH_STORE_PAYLOAD_MOST], new[WH_STORE_PAYLOAD_MOST];
 static unsigned old_bytes, new_bytes;
 
-/* After a power-off in the middle of a save. True: the content is the new one. Anything but old or new fails. */
+/* Reads the settings after a power-off in the middle of a save. True: the new ones are read. Anything but the old or the new
+ * ones fails. */
 static bool new_is_there(void) {
     chip_power_stays();
     chip_clocks_again();
@@ -195,7 +196,7 @@ TEST(chip_settings, torn_at_any_instant) {
     unsigned kept = 0;
     for (unsigned i = 0; i < 300; i++) {
         one_more();
-        /* half of them in the erase, half in the write that follows */
+        /* half of the failures come during the erase, half during the write that follows */
         chip_power_off_at(chip_now() + (i % 2U == 0 ? scattered() % (CHIP_UNITS_PER_S / 3U)
                                                     : CHIP_UNITS_PER_S / 4U +
                                                           scattered() % (CHIP_UNITS_PER_S / 4U)));

@@ -38,7 +38,7 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* Schedules an edge. Its timer reading follows from now, at one tick per microsecond. */
+/* Schedules an edge and computes its timer reading from the present one, at one tick per microsecond. */
 static void edge_at(uint64_t units, unsigned sensor, hal_slot_end end) {
     made[made_count].units = units;
     made[made_count].sensor = (uint8_t)sensor;
@@ -59,7 +59,8 @@ static void pulse_at(uint64_t units, unsigned sensor, uint64_t high_us) {
     edge_at(units + high_us * CHIP_UNITS_PER_US, sensor, HAL_SLOT_TRAILING);
 }
 
-/* The filter's delay, 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz by 4 and by 32), and two roundings to ticks. */
+/* The filter's delay is 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz, divided by 4 and by 32). Two roundings to ticks are
+ * added. */
 #define LATE_LEAST 10U
 #define LATE_MOST 14U
 
@@ -106,7 +107,8 @@ TEST(chip_slots, over_the_wrap) {
     }
 }
 
-/* Both sensors at or near the same time, also over the wrap: in order of time, though one interrupt may report both. */
+/* Pulses of both sensors at or near the same time, also over the wrap, come in order of time, even if one interrupt reports
+ * both. */
 TEST(chip_slots, together) {
     begin(11);
     for (unsigned i = 0; i < 200; i++) {
@@ -156,7 +158,7 @@ static unsigned leading(void) {
     return count;
 }
 
-/* A level that is high when the timer starts is no pulse; its fall counts as an end only. */
+/* A level that is high when the timer starts is no pulse; when it falls, only the end of a pulse is reported. */
 TEST(chip_slots, high_at_the_start) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(13);
@@ -175,11 +177,11 @@ TEST(chip_slots, high_at_the_start) {
     run_take(ROOM);
     TEST_ASSERT_EQUAL_MESSAGE(at_start, leading(), "a fall was taken for a pulse");
     TEST_ASSERT_EQUAL(at_start + 2U, got_count);
-    /* The input reads low before its pin is connected, so each sensor may show one rise, and no more. */
+    /* The input reads low before its pin is connected. So a sensor may show one rise at the start, and no more. */
     TEST_ASSERT_TRUE(at_start <= 2U);
 }
 
-/* Unread pulses: the oldest, at least 8, stay, and overruns are counted. Later pulses arrive. */
+/* If pulses are not read, the oldest are kept, at least 8, and the others are counted as overruns. Later pulses arrive. */
 TEST(chip_slots, full) {
     scattered_state = chip_seed(14);
     for (unsigned round = 0; round < 10; round++) {
@@ -209,7 +211,7 @@ TEST(chip_slots, full) {
     }
 }
 
-/* The core stops while one pulse per sensor arrives: their times are captured, and they come in order. */
+/* While the core stands, one pulse per sensor arrives. Their times are captured, and they come in order. */
 TEST(chip_slots, core_that_stood) {
     begin(19);
     for (unsigned i = 0; i < 100; i++) {
@@ -235,7 +237,7 @@ TEST(chip_slots, core_that_stood) {
     TEST_ASSERT_EQUAL(0, overruns);
 }
 
-/* A pulse over an unread one: one is lost and reported, the other is whole. */
+/* A pulse comes before the last one was read: one is lost and reported, the other is whole. */
 TEST(chip_slots, overrun) {
     begin(20);
     for (unsigned i = 0; i < 40; i++) {
@@ -257,7 +259,7 @@ TEST(chip_slots, overrun) {
     }
 }
 
-/* 5 kHz and 30 kHz at both inputs with a poll per millisecond: interrupts take a bounded share of the time. */
+/* Both inputs have 5 kHz or 30 kHz, and the program polls each millisecond: interrupts take a bounded share of the time. */
 static void storm(uint64_t period_us, uint64_t ms) {
     begin(15 + period_us);
     const uint64_t end = chip_now() + ms * 1000U * CHIP_UNITS_PER_US;

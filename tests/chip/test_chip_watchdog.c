@@ -65,7 +65,7 @@ TEST(chip_watchdog, any_time_and_speed) {
     }
 }
 
-/* Longer for an erase, then short again, at any time and in quick succession. */
+/* The time becomes longer for an erase, then short again, at any instant and in quick succession. */
 TEST(chip_watchdog, other_times) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 8; i++) {
@@ -93,7 +93,7 @@ TEST(chip_watchdog, other_times) {
     }
 }
 
-/* A new time set at the last moment also counts as a kick. */
+/* Setting a new time at the last moment counts as a kick. */
 TEST(chip_watchdog, told_late) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 40; i++) {
@@ -109,7 +109,7 @@ TEST(chip_watchdog, told_late) {
     }
 }
 
-/* It stops while a debugger that asked for it (docs/boards.md) holds the core, and continues after that. */
+/* If a debugger has asked for it (docs/boards.md), the watchdog stops while the debugger holds the core, and then continues. */
 static void freeze(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 TEST(chip_watchdog, debugger) {
     scattered_state = chip_seed(3);

@@ -115,7 +115,7 @@ void tim1_clock_failed(void) {
     t.failed = false;
 }
 
-/* OC1REF (17.4.7, OC1M): PWM modes 1 and 2, counting up, and the forced ones. */
+/* OC1REF (17.4.7, OC1M): PWM modes 1 and 2 when counting up, and the forced levels. */
 static bool reference(void) {
     const uint32_t count = count_now() % (t.arr + 1U);
     switch (FIELD(*reg(CCMR1), 4, 3)) {
@@ -130,7 +130,7 @@ static bool reference(void) {
     }
 }
 
-/* Table 94. Dead time must be 0: a single output needs none. */
+/* Outputs by table 94. Dead time must be 0, because a single output needs none. */
 chip_level tim1_ch1n(void) {
     const uint32_t ccer = *reg(CCER);
     const uint32_t bdtr = *reg(BDTR);

@@ -55,7 +55,7 @@ static bool counts(timer *t) {
 static uint64_t count_now(timer *t) {
     return counts(t) ? t->count + (now_units() - t->base) / tick_units(t) : t->count;
 }
-/* Keeps the elapsed fraction of a tick while the clock stays. */
+/* Keeps the elapsed fraction of a tick when the clock does not change. */
 static void hold(timer *t, bool clock_changes) {
     const uint64_t count = count_now(t);
     t->base =

@@ -249,7 +249,6 @@ TEST(lockin, lost_marks_spoil_no_other_turn) {
     }
 }
 
-/* After a gap the current turn does not count, the next does. */
 TEST(lockin, a_gap_costs_one_turn) {
     settings();
     run(&plain, 3);

@@ -39,7 +39,7 @@ TEST(rig, speed_across_the_timers_wrap) {
     TEST_ASSERT_EQUAL_UINT32(0, speed.lost + speed.rejected);
 }
 
-/* Fast through the bottom, slow over the top: the whole turn's mean must not change. */
+/* The rotor is fast through the bottom and slow over the top, but the mean of a whole turn must not change. */
 TEST(rig, speed_of_a_turn_has_no_ripple) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -68,7 +68,7 @@ TEST(rig, one_lost_pulse_is_counted_and_bridged) {
     }
 }
 
-/* A whole turn without pulses looks like a fifth of the speed: it must not count as one. */
+/* After a whole turn without pulses the interval looks like a fifth of the speed. It must not count as a speed. */
 TEST(rig, a_gap_keeps_the_speed_and_counts) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -163,7 +163,7 @@ TEST(rig, loop_leaves_no_steady_error) {
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 34.0f, (float)speed);
 }
 
-/* A rotor blocked for a minute must not find a minute of integral on release, with any supply. */
+/* If a rotor was blocked for a minute, the integral must not have grown meanwhile, with any supply. */
 TEST(rig, integral_does_not_wind_up) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
@@ -193,7 +193,7 @@ TEST(rig, integral_does_not_wind_up) {
     }
 }
 
-/* A supply that breaks down and returns takes the integral down, and not up again. */
+/* When the supply breaks down, the integral falls; when the supply returns, the integral does not rise again. */
 TEST(rig, the_integral_comes_back) {
     const wh_drive_config *config = &wh_rig_standard.run.drive;
     static const wh_real out_V[] = {WH_R(-1.0), WH_R(25.0), WH_R(1e6)};
@@ -225,7 +225,7 @@ TEST(rig, voltage_stays_in_range) {
     TEST_ASSERT_TRUE(drive.integral_V >= WH_R(0.0));
 }
 
-/* Without a known turn nothing is overdue, after any time. */
+/* If no turn is known, no pulse can be overdue, after any time. */
 TEST(rig, only_a_known_turn_can_be_overdue) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);

@@ -10,7 +10,7 @@
 static even_rig even;
 static uint64_t seed;
 
-/* Armed, with an observer; `trusted`: it calls every mark good, or none. */
+/* Armed, with an observer that calls every mark good (`trusted`) or none. */
 static void arm(bool trusted) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
@@ -22,7 +22,7 @@ static void arm(bool trusted) {
                      WH_OK);
 }
 
-/* Waiting marks, as many as there is room for: a step takes one, the last one only in a step without a pulse. */
+/* As many marks wait as there is room for. Each step takes one; the last mark is taken only in a step without a pulse. */
 TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
     static even_rig twin;
     even_reach(&even, WH_PHASE_SETTLE);
@@ -47,7 +47,7 @@ TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
     }
 }
 
-/* Half nodes of the turn's sums since then; -1 if unknown. */
+/* Number of half nodes by which the turn's sums advanced since `before`; -1 if unknown. */
 static int halves_since(const wh_lockin *before) {
     const wh_lockin *now = &even.rig.measure.lockin;
     if (before->stage != WH_LOCKIN_SUMS || now->stage != WH_LOCKIN_SUMS || now->count < 4U ||
@@ -61,9 +61,9 @@ static int halves_since(const wh_lockin *before) {
            (before->place != WH_LOCKIN_NOWHERE ? 1 : 0);
 }
 
-/* A controller late by up to three steps, with or without samples meanwhile. A step without a sample works on four half nodes
- * of a turn's sums. With one sample it is three (two while a mark is unsure and gravity is fed). With more samples, or if the
- * observer caught up two steps, it is one. After a pulse or a mark it is zero. */
+/* The controller is late by up to three steps and may get samples meanwhile. A step without a sample adds four half nodes to
+ * the turn's sums. A step with one sample adds three, or two while a mark is unsure and gravity is compensated. A step with
+ * more samples, or in which the observer caught up two steps, adds one. A step with a pulse or a mark may add none. */
 TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     static wh_lockin before;
     unsigned times[5] = {0};
@@ -112,7 +112,8 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     }
 }
 
-/* A set-point that needs gravity fed forward, and an observer that is never valid: the ramp takes its full time and trips. */
+/* The set-point needs gravity compensation, but the observer never becomes valid: the ramp takes its full time, then the rig
+ * trips. */
 TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);
@@ -128,7 +129,7 @@ TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
     }
 }
 
-/* Pulses of a hanging, shivering rotor: after the tare no turn has begun with them. */
+/* Pulses of a rotor that hangs and shivers during the tare begin no turn. */
 TEST(rig_bounds, what_was_seen_at_rest_begins_no_turn) {
     seed = 4;
     for (unsigned i = 0; i < 60U; i++) {
@@ -145,7 +146,8 @@ TEST(rig_bounds, what_was_seen_at_rest_begins_no_turn) {
     }
 }
 
-/* The largest scatter that counts as still is allowed, and the next number above is not; the same for the mean's error. */
+/* The largest scatter that counts as still is allowed, and the next larger number is refused. The same holds for the mean's
+ * error. */
 TEST(rig_bounds, limits_of_the_tare_are_allowed) {
     seed = 3;
     for (unsigned i = 0; i < 200U; i++) {
@@ -170,7 +172,6 @@ TEST(rig_bounds, limits_of_the_tare_are_allowed) {
     }
 }
 
-/* Stage numbers below WH_RIG_STAGE_OF_PHASE are states, the others are phases. */
 TEST(rig_bounds, a_stage_is_a_state_or_a_phase) {
     for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
         const bool state = stage < WH_RIG_STAGE_OF_PHASE;

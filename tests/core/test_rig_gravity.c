@@ -29,7 +29,7 @@ static wh_real sine_of(wh_real rad) {
 
 /* --- its voltage -------------------------------------------------------------------------------------- */
 
-/* S g sin(theta - gamma) over the stall torque, with the lead, limited, after an even fade-in. */
+/* The voltage is S g sin(theta - gamma) divided by the stall torque, with the lead and the limit, after an even fade-in. */
 TEST(rig_gravity, it_says_gravitys_voltage) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
@@ -56,7 +56,7 @@ TEST(rig_gravity, it_says_gravitys_voltage) {
     }
 }
 
-/* Zero at once if the observer is invalid, then faded in from zero; never NaN. */
+/* The voltage is zero at once if the observer is invalid, fades in again from zero, and is never NaN. */
 TEST(rig_gravity, it_says_nothing_without_an_angle) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     fed_rotor_standard(&fed, 1);
@@ -88,7 +88,7 @@ TEST(rig_gravity, it_says_nothing_without_an_angle) {
 
 /* --- its effect ---------------------------------------------------------------------------------------- */
 
-/* From 200 rpm to this speed, and there, with jitter and 0.02 N m of friction. */
+/* Starts at 200 rpm, changes to this speed and stays there, with jitter and 0.02 N m of friction. */
 static void run_at(wh_real rpm) {
     fed.kind.jitter_s = JITTER_S;
     fed.kind.friction_Nm += WH_R(0.02);
@@ -107,8 +107,9 @@ static void begin(fed_by by) {
     fed.by = by;
 }
 
-/* Ripple falls from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170. At 100 the rotor alone would not pass the top;
- * a motor that cannot brake harder than when shorted leaves a ripple, less with more friction. */
+/* Gravity compensation reduces the ripple from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170 rpm. At 100 rpm
+ * the rotor alone would not pass the top. There a motor that brakes no harder than when shorted leaves a ripple, which
+ * friction reduces. */
 TEST(rig_gravity, the_ripple_goes) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
@@ -132,7 +133,7 @@ TEST(rig_gravity, the_ripple_goes) {
     TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
 }
 
-/* The lead is the voltage's: without it, or with twice as much, a tenth of a radian's part remains. */
+/* The lead compensates the delay of the voltage. Without it, or with twice the lead, a tenth of the ripple remains. */
 TEST(rig_gravity, the_lead_is_right) {
     for (uint32_t lead = 0; lead <= 6000U; lead += 6000U) {
         begin(FED_BY_OBSERVER);
@@ -153,7 +154,7 @@ TEST(rig_gravity, another_weight_leaves_its_part) {
     }
 }
 
-/* Sensors 3 degrees off, together or opposite: at most a twentieth remains. */
+/* With sensors 3 degrees off, in the same or opposite directions, at most a twentieth of the ripple remains. */
 TEST(rig_gravity, sensors_may_stand_wrong) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
@@ -166,7 +167,7 @@ TEST(rig_gravity, sensors_may_stand_wrong) {
     }
 }
 
-/* The wrong sign doubles the ripple only: the mean and the shaft's limit hold. */
+/* With the wrong sign the ripple doubles, but the mean speed and the shaft's limit hold. */
 TEST(rig_gravity, the_wrong_sign_is_survived) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
@@ -183,7 +184,7 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
     }
 }
 
-/* Missing marks: the voltage vanishes at once, the ripple returns, and vanishes when the marks are back. */
+/* When marks are missing the voltage vanishes at once and the ripple returns. With the marks back, the ripple vanishes again. */
 TEST(rig_gravity, lost_marks_take_it_away) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
@@ -200,7 +201,8 @@ TEST(rig_gravity, lost_marks_take_it_away) {
 
 /* --- its effect on the measurement ----------------------------------------------------------------------- */
 
-/* Gravity's remainder, of either sign, follows from the split alone at the given inertia, and is reset when the feed ends. */
+/* The share of gravity that remains, of either sign, follows from the split alone if the inertia is given. It is reset when
+ * the compensation ends. */
 TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
@@ -243,7 +245,8 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     }
 }
 
-/* The turn of the change does not count. A motor that cannot brake leaves drive voltage minus gravity's torque, at any speed. */
+/* The turn in which the compensation changes does not count. A motor that cannot brake cancels gravity only as far as its
+ * drive voltage reaches: `cut` is the missing part. */
 TEST(rig_gravity, the_lockin_is_told) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -284,7 +287,8 @@ static double second_of_pulse(double k) {
     return sum * 2.0 / 4096.0;
 }
 
-/* A motor that cannot brake leaves a torque twice a turn. Inertia and slope answer: J theta'' + c theta' = -W cos 2 theta. */
+/* A motor that cannot brake leaves a torque that repeats twice a turn. The response is that of inertia and slope: J theta'' +
+ * c theta' = -W cos 2 theta. */
 TEST(rig_gravity, the_answer_to_a_pulse) {
     uint64_t seed = 77;
     for (unsigned i = 0; i < 60U; i++) {
@@ -305,7 +309,7 @@ TEST(rig_gravity, the_answer_to_a_pulse) {
         const double slope = (double)rotor.damping_Nms;
         const double size = (double)weight_Nm * second_of_pulse(1.0 - (double)cut) /
                             (2.0 * (double)speed * root(turning * turning + slope * slope));
-        /* by components over the angle without it, so that sampling loses nothing */
+        /* Fourier components over the angle of even motion, so that sampling loses nothing */
         double off[2] = {0.0, 0.0};
         for (unsigned k = 0; k < 64U; k++) {
             const wh_real part = (wh_real)k / WH_R(64.0);

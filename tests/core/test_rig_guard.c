@@ -61,7 +61,7 @@ TEST(rig_guard, over_speed_trips) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
-/* A turn that is too fast trips as soon as no known pulse contradicts it, and so do two fast intervals in a row. */
+/* A turn that is too fast trips as soon as no accepted pulse contradicts it. Two fast intervals in a row trip too. */
 TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     for (unsigned i = 0; i < 96U; i++) {
@@ -86,7 +86,7 @@ TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     }
 }
 
-/* Two climbing marks and an interval beyond the bound are a runaway; less is not. */
+/* Two marks of a climbing rotor and an interval beyond the bound are a runaway. Fewer are not. */
 TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
@@ -119,7 +119,8 @@ TEST(rig_guard, what_climbs_and_is_fast_trips) {
     TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(-20.0) * RPM, true) < WH_R(0.0));
 }
 
-/* A rotor without drive that is led around at the bottom and falls from the top has the speed of its energy there. */
+/* Without drive, a rotor that passes the top at 1.03 times the set-point reaches the bottom with the speed that its energy
+ * gives there. */
 TEST(rig_guard, the_bound_is_what_gravity_makes_of_a_speed) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
@@ -224,7 +225,7 @@ TEST(rig_guard, a_stuck_load_cell_trips) {
                      WH_TRIP_NONE); /* at rest it may stand still */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough - 1U) == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough) == WH_TRIP_LOAD_CELL);
-    /* noise on a dead cell; a live load shows at least a tenth of the masses' 42 N */
+    /* a dead cell shows only noise, a live load at least a tenth of the masses' 42 N */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.0), true, enough) == WH_TRIP_LOAD_CELL);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
@@ -244,7 +245,7 @@ TEST(rig_guard, an_overloaded_or_disconnected_load_cell_trips) {
     }
 }
 
-/* load_silence_max_s: ten periods of 2 ms, across the timer's wrap; a repeated sample does not count. */
+/* load_silence_max_s is ten periods of 2 ms, also across the timer's wrap. A repeated sample does not count as new. */
 TEST(rig_guard, a_silent_load_cell_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;

@@ -9,7 +9,7 @@
 
 #define TURN_TICKS 181818U /* 330 rpm */
 
-/* Two pulses lost in a row: no interval speed, and the turn's speed stays until there is a new one. */
+/* After two lost pulses in a row an interval gives no speed. The turn's speed stays until a new one is known. */
 TEST(rig_law, a_gap_has_no_speed_of_its_own) {
     wh_speed speed;
     wh_speed_start(&speed, wh_rig_standard.impossible_radps);
@@ -40,7 +40,7 @@ TEST(rig_law, silence_goes_on_over_the_wrap) {
     }
 }
 
-/* A voltage frozen by missing pulses exceeds a supply that sags meanwhile. */
+/* Missing pulses freeze the voltage, and meanwhile the supply sags below it. */
 TEST(rig_law, no_more_volts_than_the_supply_has) {
     scattered_state = UINT64_C(0x5eed0006);
     for (unsigned i = 0; i < 200U; i++) {

@@ -104,7 +104,7 @@ TEST(rig_lead, one_that_spin_up_took_too_far_is_not_either) {
     }
 }
 
-/* The bounds of docs/rig.md for a rotor that is led to slow down, and follows or does not. */
+/* The bounds of docs/rig.md for a rotor whose set-point falls, whether it follows or not. */
 TEST(rig_lead, a_runaway_on_the_way_down_is_seen) {
     uint64_t seed = 13;
     for (unsigned trial = 0; trial < draw_cases(60); trial++) {

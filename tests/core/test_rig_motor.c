@@ -140,7 +140,8 @@ TEST(rig_motor, any_motor_with_its_settings) {
     TEST_ASSERT_TRUE(good * 10U > cases * 8U && fed * 10U > cases && refused * 5U < cases);
 }
 
-/* A divider that reads 0.7 to 1.3 times the supply, or a setting as wrong: a result, or a trip that names the cause. */
+/* A divider that shows 0.7 to 1.3 times the supply, or a setting with such an error, leads to a result or to a trip that
+ * names the cause. */
 TEST(rig_motor, wrong_settings_are_named) {
     seed = 62;
     unsigned named = 0;
@@ -188,7 +189,8 @@ TEST(rig_motor, a_wrong_order_is_named) {
     }
 }
 
-/* A coasting rotor's speed, also the last turn's, is known while pulses alternate. A sensor that fires twice shows a swing. */
+/* The speed of a coasting rotor, also that of the last turn, is known while the sensors alternate. A sensor that fires twice
+ * means that the rotor swings. */
 TEST(rig_motor, the_speed_of_a_rotor_that_coasts) {
     seed = 65;
     unsigned known_steps = 0;

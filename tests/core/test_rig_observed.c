@@ -105,7 +105,6 @@ TEST(rig_observed, a_step_with_a_pulse_works_on_no_turn) {
     TEST_ASSERT_TRUE(pulses > 40U && works > 400U);
 }
 
-/* Without gravity's feed-forward the observer takes no time. */
 TEST(rig_observed, unfed_nothing_is_observed) {
     arm();
     even.config.feeds = WH_COMPENSATION_NEVER;

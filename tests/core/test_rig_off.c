@@ -35,7 +35,7 @@ typedef struct bench {
     unsigned rises;
     wh_real first_s; /* the turn before they rose */
     unsigned
-        undriven_at; /* step in which turns with the enable on first showed a drive; 0: none did */
+        undriven_at; /* first step in which turns with the enable on showed a drive; 0: none did */
     unsigned faster_at; /* the same for three turns with the enable off */
 } bench;
 
@@ -151,7 +151,7 @@ static void order(wh_rig_event event, wh_real value) {
 
 typedef enum place { IDLE, ARMED, TARE, STOPPED, COMMANDED, TRIPPED, RESET, PLACES } place;
 
-/* On the way to a set-point, for a random time. */
+/* Goes towards a set-point for a random time. */
 static void drive(void) {
     const wh_real most_rpm = (b.inputs.supply_V - WH_R(1.0)) / WH_RIG_RATED_V * WH_R(600.0);
     order(WH_EVENT_START, between(170, most_rpm < WH_R(360.0) ? most_rpm : WH_R(360.0)) * RPM);
@@ -161,7 +161,7 @@ static void drive(void) {
     steps_on(draw_one_of(&seed, 9U * STEPS_PER_S));
 }
 
-/* To a state with the motor off, or off in the next step. */
+/* Goes to a state in which the motor is off, now or in the next step. */
 static void go_to(place where) {
     steps_on(STEPS_PER_S * 8U / 5U);
     if (where == IDLE) {
@@ -195,7 +195,7 @@ static void go_to(place where) {
 #endif
 #define OFF_ALL (OFF_BENCHES >= 360U) /* enough for some of each kind */
 
-/* Healthy rotors run out, braked and coasting, over the last turn's top and in swings about the bottom: no trip. */
+/* Healthy rotors braked or coasting, some turning back near the top, some swinging about the bottom: no trip. */
 TEST(rig_off, healthy_rotors_run_out) {
     unsigned brakes = 0;
     unsigned swings = 0;
@@ -219,7 +219,8 @@ TEST(rig_off, healthy_rotors_run_out) {
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
 }
 
-/* One false pulse of either sensor while a rotor coasts: no trip, except for some rotors about to turn back at the top. */
+/* One false pulse of either sensor while a rotor coasts causes no trip, except for some rotors that are about to turn back at
+ * the top. */
 TEST(rig_off, one_invented_pulse_is_no_drive) {
     unsigned benches = 0;
     unsigned trips = 0;
@@ -245,7 +246,6 @@ TEST(rig_off, one_invented_pulse_is_no_drive) {
     TEST_ASSERT_TRUE(!OFF_ALL || 30U * trips < benches);
 }
 
-/* A hand may turn the rotor below 60 rpm, in jerks, and swing it. */
 TEST(rig_off, a_hand_may_turn_the_rotor) {
     seed = 32;
     for (unsigned i = 0; i < draw_cases(OFF_BENCHES / 6U); i++) {
@@ -269,12 +269,14 @@ TEST(rig_off, a_hand_may_turn_the_rotor) {
 
 /* --- driven although off ---------------------------------------------------------------------------------------------- */
 
-/* Any stuck stage, from any off state. With the enable on, the rig switches it off within a second of the first turn that does
- * not slow down, and trips. With it off, three turns, each faster than the last, trip. */
+/* The drive stage is stuck, in any state with the motor off. With the enable on, the rig switches it off and trips within a
+ * second of the first turn that does not slow down. With the enable off, three turns trip if each is faster than the one
+ * before. */
 TEST(rig_off, a_stage_that_drives_is_found) {
     unsigned shown[PLACES] = {0};
     unsigned told =
-        0; /* with the enable on; a stage that ignores both, with one sensor, has none */
+        /* runs with the enable on that tripped; not counted: stages that ignore the enable, with a dead sensor */
+        0;
     unsigned untold = 0;
     unsigned on_shown[3] = {0};
     unsigned off_shown[3] = {0};

@@ -22,7 +22,7 @@ static wh_real drawn_between(wh_real least, wh_real most) {
 
 /* --- angles ------------------------------------------------------------------------------------------- */
 
-/* Into -pi ... pi from less than a turn beyond, and 0 from further away. */
+/* An angle less than a turn outside is wrapped into -pi ... pi; one further away becomes 0. */
 TEST(rig_parts, free_angles) {
     seed = 1;
     for (unsigned i = 0; i < 2000U; i++) {
@@ -59,7 +59,7 @@ TEST(rig_parts, polar_of_every_size) {
     }
 }
 
-/* The return value is the mark's deviation from the shape that it corrects, for any corrected parameter. */
+/* wh_turn_angle_split() returns how far the mark was from the shape before its correction, whichever parameter it corrects. */
 TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
@@ -85,7 +85,7 @@ TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
 
 /* --- least squares ------------------------------------------------------------------------------------- */
 
-/* (1 + sum w r r') x = guess + sum w r off for any number of rows, also zero: the solution satisfies it. */
+/* The solution satisfies (1 + sum w r r') x = guess + sum w r off, for any number of rows, even none. */
 TEST(rig_parts, normal_equations_hold) {
     seed = 4;
     for (unsigned i = 0; i < 200U; i++) {
@@ -127,7 +127,7 @@ TEST(rig_parts, normal_equations_hold) {
     }
 }
 
-/* A deviation's square is its unknown for a right side of that unknown's unit vector. Weak and strong rows. */
+/* The squared deviation of an unknown is the unknown itself when the right side is its unit vector. For weak and strong rows. */
 TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
     seed = 14;
     for (unsigned i = 0; i < 100U; i++) {
@@ -157,7 +157,7 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
 
 /* --- pulses -------------------------------------------------------------------------------------------- */
 
-/* With the motor off a rotor is no faster than over the last undriven interval, which begins at the switch-off or later. */
+/* With the motor off a rotor is no faster than its mean over the last undriven interval, one that began after the switch-off. */
 TEST(rig_parts, the_last_interval_bounds_what_coasts) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
@@ -214,7 +214,7 @@ TEST(rig_parts, doubt_grows_by_two_and_shrinks_by_one) {
     TEST_ASSERT_TRUE(grown > 100U && shrunk > 100U);
 }
 
-/* Before the speed is known a pulse that comes too early is a suspect; others are not. */
+/* Before the speed is known, a pulse that comes too early is a suspect. Any other is accepted. */
 TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
     seed = 9;
     for (unsigned i = 0; i < 500U; i++) {
@@ -238,7 +238,7 @@ TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
 
 /* --- turns --------------------------------------------------------------------------------------------- */
 
-/* A record's drift runs from its first counted turn to its last, with any turns left out. */
+/* A record's drift is measured from its first counted turn to its last, whatever turns are left out. */
 TEST(rig_parts, first_and_last_turn_of_those_that_count) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -271,7 +271,7 @@ TEST(rig_parts, first_and_last_turn_of_those_that_count) {
 
 /* --- verdicts ------------------------------------------------------------------------------------------- */
 
-/* Limits are inclusive, and the next number beyond is refused: each limit alone, all else nominal. */
+/* Each limit is inclusive, and the next number beyond is refused. One quantity is at its limit, the others are nominal. */
 TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     wh_result_config config = wh_rig_standard.measure.result;
     config.amplitude_wrong = WH_R(0.25); /* so that products with 64 N are exact */
@@ -321,7 +321,8 @@ TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     }
 }
 
-/* A swing's verdict from its last pass: at most a quarter strays, enough half swings, sensor 2 passed, a narrow interval. */
+/* The verdict on a swing follows from its last pass. It needs enough half swings with at most a quarter of them stray,
+ * passages of sensor 2, and a narrow interval. */
 TEST(rig_parts, verdict_of_a_swing) {
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     unsigned times[WH_SWING_WHYS] = {0};

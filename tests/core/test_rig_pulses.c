@@ -13,7 +13,7 @@
 #define DISTURBED 12U /* the false pulse follows this one */
 #define MOST_PULSES (TRAIN_PULSES * 5U)
 #define JITTER_TICKS 60U
-/* A pulse this close to a true one of its sensor may be taken for it: four jitters are the uncertainty of its time. */
+/* A pulse this close to a true one of the same sensor may replace it: a pulse's time is uncertain by four jitters. */
 #define TELLING_TICKS (4U * JITTER_TICKS)
 
 static const wh_real speeds_rpm[] = {WH_R(100.0), WH_R(140.0), WH_R(170.0),
@@ -31,7 +31,7 @@ static wh_real mean_radps;
 static wh_pulse given[MOST_PULSES];
 static unsigned given_count;
 
-/* For set-points that need it, gravity is fed forward, and the rotor turns evenly. */
+/* Below WH_RIG_TARGET_MIN_RPM gravity is compensated; here it is zero, so that the rotor turns evenly. */
 static rotor_kind kind_at(wh_real rpm) {
     rotor_kind kind = rotor_nominal();
     kind.jitter_s = WH_R(1e-6) * (wh_real)JITTER_TICKS;
@@ -82,7 +82,7 @@ static void give_train(unsigned lost) {
     }
 }
 
-/* Adds a pulse, before or after others of the same time. */
+/* Adds a pulse to the train, before or after others of the same time. */
 static void give(unsigned sensor, uint32_t ticks, bool behind) {
     TEST_ASSERT_TRUE(given_count < MOST_PULSES);
     unsigned at = given_count++;
@@ -110,12 +110,12 @@ static void stand_in(wh_rig_phase phase) {
 typedef struct outcome {
     unsigned marks;
     unsigned gaps;
-    unsigned strange;   /* marks of no true pulse, or not at its position */
+    unsigned strange;   /* marks that belong to no true pulse, or have a wrong position */
     uint32_t off_ticks; /* the worst mark */
     wh_real off_rpm;    /* the worst speed */
 } outcome;
 
-/* The train's pulse of a mark, after the previous one's. */
+/* The train's pulse of a mark, searched from the one after the previous mark's. */
 static unsigned true_pulse(const wh_mark *mark, unsigned from) {
     unsigned best = from;
     for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
@@ -169,7 +169,8 @@ static outcome play(uint32_t early) {
     return out;
 }
 
-/* All true pulses are marks at their place, and nothing else is. `off_ticks`: some are indistinguishable from a true one. */
+/* All true pulses become marks at their place, and nothing else does. A false pulse within `off_ticks` of a true one is
+ * indistinguishable from it. */
 static void check_marks(const outcome *out, uint32_t off_ticks) {
     TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->marks);
     TEST_ASSERT_EQUAL_UINT(0, out->strange + out->gaps);
@@ -205,9 +206,10 @@ static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     return least;
 }
 
-#define RAMP_FASTER WH_R(1.14) /* a turn early by the ramp's window, 0.12 of it */
+#define RAMP_FASTER WH_R(1.14) /* a turn is short by the ramp's window, 0.12 of the turn */
 
-/* Rejected or revoked: the marks are the true ones. Within the jitter of its sensor's true pulse, either may be chosen. */
+/* The false pulse is rejected or revoked, so the marks are the true pulses. If it lies within the jitter of a true one,
+ * either may become the mark. */
 static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool behind) {
     give_train(0);
     give(sensor, ticks, behind);
@@ -216,7 +218,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
     const uint32_t near = apart_from_its_own(sensor, ticks);
     check_marks(&out, near < TELLING_TICKS ? near : 0);
     TEST_ASSERT_EQUAL_UINT32(1, rig.pulses.rejected);
-    /* late on the ramp a pulse as early as its window allows is over-speed, until the true one comes */
+    /* late on the ramp, a pulse as early as the window allows means over-speed, until the true pulse comes */
     const bool over = phase == WH_PHASE_RAMP && rig.guard.trip == WH_TRIP_OVERSPEED &&
                       RAMP_FASTER * mean_radps > config.guard.limit_radps;
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE || over);
@@ -225,7 +227,8 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 
 #define PLACES 60U
 
-/* In the record a wrong speed stops the run. While it settles, a pulse early within the window shows until the true one. */
+/* In the record a wrong speed stops the run. During settling, a pulse that is early within the window changes the speed until
+ * the true one comes. */
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);
@@ -265,7 +268,7 @@ TEST(rig_pulses, a_pulse_too_many_while_it_settles) { check_places(WH_PHASE_SETT
 
 TEST(rig_pulses, a_pulse_too_many_on_the_ramp) { check_places(WH_PHASE_RAMP); }
 
-/* Two false pulses, each between two true ones, with so many true ones between them: each is found. */
+/* Two false pulses with a given number of true pulses between them: both are found. */
 TEST(rig_pulses, two_pulses_too_many) {
     seed = 7;
     for (unsigned i = 0; i < draw_cases(240); i++) {
@@ -289,7 +292,7 @@ TEST(rig_pulses, two_pulses_too_many) {
 
 /* --- missing pulses ------------------------------------------------------------------------------- */
 
-/* One is bridged, more are a gap: the position restarts, the speed stays. */
+/* One lost pulse is bridged. After several the position restarts, and the speed stays. */
 TEST(rig_pulses, lost_pulses) {
     seed = 3;
     for (unsigned i = 0; i < SPEEDS; i++) {
@@ -331,7 +334,7 @@ TEST(rig_pulses, stamps_from_the_future) {
     }
 }
 
-/* A slot's edge fires repeatedly: counted and harmless; too many stop the rig. */
+/* The edge of a slot fires repeatedly. The repetitions are counted and harmless, but too many stop the rig. */
 TEST(rig_pulses, bounces) {
     seed = 5;
     for (unsigned each = 1; each <= 4; each++) {

@@ -24,7 +24,7 @@ static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
     wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
 }
 
-/* Full voltage on the rotor, against any order; returns the time until it trips, s. */
+/* Applies full voltage to the rotor, whatever is ordered. Returns the time until the rig trips, s. */
 static wh_real run_away(rotor_state *rotor) {
     const rotor_kind kind = rotor_nominal();
     const uint32_t begin = rotor->ticks;
@@ -91,7 +91,8 @@ static void go_on(const rotor_kind *kind, rotor_state *rotor, unsigned steps) {
     }
 }
 
-/* A friction of up to 0.1 N m that vanishes anywhere lets the rotor climb, from 0.7 times the inertia on. The loop handles it. */
+/* A friction of up to 0.1 N m vanishes at some instant, and the rotor speeds up. With at least 0.7 times the inertia this is
+ * no trip: the loop handles it. */
 TEST(rig_pulses_fast, a_load_that_goes_away_is_no_runaway) {
     seed = 9;
     for (unsigned trial = 0; trial < 60U; trial++) {

@@ -90,7 +90,7 @@ TEST(rig_result, students_factor) {
 
 /* --- the mean -------------------------------------------------------------------------------------- */
 
-/* Without floors, tolerances and jitter: Student's interval of the components along the mean and across it. */
+/* Without floors, tolerances and jitter, the interval is Student's for the components along and across the mean. */
 TEST(rig_result, the_interval_is_students) {
     scattered_state = UINT64_C(0x5eed0031);
     for (unsigned k = 0; k < 12; k++) {
@@ -144,7 +144,7 @@ TEST(rig_result, the_interval_is_students) {
     }
 }
 
-/* Floors alone: each as entered. The defaults are 0.5 % and 0.5 degrees. */
+/* With floors alone, the intervals are the floors as entered. The defaults are 0.5 % and 0.5 degrees. */
 TEST(rig_result, floors_are_kept) {
     begin();
     for (unsigned i = 0; i < 10; i++) {
@@ -281,7 +281,7 @@ TEST(rig_result, every_reason_has_its_case) {
         }
     }
     for (unsigned i = 0; i < 8U;
-         i++) { /* a second order of another swing: larger, smaller, earlier, later */
+         i++) { /* the second order of another swing: larger, smaller, earlier, later */
         static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.swing_off_rad);
@@ -319,7 +319,7 @@ TEST(rig_result, every_reason_has_its_case) {
     TEST_ASSERT_TRUE(why_of(nan, WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);
 }
 
-/* The remaining share of gravity is reported if gravity is fed forward and pulls, and is 0 otherwise. */
+/* The remaining share of gravity is reported if gravity is compensated and the plane is not level; otherwise it is 0. */
 TEST(rig_result, what_is_left_of_gravity) {
     for (unsigned i = 0; i < 4U; i++) {
         begin();
@@ -338,7 +338,7 @@ TEST(rig_result, what_is_left_of_gravity) {
     }
 }
 
-/* A single turn has no scatter, and a zero load has no phase: no interval is reported, and none is NaN. */
+/* A single turn has no scatter, and a zero load has no phase. The result then has no interval, and no number is NaN. */
 TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
     for (unsigned turns = 0; turns <= 3U; turns++) {
         for (unsigned loads = 0; loads < 2U; loads++) {
@@ -358,7 +358,7 @@ TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
     }
 }
 
-/* A carriage of three times the masses' weight takes a quarter of the force away. */
+/* A carriage that weighs three times the masses reduces the force by a quarter. */
 TEST(rig_result, the_mount_decides_what_is_expected) {
     begin();
     wh_result_config config = bench;
@@ -425,7 +425,7 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (WH_R(0.5) + scatter() / WH_R(3.4641016));
 }
 
-/* Noise and hum of any size are no motion if the mean is known: up to 3 N and 5 N, 45 to 65 Hz. */
+/* Noise (up to 3 N) and hum (up to 5 N, 45 to 65 Hz) are not taken for motion if the mean is known. */
 TEST(rig_result, noise_and_hum_are_no_motion) {
     static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
     scattered_state = UINT64_C(0x5eed0033);
@@ -442,7 +442,8 @@ TEST(rig_result, noise_and_hum_are_no_motion) {
     }
 }
 
-/* A drift of 0.4 N or a swing of 0.3 N, plus twice the noise, is motion: of a rotor (from 1 Hz) or a frame (to 8 Hz), with hum. */
+/* Motion is detected through noise and hum: a drift of 0.4 N, or a swing of 0.3 N plus twice the noise. The swing is that of
+ * a rotor (from 1 Hz) or a frame (up to 8 Hz). */
 TEST(rig_result, motion_is_seen_through_noise_and_hum) {
     scattered_state = UINT64_C(0x5eed0034);
     for (unsigned k = 0; k < 2000; k++) {
@@ -458,7 +459,7 @@ TEST(rig_result, motion_is_seen_through_noise_and_hum) {
     }
 }
 
-/* Noise that leaves the mean uncertain by 0.25 N is too much; few or no samples give no result. */
+/* Noise that leaves the mean uncertain by 0.25 N is too much. Too few samples give no result. */
 TEST(rig_result, a_tare_that_is_not_known) {
     scattered_state = UINT64_C(0x5eed0036);
     wh_tare tare = {.count = 0};

@@ -19,7 +19,8 @@ static void check_trip(wh_trip trip) {
     TEST_ASSERT_TRUE(trip == WH_TRIP_NONE || even.rig.state == WH_RIG_TRIPPED);
 }
 
-/* The made-up load, to the lock-in's accuracy in test_lockin.c. The rotor is even to a tick a turn, 6e-6. */
+/* The made-up load is found as accurately as by the lock-in in test_lockin.c. The rotor's turns are even to one tick, 6e-6 of
+ * a turn. */
 static void check_measured(unsigned turns_wanted) {
     check_trip(WH_TRIP_NONE);
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -44,8 +45,8 @@ TEST(rig_run, a_faultless_run_finds_the_load) {
 
 /* --- slot pulses -------------------------------------------------------------------------------- */
 
-/* From the middle of the record on, pulses of one or both sensors are lost: as many as the guard tolerates, but never two in a
- * row. A turn without a known start or end is left out. */
+/* From the middle of the record on, one or both sensors lose pulses: as many as the guard tolerates, but never two in a row.
+ * A turn without a known start or end is left out. */
 TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
@@ -64,7 +65,7 @@ TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     }
 }
 
-/* Two in a row: the count of turns restarts, and the turns between are left out. */
+/* After two lost pulses in a row the count of turns restarts, and the turns of the gap are left out. */
 TEST(rig_run, a_gap_in_the_record_costs_its_turns) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose = {1, 1}});
     check_measured(8);
@@ -79,7 +80,7 @@ TEST(rig_run, a_gap_before_the_record_is_bridged) {
     TEST_ASSERT_EQUAL_UINT32(2, even.rig.result.lost);
 }
 
-/* A disturbance like a pulse, anywhere in a turn of the record: rejected or revoked. */
+/* A disturbance that looks like a pulse, anywhere in a turn of the record, is rejected or revoked. */
 TEST(rig_run, a_pulse_too_many_spoils_no_result) {
     for (unsigned part = 0; part < 40U; part++) {
         even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U + part / 2U * 9000U};
@@ -90,7 +91,7 @@ TEST(rig_run, a_pulse_too_many_spoils_no_result) {
     }
 }
 
-/* A shiver of the hanging rotor with its slot at sensor 1. */
+/* The rotor hangs and shivers with its slot at sensor 1. */
 TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
     for (uint32_t after = 0; after <= 490000U; after += 490000U) {
         run(WH_R(330.0),
@@ -99,7 +100,7 @@ TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
     }
 }
 
-/* Swapped cables or a reversed motor: the phase would be wrong. */
+/* With swapped cables or a reversed motor the phase would be wrong. */
 TEST(rig_run, sensors_in_the_wrong_order_trip) {
     static const wh_real targets_rpm[] = {WH_R(170.0), WH_R(240.0), WH_R(330.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -119,7 +120,7 @@ TEST(rig_run, a_dead_sensor_trips) {
     }
 }
 
-/* A jammed rotor's load stands still too, but the cell has not failed. */
+/* The load of a jammed rotor stands still as well, but the trip must not blame the cell. */
 TEST(rig_run, a_jammed_rotor_trips_for_its_pulses) {
     for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
@@ -186,7 +187,7 @@ TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
 
 /* --- load cell ---------------------------------------------------------------------------------- */
 
-/* In any state that needs the cell the run ends within 10 periods and a step. */
+/* In every state that needs the cell, the run ends within 10 sample periods and a step. */
 TEST(rig_run, a_load_cell_that_falls_silent_trips) {
     for (wh_rig_phase in = WH_PHASE_TARE; in <= WH_PHASE_RAMP_DOWN; in++) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
@@ -217,7 +218,7 @@ TEST(rig_run, samples_missing_in_the_record) {
     check_result(); /* outside the record nothing is measured */
 }
 
-/* Samples that the converter flags: from a disconnected cell they stop the run, without new data they do not count. */
+/* The converter flags its samples. The flags of a disconnected cell stop the run; late samples do not count. */
 TEST(rig_run, the_converters_word_counts) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
         run(WH_R(330.0),
@@ -225,13 +226,13 @@ TEST(rig_run, the_converters_word_counts) {
         TEST_ASSERT_EQUAL_INT(status == WH_LOAD_LATE ? WH_TRIP_NONE : WH_TRIP_LOAD_CELL,
                               even.rig.guard.trip);
     }
-    /* late from 0.7 s on: three whole turns remain, each other one is a gap */
+    /* samples are late from 0.7 s on: three whole turns remain, all others are gaps */
     run(WH_R(330.0),
         (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .status = WH_LOAD_LATE});
     TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
 }
 
-/* A dead cell shows its converter's noise: half a turn must move it by far more. */
+/* A dead cell shows only the converter's noise. In half a turn, a live load changes by far more. */
 TEST(rig_run, a_dead_load_cell_trips) {
     for (wh_rig_phase in = WH_PHASE_RAMP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* 0.3 N, either way */
@@ -241,7 +242,7 @@ TEST(rig_run, a_dead_load_cell_trips) {
 
 /* --- set-points --------------------------------------------------------------------------------- */
 
-/* slow_radps is 200 rpm: the way down to it from 330, but from 180 no way up. */
+/* slow_radps is 200 rpm. The ramp from 330 rpm goes down to it, but the ramp from 180 rpm never goes up. */
 TEST(rig_run, ramp_down_never_speeds_up) {
     static const wh_real targets_rpm[] = {WH_R(180.0), WH_R(330.0)};
     for (unsigned i = 0; i < 2; i++) {
@@ -290,8 +291,8 @@ TEST(rig_run, a_rotor_that_does_not_start_trips) {
     TEST_ASSERT_TRUE(even_is_over(&even));
 }
 
-/* Slow changes are not noise: a creeping load, or a pulse of the sensor away from the hanging rotor. Noise is no motion, even
- * at a hundred times the converter's. */
+/* Slow changes are not noise: a creeping load, or a pulse, which shows that the rotor does not hang still. Noise is no
+ * motion, even at a hundred times the converter's. */
 TEST(rig_run, a_moving_rig_gets_no_tare) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N in all */
     check_trip(WH_TRIP_MOVING);
@@ -309,7 +310,7 @@ TEST(rig_run, a_moving_rig_gets_no_tare) {
     check_trip(WH_TRIP_MOVING);
 }
 
-/* Healthy but wrong: the run is done, and the result is not good. */
+/* The rig is healthy but its numbers cannot be right: the run is done, and the result is not good. */
 TEST(rig_run, what_cannot_be_is_not_called_good) {
     begin(WH_R(330.0), (even_failure){.in = EVEN_NEVER});
     even.config.measure.cell.newton_per_count =

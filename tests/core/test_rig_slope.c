@@ -38,13 +38,14 @@ typedef struct plant {
     wh_real gain;        /* of the cell */
 } plant;
 
-/* Its steady turn, at STEPS equal angles from sensor 1's mark. */
+/* Its steady turn: values at STEPS equal angles from sensor 1's mark. */
 static wh_real part_at[STEPS + 1U]; /* of the turn's time */
 static wh_real force_N[STEPS + 1U];
 static wh_real turn_s;
 static wh_real along_rad;  /* of the angle's deviation from even motion over time: its sine part, */
 static wh_real across_rad; /* and its cosine part */
-static wh_real truth_N;    /* S <w^2> over the angle: the first order, in line with the masses */
+/* the load's first order over the angle is S <w^2>, in line with the masses */
+static wh_real truth_N;
 
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
     const wh_real weight_Nm = rotor.unbalance_kgm * rotor.gravity_mps2;
@@ -204,8 +205,9 @@ static wh_real arrow_off(void) {
     return WH_SQRT(along * along + across * across);
 }
 
-/* Slopes of 0.2 to 1.6 times the configured one. The second order gives the integrated rotor's swing, to the third order of the
- * swing, which the angle within a turn omits. Good results are right, and a right slope raises no doubt. */
+/* The configured slope is multiplied by 0.2 to 1.6. The swing found from the second order is that of the integrated rotor, up
+ * to terms of third order in the swing, which the model of the angle omits. Good results are right, and a right slope raises
+ * no doubt. */
 TEST(rig_slope, the_load_tells_of_another_slope) {
     unsigned good = 0;
     unsigned doubted = 0;
@@ -251,7 +253,7 @@ TEST(rig_slope, calibration_does_not_matter) {
             WH_RIG_TWO_PI * (wh_real)p.late_ticks / (wh_real)WH_RIG_TICKS_PER_S / turn_s;
         TEST_ASSERT_FLOAT_WITHIN(1e-3f + 0.06f * (float)late_rad, (float)-late_rad,
                                  (float)(measured.phase_rad - phase_rad));
-        /* a swinging rotor is late by a swinging angle: an error of the angle that shows with half its weight */
+        /* the delay shifts the angle of a swinging rotor by a swinging amount, of which half shows */
         const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
         TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.swing_off_rad);
     }

@@ -233,7 +233,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
                   WH_RIG_IDLE);
 }
 
-/* Four orders a step; the fifth is refused at once. All get their answers, in order. */
+/* Four orders a step are taken, and the fifth is refused at once. All five get their answers, in order. */
 TEST(rig_states, too_many_orders) {
     stand_in(WH_RIG_IDLE);
     for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
@@ -343,7 +343,7 @@ static void check_clears(void) {
 
 /* --- trips ------------------------------------------------------------------------------------------ */
 
-/* Causes that trip the rig in any state, and their effects. */
+/* Causes that trip the rig in any state, and what they change. */
 static void break_supply(bool broken) {
     even.inputs.supply_V = broken ? WH_R(9.0) : WH_RIG_RATED_V;
 }
@@ -397,7 +397,8 @@ static void check_reset(wh_trip trip) {
     TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* the rotor's motion is unknown */
 }
 
-/* In each phase of a run, and armed: off in the same step, latched, through a reset, until rest and the cause is gone. */
+/* In each phase of a run, and armed, a trip switches the motor off in the same step. It stays latched, also through a reset,
+ * until the rotor rests and the cause is gone. */
 TEST(rig_states_trips, trips_latch) {
     for (unsigned i = 0; i < 3; i++) {
         for (wh_rig_phase phase = WH_PHASE_NONE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -430,7 +431,7 @@ TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
     TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
 }
 
-/* Implausible pulses cannot show rest: that trip waits only for its time. */
+/* Implausible pulses cannot show that the rotor rests, so after that trip `clear` depends on time alone. */
 TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
@@ -514,7 +515,7 @@ TEST(rig_states_trips, stop_is_at_once) {
     }
 }
 
-/* As configured: without a host a run goes on to its end. */
+/* As configured, a run without a host goes on to its end. */
 TEST(rig_states_trips, a_run_may_outlive_its_host) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         even_reach(&even, phase);
@@ -528,7 +529,7 @@ TEST(rig_states_trips, a_run_may_outlive_its_host) {
 
 /* --- the controller's start -------------------------------------------------------------------------- */
 
-/* The rotor still turns: no trip, `arm` is refused, and the rotor is watched. */
+/* A reset while the rotor turns causes no trip. `arm` is refused, and the rotor is watched. */
 TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
     static const wh_real speeds_rpm[] = {WH_R(60.0), WH_R(170.0), WH_R(330.0), WH_R(390.0)};
     for (unsigned i = 0; i < 4; i++) {
@@ -557,7 +558,7 @@ TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
 
 /* --- a rotor turned by hand -------------------------------------------------------------------------- */
 
-/* Armed, a rotor may shiver: two pulses. The third is a hand that turns it. */
+/* An armed rig tolerates two pulses, because the rotor may shiver. The third means that a hand turns it. */
 TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
     for (unsigned i = 0; i < 8U; i++) { /* of either sensor */
         even_arm(&even);
@@ -569,7 +570,8 @@ TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
     }
 }
 
-/* After any rest a hand's pulses are not compared with earlier ones: the timer wraps after 72 minutes, half of which is future. */
+/* After a rest of any length, a hand's pulses must not be compared with pulses from before it. The timer wraps after 72
+ * minutes, and half of its range means the future. */
 TEST(rig_states_trips, rest_may_last_any_time) {
     for (unsigned i = 0; i < 24U; i++) {
         even_start(&even);
@@ -606,7 +608,7 @@ TEST(rig_states_trips, rest_may_last_any_time) {
 static uint32_t result_end_ticks;
 static uint64_t seed;
 
-/* In any phase before the result: it settles at the new one, and the record restarts. */
+/* A new set-point in any phase before the result: the run settles at it, and the record restarts. */
 TEST(rig_states_random, another_set_point_while_it_runs) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
@@ -624,13 +626,14 @@ TEST(rig_states_random, another_set_point_while_it_runs) {
         TEST_ASSERT_TRUE(even_is_done(&even));
         const wh_measured *force = &even.rig.result.force;
         TEST_ASSERT_FLOAT_WITHIN(0.01f, 250.0f, (float)(force->speed_radps / EVEN_RPM));
-        /* whole turns of 2 s at 250 rpm; those at 330 rpm are not among them */
+        /* whole turns of 2 s at 250 rpm, none at 330 rpm */
         TEST_ASSERT_TRUE(force->turns == 7U || force->turns == 8U);
         TEST_ASSERT_FLOAT_WITHIN(0.02f, (float)EVEN_LOAD_N, (float)force->amplitude_N);
     }
 }
 
-/* The next run counts from zero, not from the pulses that the last one lost or rejected before its loop was closed. */
+/* The next run counts lost and rejected pulses from zero. It forgets the counts that the last run noted when its loop was
+ * closed (lost_before, rejected_before). */
 TEST(rig_states_random, the_run_before_does_not_count) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -643,7 +646,7 @@ TEST(rig_states_random, the_run_before_does_not_count) {
     TEST_ASSERT_TRUE(even_is_done(&even));
 }
 
-/* A record that leaves its speed band ends in a trip without a result, whether there was an earlier one or not. */
+/* If the speed leaves the band during the record, the run trips without a result, even if there was an earlier one. */
 TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
@@ -666,7 +669,6 @@ TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
     }
 }
 
-/* A rotor at rest has no speed to lead by. */
 TEST(rig_states_random, rest_leaves_no_speed) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     even_rest(&even);
@@ -822,7 +824,7 @@ TEST(rig_states_random, what_holds_whatever_is_ordered) {
     go_through_anything();
 }
 
-/* Long sequences, in which runs get far. */
+/* Long sequences, so that runs get far. */
 TEST(rig_states_random, what_holds_for_hours) {
     seed = 12;
     even_start(&even);

@@ -58,7 +58,7 @@ static void step_on(void) {
     step();
 }
 
-/* `steps` steps at a speed with regular pulses and loads, while the phase stays. */
+/* Does `steps` steps, with regular pulses and loads, as long as the phase stays. */
 static unsigned stay(wh_real speed_rpm, unsigned steps) {
     const wh_rig_phase phase = rig.run.phase;
     unsigned done = 0;
@@ -214,7 +214,7 @@ TEST(rig_steps, the_speed_stays_while_it_is_recorded) {
     }
 }
 
-/* 1.5 s without a pulse are rest. The rig stops waiting after two minutes, or 20 s after a trip. */
+/* 1.5 s without a pulse count as rest. The rig waits for rest for at most two minutes, or 20 s after a trip. */
 TEST(rig_steps, rest_is_waited_for) {
     for (unsigned i = 0; i < 4; i++) {
         const bool trips = i % 2U == 1;
@@ -252,7 +252,7 @@ TEST(rig_steps, rest_is_waited_for) {
     TEST_ASSERT_TRUE(rig.state == WH_RIG_IDLE && rig.run.phase == WH_PHASE_NONE);
 }
 
-/* Times since then wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
+/* Time differences wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
 TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
                              WH_TRIP_PULSES}; /* the second waits only for its time */
@@ -277,7 +277,7 @@ TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
     }
 }
 
-/* In any phase a late controller and over-speed end the run; with the motor off over-speed has another reason. */
+/* In any phase a late controller or over-speed ends the run. With the motor off, over-speed has another reason. */
 TEST(rig_steps, what_trips_in_which_phase) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
@@ -363,7 +363,6 @@ TEST(rig_steps, a_record_without_turns_trips) {
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
 }
 
-/* The band includes its edge. */
 TEST(rig_steps, edges_belong_to_the_bands) {
     for (int side = -1; side <= 1; side += 2) {
         stand_in(WH_PHASE_SETTLE);

@@ -26,7 +26,7 @@ typedef struct drawn {
     unsigned add;  /* a false pulse after every nth */
 } drawn;
 
-/* Since the rotor began to swing: passages of sensor 1 and their speeds. */
+/* Passages of sensor 1 since the rotor began to swing, with their speeds. */
 #define PASSED_MOST 64U
 static uint32_t passed_ticks[PASSED_MOST];
 static wh_real passed_radps[PASSED_MOST];
@@ -137,7 +137,7 @@ TEST(rig_swing, places_are_found_of_rotors_that_nobody_knows) {
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
 }
 
-/* Pulses that scatter more than configured set their own variance, and the intervals are as wide as their number requires. */
+/* If pulses scatter more than configured, the variance follows from their scatter, and the interval's width from their number. */
 TEST(rig_swing, rough_pulses_have_wide_intervals) {
     const wh_rig_config config = standard();
     unsigned covered = 0;
@@ -156,7 +156,8 @@ TEST(rig_swing, rough_pulses_have_wide_intervals) {
     TEST_ASSERT_TRUE(told * 3U >= runs && covered * 100U >= told * 90U);
 }
 
-/* A pass skips swings near the top while enough follow: there the times depend on the amplitude, and the guess is uncertain. */
+/* A pass skips swings near the top if enough swings follow. Near the top times depend strongly on the amplitude, so the guess
+ * is uncertain. */
 TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     const wh_rig_config config = standard();
     unsigned near_top = 0;
@@ -182,7 +183,7 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     TEST_ASSERT_TRUE(near_top * 15U > runs);
 }
 
-/* A lost or false pulse is left out or invalidates the swing; it does not move a sensor. */
+/* A lost or false pulse is left out or makes the swing invalid. It never moves a sensor. */
 TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
     const wh_rig_config config = standard();
     unsigned found = 0;
@@ -254,7 +255,7 @@ TEST(rig_swing, words) {
 
 static even_rig even;
 
-/* The run's end coasts if requested. A `stop` after it keeps the enable off, and the rotor swings on. */
+/* If requested, the run's end coasts. A later `stop` keeps the enable off, and the rotor swings on. */
 TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
     for (unsigned swings = 0; swings < 2U; swings++) {
         even_arm(&even);
@@ -312,7 +313,7 @@ static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
     return rotor;
 }
 
-/* Forwards and backwards through several turning points: the sensitivity to each cause. */
+/* The sensitivity to each cause is checked forwards and backwards through several turning points. */
 TEST(rig_swing, derivatives_are_what_differences_show) {
     const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
                                             WH_R(3e-3)};

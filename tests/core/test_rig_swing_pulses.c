@@ -23,7 +23,8 @@ static bool near(wh_real found, wh_real wanted, wh_real most) {
 
 /* --- stored pulses ------------------------------------------------------------------------------------------- */
 
-/* A rotor that turns and then swings: its pulses in order, the first one backwards past sensor 1, and its later passages. */
+/* A rotor that turns and then swings: its pulses in order. `first` is the first pulse backwards past sensor 1, `passed`
+ * counts the passages of sensor 1 from then on. */
 #define STORY_MOST 120U
 typedef struct story {
     uint32_t ticks[STORY_MOST];
@@ -40,7 +41,7 @@ static void tell(story *of, unsigned sensor) {
     of->ticks[of->pulses++] = before + 40000U + draw_one_of(&seed, 60000);
 }
 
-/* Full turns; then half swings, over sensor 2 and back past it while they are wide enough. */
+/* The rotor turns fully. Then it swings, past sensor 2 and back while the swing is wide enough. */
 static void draw_story(story *of, unsigned turns) {
     *of = (story){.pulses = 0};
     for (unsigned i = 0; i < turns; i++) {
@@ -77,7 +78,8 @@ static void give(const story *of, unsigned lost) {
     }
 }
 
-/* The last pulses before the rotor came back, that pulse, and as many later ones as fit; the last of sensor 1 too. */
+/* Stored are the last pulses before the first return, the returning pulse, as many later ones as fit, and the last one of
+ * sensor 1. */
 static void check_kept(const story *of) {
     const unsigned turning = of->first < WH_SWING_TURNING ? of->first : WH_SWING_TURNING;
     const unsigned from = of->first - turning;
@@ -121,7 +123,7 @@ TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
 
 /* --- the guess ------------------------------------------------------------------------------------------- */
 
-/* A rotor with open leads, from some turns to rest. Returns its speed at the first return past sensor 1. */
+/* A rotor with open motor leads runs out, from some full turns to rest. Returns its speed at the first return past sensor 1. */
 static wh_real swing_out(const rotor_kind *kind) {
     const wh_rig_config *config = &wh_rig_standard;
     const wh_real over_radps = WH_R(2.0) * WH_SQRT(kind->weight_Nm / kind->inertia_kgm2);
@@ -146,7 +148,8 @@ static wh_real swing_out(const rotor_kind *kind) {
     return first_radps;
 }
 
-/* The speed at the first return, gravity and friction over inertia: within the guess's uncertainty, the first two to some 10 %. */
+/* The guess contains the speed at the first return, and gravity and friction divided by inertia. All are within its
+ * uncertainty, the first two within some 10 %. */
 TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
     unsigned told = 0;
     unsigned near_it = 0;
@@ -193,7 +196,8 @@ static wh_real longer_by(wh_real k2) {
     return WH_R(1.0) / a;
 }
 
-/* A first swing of any width almost to the top, then small ones: its time alone gives its width, by the pendulum's integral. */
+/* A first swing of any width, almost up to the top, is followed by small ones. The width follows from the time of the first
+ * alone, by the pendulum's integral. */
 TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
@@ -225,7 +229,7 @@ TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
 
 /* --- the work -------------------------------------------------------------------------------------------- */
 
-/* Steps of the equation allowed in one control step of so many ticks. */
+/* Largest number of the equation's steps in a control step of this many ticks. */
 #define EQUATION_STEPS 3
 #define EQUATION_TICKS 8000
 
@@ -243,7 +247,7 @@ static unsigned may_follow(wh_swing_piece piece) {
     return 0;
 }
 
-/* A control step does one piece of the work, and at most three steps of the equation. */
+/* Also checks that the piece has at most three steps of the equation. */
 TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
     const wh_rig_config *config = &wh_rig_standard;
     unsigned times[WH_SWING_ENDS + 1] = {0};
@@ -283,7 +287,8 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
 
 /* --- turning back ----------------------------------------------------------------------------------------- */
 
-/* A step in which the rotor turns back or friction holds it, with its sensitivities, against small steps in either direction. */
+/* In the step the rotor turns back, or friction holds it. The step and its sensitivities are compared with small steps, in
+ * both directions. */
 TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),

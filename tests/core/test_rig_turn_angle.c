@@ -37,13 +37,13 @@ static wh_turn_angle shaped(const turn *of, wh_real found) {
     return angle;
 }
 
-/* The rotor's angle beyond sensor 2 at that part of the turn's time. */
+/* The rotor's angle beyond sensor 2 at this fraction of the turn's time. */
 static wh_real beyond(const turn *of, wh_real found, wh_real split) {
     const wh_turn_angle angle = shaped(of, found);
     return wh_turn_angle_at(&angle, split) - of->rotor.mark_rad[1];
 }
 
-/* base_rad with sensor 2's mark at that part of the turn's time: by bisection from either side of `about`. */
+/* base_rad if sensor 2's mark comes at this fraction of the turn's time; by bisection on either side of `about`. */
 static wh_real base_at(const turn *of, wh_real about, wh_real split) {
     wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
     wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
@@ -106,14 +106,14 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
                    WH_R(0.003) + WH_R(0.25) * bent);
         const wh_real lag = by_lag(&of, about, split);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
-        if (of.fed) { /* a lag is a swing a quarter turn later, times its share */
+        if (of.fed) { /* a lag adds a swing a quarter turn later, times gravity's share */
             check_near(WH_ABS(lag), swing * WH_ABS(angle.base_per_quadrature),
                        swing * (WH_R(0.003) + WH_R(0.5) * bent) + WH_R(2e-5));
         }
     }
 }
 
-/* A single call from zero is nearly converged: the measurements of a turn come before it. */
+/* A single call from zero has nearly converged; in the program, earlier turns come first. */
 TEST(rig_turn_angle, a_shape_is_found_at_once) {
     seed = 31;
     wh_real worst = WH_R(0.0);
