@@ -24,7 +24,6 @@ typedef enum chip_cause {
     CHIP_BY_SOFTWARE /* the core's own SYSRESETREQ */
 } chip_cause;
 
-/* How the program's run ended. */
 typedef enum chip_end {
     CHIP_RETURNED,
     CHIP_RESET,     /* the chip has been reset; chip_start() restarts it */
@@ -32,7 +31,6 @@ typedef enum chip_end {
     CHIP_HANGS      /* longer than chip_may_take() */
 } chip_end;
 
-/* The core's cycle counter. */
 typedef enum chip_counter {
     CHIP_COUNTS,
     CHIP_NO_COUNTER,   /* DWT_CTRL.NOCYCCNT */
@@ -100,7 +98,6 @@ void chip_pin_drive_at(uint64_t when, char port, unsigned pin,
 void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor);
 chip_level chip_pin(char port, unsigned pin); /* CHIP_OPEN: undriven */
 
-/* Clocks, Hz. */
 typedef struct chip_clocks {
     uint32_t core_Hz, apb1_Hz, apb2_Hz, timers1_Hz, timers2_Hz;
 } chip_clocks;

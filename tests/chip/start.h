@@ -15,7 +15,6 @@ void chip_memory_keeps(bool anything);
 /* A suite's seed, not 0: the given one, or WHIRL_SEED. */
 uint64_t chip_seed(uint64_t usual);
 
-/* Differences between the boards. */
 typedef struct chip_wiring {
     const char *board; /* the program with the linked drivers' data */
     uint32_t crystal_Hz;

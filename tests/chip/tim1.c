@@ -102,7 +102,7 @@ static void tim1_happens(void) {
     }
 }
 
-/* Asynchronous, in hardware. */
+/* The break acts asynchronously, in hardware. */
 void tim1_break_input(void) {
     if (break_is_active()) {
         *reg(BDTR) &= ~MOE;

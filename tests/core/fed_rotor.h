@@ -11,7 +11,6 @@
 #define FED_STEP_TICKS 2000U
 #define FED_STEP_S WH_R(0.002)
 
-/* The source of gravity's voltage. */
 typedef enum fed_by { FED_BY_NOBODY, FED_BY_OBSERVER, FED_BY_TRUTH } fed_by;
 
 typedef struct fed_rotor {

@@ -30,7 +30,6 @@ typedef struct on_plant {
     float noise_N;       /* standard deviation of the noise added to each sample */
 } on_plant;
 
-/* One control step. */
 void plant_control(on_plant *on);
 
 /* Posts an order, steps, and returns the answer. */

@@ -154,7 +154,6 @@ void talk_close_line(stream *heard) {
     close(ends[1]);
 }
 
-/* Hash of the answers of the first `turns` turns in order, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns) {
     uint64_t hash = WH_HASH_START;
     for (unsigned i = 0; i < turns; i++) {

@@ -13,7 +13,6 @@ typedef struct stream {
     unsigned length;
 } stream;
 
-/* Turns of orders and answers. */
 typedef struct drawn_talk {
     wh_signal signal[WH_SIGNALS_MAX];
     wh_hello hello;
@@ -56,7 +55,7 @@ void talk_say_all(unsigned turns);
 void talk_open_line(bool closed);
 void talk_close_line(stream *heard);
 
-/* Hash of the answers of so many turns in order, without counts and remembered values. */
+/* Hash of the answers of the first `turns` turns in order, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns);
 
 /* talk_report must describe so many turns. */

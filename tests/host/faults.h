@@ -52,7 +52,6 @@ typedef struct campaign {
 
 /* Does the board's firmware run in an emulator, which counts instructions? */
 bool campaign_is_emulated(const campaign *c);
-/* Does it have operator dials? */
 bool campaign_has_dials(const campaign *c);
 
 /* --- random cases (faults_draw.c)

@@ -32,10 +32,8 @@ typedef struct hybrid {
 /* No stop is violated at the start. */
 hybrid hybrid_draw(uint64_t *seed);
 
-/* Its contacts as statements. */
 void hybrid_statements(const hybrid *h, char text[static HYBRID_TEXT]);
 
-/* End of a motion. */
 typedef struct hybrid_motion {
     long double state[2 * LINKAGE_BODIES]; /* values, then rates */
     int impacts;

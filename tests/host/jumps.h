@@ -10,7 +10,6 @@
 
 enum { JUMPS_TEXT = 1500, JUMPS_WORDS = 6 };
 
-/* Output of jumps_run(). */
 extern said jumps_said;
 
 /* `few`; `all` with WHIRL_FULL, and `fewest`, with some of every class, with WHIRL_FEW. */

@@ -100,7 +100,7 @@ static void command(reader *r, const char *name, size_t length) {
     fail(r, "an unknown command");
 }
 
-/* A base for scripts. */
+/* Reads a base, to which scripts may be attached. */
 static void nucleus(reader *r) {
     const char c = *r->at;
     if (c == '{') {

@@ -33,7 +33,6 @@ void linear_draw(uint64_t *seed, int coordinates, linear_kind kind, char *text, 
 /* Rows of a step's matrix exp([A B c; 0 0 0] h), or the first terms of its series up to `order` > 0. */
 void linear_step(const linear *of, int order, quad step[LINEAR_STATES][LINEAR_COLUMNS]);
 
-/* Advances x by such a step. */
 void linear_move(const linear *of, quad step[LINEAR_STATES][LINEAR_COLUMNS], const double *input,
                  quad *x);
 

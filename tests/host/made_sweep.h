@@ -25,7 +25,6 @@ void made_sweep_close(made_sweep *m);
 /* A body above a floor at x = 0, and its neighbours. */
 extern const char made_sweep_floor[];
 
-/* File and messages of session_run(). */
 typedef struct session_said {
     int code;
     char rows[SAID_SIZE];

@@ -19,7 +19,6 @@ typedef struct motion {
     void *run;
 } motion;
 
-/* Settings of the steps. */
 typedef struct stepping {
     const engine_kind *kind;
     wh_method method;

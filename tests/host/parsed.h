@@ -15,7 +15,7 @@ const mechanism *parse(const char *text);
 void instantiate(const overrides *changes);
 /* The last refusal must contain these words. */
 void expect_said(const char *wanted);
-/* Frees all three. */
+/* Frees what parse() and instantiate() made, and `said`. */
 void drop(void);
 
 double parameter(const char *name);

@@ -937,7 +937,6 @@ TEST(normal_form, every_expression_keeps_the_form) {
     TEST_ASSERT_GREATER_THAN_INT(forms() / 20, waves);
 }
 
-/* Sums, products and the order of two do not depend on the order of arguments. */
 TEST(normal_form, the_order_of_arguments_does_not_matter) {
     uint64_t seed = 31;
     for (int i = 0; i < 400; i++) {

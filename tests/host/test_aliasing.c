@@ -155,7 +155,6 @@ TEST(aliasing, what_is_wrong_is_told) {
     TEST_ASSERT_TRUE(wrong > cases / 5 && 3 * by_this >= wrong && right > cases / 10);
 }
 
-/* `whirl sweep` counts the points that `whirl run` reports. */
 TEST(aliasing, sweeps_count_it) {
     dice d = dice_of("aliasing, swept", 20261201);
     unsigned counted = 0;
@@ -178,7 +177,8 @@ TEST(aliasing, sweeps_count_it) {
     TEST_ASSERT_EQUAL_UINT(3, counted);
 }
 
-/* A slow force with a ripple of whole periods per step: the sum of the ripple grows with time. */
+/* A slow force with a ripple. A step lasts whole periods of the ripple, so the samples of the ripple add up to a growing
+ * error. */
 TEST(aliasing, small_ripples) {
     static const named_cure none;
     dice d = dice_of("aliasing, ripples", 20261129);
@@ -218,7 +218,7 @@ TEST(aliasing, small_ripples) {
     TEST_ASSERT_TRUE(4 * wrong > cases && 8 * right > cases);
 }
 
-/* Pushed below the friction limit, or sliding to rest; the normal force ripples in whole periods per step. */
+/* Blocks pushed below the friction limit, or sliding to rest, while the normal force ripples with whole periods per step. */
 TEST(aliasing, rippling_normals) {
     static const named_cure none;
     dice d = dice_of("aliasing, normals", 20261130);
@@ -251,7 +251,7 @@ TEST(aliasing, rippling_normals) {
     }
 }
 
-/* Shaken beyond the friction limit, in whole periods per step. */
+/* Blocks shaken beyond the friction limit, with whole periods per step. */
 TEST(aliasing, blocks_with_friction) {
     static const named_cure none;
     dice d = dice_of("aliasing, friction", 20261128);
@@ -305,7 +305,7 @@ static verdict_of ask(const char *text, const char *name, const char *method, co
     return v;
 }
 
-/* A mass with drag, pushed for the part `duty` of each period, initially at rest. */
+/* A mass with drag, initially at rest, which is pushed during the part `duty` of each period. */
 static void write_train(char *text, size_t size, double pulses_hz, double duty, double phase,
                         double end_s) {
     snprintf(text, size,
@@ -381,7 +381,7 @@ TEST(pulse_trains, pulses_that_steps_resolve) {
     TEST_ASSERT_EQUAL_UINT(cases, right);
 }
 
-/* A body on a spring from rest, with a force of k + 1/2 or k turns per step. */
+/* A body on a spring starts from rest under a force that turns k + 1/2 or k times per step. */
 TEST(pulse_trains, turns_and_a_half) {
     static const char *const all[] = {"nystroem5", "nystroem5", "nystroem5", "rk4",
                                       "rk38",      "nystroem4", "heun"};

@@ -11,7 +11,7 @@
 enum { OUTPUTS = 25, STEPS = 40, TEXT_ROOM = 64 + OUTPUTS * (WAVE_TEXT + 32) };
 static const uint64_t first_seed = UINT64_C(20261121);
 
-/* X has the constant momentum 3 X' + a' cos(a)/2. */
+/* X has the constant momentum 3 X' + a' cos(a)/2, from which X is recovered. */
 static const char front[] =
     "mechanism parts\n"
     "coordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\n"
@@ -134,7 +134,7 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     if (!s->conserves) {
         return;
     }
-    /* X from its momentum, which an output's fraction of an angle must not disturb */
+    /* X follows from its momentum; an output with a fraction of an angle must not disturb it */
     double angle_rad[WAVE_ANGLES];
     double real[16];
     kind->state(run, angle_rad, real);
@@ -247,8 +247,8 @@ TEST(angle_parts, made_up_outputs) {
     }
 }
 
-/* A sine or cosine of one multiple of one angle, up to ten thousand turns from zero. In float it has the error of any
- * sine (6.3e-8; docs/dev/numerics.md) plus one phase unit (1.5e-9 rad) for the multiple. */
+/* The sine or cosine of a multiple of an angle, up to ten thousand turns from zero. In float its error is that of any sine
+ * (6.3e-8; docs/dev/numerics.md) plus one phase unit (1.5e-9 rad) for the multiple. */
 TEST(angle_parts, float_sines_of_parts) {
     uint64_t seed = first_seed;
     double worst = 0.0;

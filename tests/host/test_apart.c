@@ -129,8 +129,8 @@ TEST(apart, four_bars) {
     }
 }
 
-/* A rod between two balls keeps its present length, so any places fit. For a rod of given length the difference is
- * reported. */
+/* A rod between two balls keeps the length that it has at the start, so any places fit. If the file gives the rod's length,
+ * the difference is reported. */
 TEST(apart, rods) {
     dice d = dice_of("apart", 2);
     const unsigned cases = dice_cases(60);

@@ -17,7 +17,7 @@ enum { JOINTS = 6 };
 
 typedef struct arm_arm {
     int axis[JOINTS];          /* of its joint, in its own frame */
-    double offset[JOINTS];     /* of its joint from the previous one, along z there, m */
+    double offset[JOINTS];     /* place of its joint along the z axis of the previous one, m */
     double centre[JOINTS];     /* of mass, along z, m */
     double mass[JOINTS];       /* kg */
     double inertia[JOINTS][3]; /* about the centre, kg m^2 */
@@ -81,7 +81,8 @@ static char *text_of(const arm_arm *a) {
     fputs("T = (0 [J]", out);
     for (int i = 0; i < JOINTS; i++) {
         fprintf(out, "\n  + %.17g [kg]*(c%d_0'^2 + c%d_1'^2 + c%d_2'^2)/2", a->mass[i], i, i, i);
-        for (int k = 0; k < 3; k++) { /* rate of axis b along axis c: about axis k */
+        for (int k = 0; k < 3; k++) {
+            /* the rate of axis b along axis c is the angular velocity about axis k */
             const int b = (k + 1) % 3;
             const int c = (k + 2) % 3;
             fprintf(
@@ -122,7 +123,7 @@ static double dot(vector a, vector b) {
 static void torques(const arm_arm *a, const state_values *s, double *torque, double *size) {
     vector frame[JOINTS][3]; /* axes of each link, in the world */
     vector joint[JOINTS];
-    vector force[JOINTS]; /* that moves link i, and its moment about the centre */
+    vector force[JOINTS]; /* the force that moves link i, and the moment about its centre */
     vector moment[JOINTS];
     vector at[JOINTS]; /* the centre */
     vector axes[3] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
@@ -351,11 +352,11 @@ typedef struct charge {
     double step_s;
 } charge;
 
-/* B (x y' - y x')/2, B x y' or -B y x'. */
+/* Forms of the kinetic term of a magnetic field: B (x y' - y x')/2, B x y' or -B y x'. */
 static const char *const potentials[] = {"B*(x*y' - y*x')/2", "B*x*y'", "-B*y*x'"};
 enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
 
-/* The reported residual relative to the largest entry, and whether it warned; 1 if the run diverges. */
+/* The reported energy residual relative to the largest entry, and whether Whirl warned; 1 if the run diverges. */
 static double left_over_leans(const charge *c, const char *potential, double x0, bool *warned) {
     char text[700];
     said what;
@@ -615,8 +616,8 @@ TEST(linkages, the_order_of_the_file_does_not_matter) {
     printf("  written backwards it is off by at most %.1e\n", worst);
 }
 
-/* A disabled effect leaves every bit unchanged. An enabled one changes the order of the sum, and so the last bits of
- * its coefficients. */
+/* A disabled effect leaves every bit unchanged. An enabled effect changes the order of a sum, and so the last bits of the
+ * coefficients. */
 TEST(linkages, forces_may_stand_in_effects) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
@@ -640,7 +641,7 @@ TEST(linkages, forces_may_stand_in_effects) {
 
 /* --- energy balance ------------------------------------------------------------------------------------------ */
 
-/* The energy residual after 100 ms, and the total turnover of the balance. */
+/* The energy residual after 100 ms, and the sum of all energy entered in the balance. */
 static double left_over_linkages(const linkage *of, double step_s, double *turnover) {
     enum { ENTRIES_MAX = 200, ACCOUNTS_MAX = 1 + LINKAGE_BODIES };
     double total[ENTRIES_MAX] = {0};

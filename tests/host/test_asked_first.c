@@ -46,7 +46,7 @@ static const poly *any_result(algebra *a, const poly *x, const poly *y, const me
     }
 }
 
-/* First uses of symbols, outputs and energies in random order, and expressions of them. */
+/* Uses symbols, outputs and energies for the first time in random order, and makes expressions of them. */
 static void ask(void *context, algebra *a, const instance *inst) {
     uint64_t *from = context;
     const mechanism *m = inst->mechanism;
@@ -183,7 +183,7 @@ TEST(asked_first, generated_mechanisms) {
     expect_none(wanted);
 }
 
-/* One scene, while all others of the program are derived and alive. */
+/* Derives one scene while all other scenes of the program are derived and alive. */
 TEST(asked_first, among_others) {
     static derived others[3];
     char *text = NULL;

@@ -14,7 +14,7 @@
 #define FOLDER "tests/bad"
 enum { TEXTS_MIN = 141, LINE_SIZE = 512 };
 
-/* Makes one instance and, with `derive`, its equations and lists, unless there are errors already. */
+/* Instantiates a mechanism and, with `derive`, makes its equations and lists. Does nothing after an earlier error. */
 static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
     instance *made = instance_make(of, in, NULL, all);
     if (derive && made != NULL && diags_count(all) == 0) {

@@ -13,9 +13,9 @@ enum { MOST = BODIES_MOST, STEPS = 2000 };
 typedef struct line {
     int bodies;
     double mass_kg[MOST];
-    double spring_Npm[MOST]; /* between a body and the previous one; [0] to the ground */
+    double spring_Npm[MOST]; /* spring between a body and the previous one; [0] to the ground */
     double start_m[MOST];
-    int order[MOST]; /* each counts from the previous one here; [0] from the ground */
+    int order[MOST]; /* start of each body, relative to the previous one; [0] to the ground */
 } line;
 
 /* The coordinates in that order, at the places x. */
@@ -70,7 +70,7 @@ static void accelerate(const void *of, const bodies_state *s, long double *a_mps
     }
 }
 
-/* With the scene's own step: the coordinates at the end, and the range of each. */
+/* Steps with the scene's own step. Results: the coordinates at the end, and the range of each. */
 static void run_by_bodies(const line *l, long double *end, double *range) {
     const by_bodies b = {l, l->bodies, STEP_S, STEPS, accelerate, counted};
     long double start[MOST];
@@ -127,8 +127,8 @@ static seen see(const line *l) {
     return s;
 }
 
-/* Springs of similar stiffness, at most about 20 rad/s: this test does not ask whether a soft spring is lost beside a
- * stiff one. */
+/* The stiffnesses are similar, at most about 20 rad/s. This test does not ask whether a soft spring is lost beside a stiff
+ * one. */
 static line draw(dice *d, double decades) {
     line l = {.bodies = 2 + (int)dice_one_of(d, 2)};
     for (int b = 0; b < l.bodies; b++) {
@@ -163,7 +163,7 @@ static void count_from_heavier(line *l) {
     }
 }
 
-/* Largest mass ratio of a body to the lighter one that it is counted from. */
+/* Largest ratio of a body's mass to that of the lighter body relative to which it is measured. */
 static double against_the_grain(const line *l) {
     double most = 1.0;
     double lightest = l->mass_kg[l->order[0]];
@@ -215,7 +215,7 @@ TEST(blurred, what_is_off_is_told) {
     TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
 }
 
-/* The light body's mass depends on the heavy one's place, so nothing is folded: only the round-off of each step takes
+/* The light body's mass depends on the heavy one's place, so no constants are folded. Only the round-off of each step loses
  * digits. */
 static void varying_text(double light_kg, double ratio, double spring_Npm, double start_m,
                          char *text, size_t size) {
@@ -227,7 +227,7 @@ static void varying_text(double light_kg, double ratio, double spring_Npm, doubl
              light_kg, light_kg * ratio, spring_Npm, start_m);
 }
 
-/* The two runs of `whirl trust` agree in any case. */
+/* The two runs of `whirl trust` always agree, so agreement must not be taken for accuracy. */
 TEST(blurred, no_trust_in_what_both_have_wrong) {
     dice d = dice_of("blurred", 13);
     for (int k = 0; k < 12; k++) {
@@ -261,7 +261,6 @@ TEST(blurred, no_trust_in_what_both_have_wrong) {
     }
 }
 
-/* Two equations that differ by a small part of one of their terms. */
 TEST(blurred, equations_that_say_nearly_the_same) {
     dice d = dice_of("blurred", 12);
     for (int decade = 2; decade <= 14; decade++) {

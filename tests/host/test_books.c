@@ -48,9 +48,9 @@ TEST(account, what_contacts_took_is_told_apart) {
     model_drop();
 }
 
-/* Impacts of other coordinates, or in between, change neither the energy from a constant force, P (z - h), nor the loss
- * of an evenly damped slide. Each printed entry has its closed form, and with the contacts' part they sum to the
- * change. Integration between step ends only would miss part of the step with the impact. */
+/* Impacts of other coordinates, or in the middle of a step, leave two entries unchanged: the energy from a constant force, P
+ * (z - h), and the loss of an evenly damped slide. Each printed entry has a closed form; with the contacts' part, the entries
+ * sum to the change. Integration between step ends only would miss part of the step with the impact. */
 TEST(account, entries_across_impacts_are_closed_forms) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -90,7 +90,6 @@ static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .
 
 enum { ENTRIES_MAX = 200 };
 
-/* All output of the ledger. */
 typedef struct account_book {
     double total[ENTRIES_MAX];
     double left_over[8]; /* by account */
@@ -118,7 +117,7 @@ static double of_energies(const motion *m, const account_book *book, const char 
     return 0.0;
 }
 
-/* L = th'^2/2 + k th^2 th': free, th = w t; dL/dth = 2 k th th' adds up to k (w t)^2. */
+/* L = th'^2/2 + k th^2 th' moves freely: th = w t. The entry of dL/dth = 2 k th th' grows as k (w t)^2. */
 TEST(ledger_turns, a_free_wheel) {
     static const char text[] = "mechanism wheel\ncoordinate th [rad]\nparameter k = 3 [N*m*s]\n"
                                "T = 1 [kg*m^2]*th'^2/2 + k*th^2*th'\n"
@@ -178,7 +177,7 @@ TEST(ledger_turns, a_charge_in_a_uniform_field) {
         motion_to(&m, 2.0);
         const account_book book = read_book(&m);
         const double phi = motion_value(&m, "phi");
-        /* p_phi is constant except for the gauge: its entry is that of c phi phi' */
+        /* only the gauge changes p_phi: the entry is that of c phi phi' */
         TEST_ASSERT_DOUBLE_WITHIN(2e-6 / (1 << (4 * k)), 0.7 * phi, of_energies(&m, &book, "phi"));
         left[k] =
             fmax(fabs(book.left_over[0]), fmax(fabs(book.left_over[1]), fabs(book.left_over[2])));
@@ -225,7 +224,7 @@ static void slopes(const gauge *g, double a, double b, double slope[2]) {
     }
 }
 
-/* A double pendulum with drag, a motor and a stop, with or without the total derivative. */
+/* A double pendulum with drag, a motor and a stop. G's total derivative is added to L or not. */
 static void open_pendulum(motion *m, const char *rate, stepping how) {
     char text[1500];
     snprintf(text, sizeof text,
@@ -254,7 +253,7 @@ static void compare(const gauge *g, stepping how, double tolerance) {
     const account_book book = read_book(&with);
     slopes(g, 0.3, -0.4, before);
     slopes(g, motion_value(&with, "a"), motion_value(&with, "b"), after);
-    /* d/dt dG/dq' = dG/dq for G's rate: the additional entry equals the additional momentum */
+    /* the rate of G adds dG/dq to the momentum, and the same to the entries */
     const char *const names[] = {"a", "b"};
     for (int i = 0; i < 2; i++) {
         const double size = 1.0 + fabs(after[i]) + fabs(before[i]);

@@ -49,7 +49,7 @@ static own_bodies drawn(dice *d) {
 /* In reverse, so that their order is not alphabetical. */
 static char name_of(unsigned i) { return (char)('z' - (int)i); }
 
-/* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": the sum over all bodies of this kind, after `begins`; empty without any. */
+/* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": the sum over all bodies of this kind, preceded by `begins`; empty if there are none. */
 static void sum_of(const own_bodies *m, held_by by, const char *begins, const char *unit,
                    const char *square, char text[400]) {
     int at = 0;
@@ -281,7 +281,7 @@ TEST(books_told, every_line) {
     }
 }
 
-/* Random stops, some of which the ball never reaches: those have no line in any account. */
+/* Random stops, some of which the ball never reaches. Those stops have no line in any account. */
 TEST(books_told, contacts_that_gave_nothing) {
     dice die = dice_of("books_told", 93);
     enum { STOPS = 4 };
@@ -293,7 +293,8 @@ TEST(books_told, contacts_that_gave_nothing) {
         int length = snprintf(text, sizeof text,
                               "mechanism ball \"a ball\"\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                               "V = 9.81 [N]*x\n");
-        for (int i = 0; i < STOPS; i++) { /* from 1 m it falls, and hits only the highest */
+        for (int i = 0; i < STOPS; i++) {
+            /* the ball falls from 1 m and hits only the highest stop */
             reached[i] = i == (int)(c % STOPS);
             const double below =
                 reached[i] ? dice_between(&die, 0.0, 0.5) : dice_between(&die, 2.0, 9.0);
@@ -379,7 +380,6 @@ typedef double by_hand(const motion *m);
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 
-/* The largest residuals along a run. */
 typedef struct remainders {
     double summary_J; /* of the account beside the run */
     double ledger_J;  /* of the run's own */
@@ -422,7 +422,7 @@ static remainders book(const char *text, by_hand *energy_J, double step_s) {
     return r;
 }
 
-/* At the scene's step the residual is the method's error: below 1e-9 J of about 1 J. */
+/* At the scene's own step the residual is the method's error: below 1e-9 J, with energies of about 1 J. */
 static void expect_closed(const char *text, by_hand *energy_J) {
     const remainders r = book(text, energy_J, 0.0);
     printf("  left over %.1e J in the summary's books, %.1e J in the ledger\n", r.summary_J,
@@ -430,7 +430,7 @@ static void expect_closed(const char *text, by_hand *energy_J) {
     TEST_ASSERT_TRUE(r.summary_J < 1e-9 && r.ledger_J < 1e-9);
 }
 
-/* It falls with the step like the method's error: at least with the 4th power. */
+/* The residual falls with the step like the method's error: with at least the fourth power. */
 static void expect_order(const char *text, by_hand *energy_J, double step_s) {
     remainders r[3];
     for (int k = 0; k < 3; k++) {
@@ -453,7 +453,7 @@ TEST(energy_integral, the_turning_hoop) {
     expect_order(text, hoop_at_10, 4e-3);
 }
 
-/* With a torque and a damper, whose work and loss are entries of some 1e-2 J. */
+/* The torque's work and the damper's loss are entries of some 1e-2 J. */
 TEST(energy_integral, the_turning_hoop_with_motor_and_drag) {
     static const char text[] =
         HOOP_AT_10 "input M = 0.06 [N*m]\nQ(th) = M\n"
@@ -483,7 +483,7 @@ TEST(energy_integral, the_fast_body) {
 
 /* --- contacts ------------------------------------------------------------------------------------ */
 
-/* Total of a contact in an account: 0 is the energy, 1 + i coordinate i. */
+/* Total of a contact in an account: account 0 is the energy, 1 + i the momentum of coordinate i. */
 static double of_contact(const motion *m, int account, double *left_over) {
     const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -495,8 +495,8 @@ static double of_contact(const motion *m, int account, double *left_over) {
     return entry;
 }
 
-/* The wall on the turning table takes the loss of the integral: half the mass times the difference of the squared
- * speeds. Terms linear in the rates do not matter. */
+/* A stop on the turning table changes the energy integral by half the mass times the difference of the squared speeds. Terms
+ * linear in the rates have no effect on that. */
 TEST(energy_integral, a_wall_on_the_turning_table) {
     static const char text[] =
         TABLE "scene s { start x = 0.1 [m], x' = 1 [m/s], y' = 0.4 [m/s]\nuntil 0.5 [s] }\n";
@@ -551,8 +551,8 @@ static image *image_of(const char *text, derived *d) {
     return p;
 }
 
-/* An impulse is not mass times the change of rates if the mass depends on them: such stops are refused. Others are
- * not. */
+/* If the mass depends on the rates, an impulse is not mass times the change of rates. Stops of such bodies are refused,
+ * others are not. */
 TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
     static const struct {
         const char *text;
@@ -573,8 +573,8 @@ TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
 
 /* --- inputs in the energies ------------------------------------------------------------------------ */
 
-/* The hoop's rate is an input, changed after every step like a stick. The only entry is the energy of the changes,
- * -dL/dt, or -m R^2 sin^2 (w2^2 - w1^2)/2 each. */
+/* The hoop's rate is an input, changed after every step as by a joystick. Its only entry is the energy of these changes,
+ * -dL/dt: -m R^2 sin^2 (w2^2 - w1^2)/2 each. */
 static void change_the_hoop(const char *text, bool stops) {
     motion m;
     double w = 10.0;
@@ -617,7 +617,8 @@ TEST(energy_integral, a_hoop_whose_rate_is_changed) {
     }
 }
 
-/* Two springs with input rates, in one T + V: each has its entry, (k2 - k1) x^2/2. A refused step does not lose it. */
+/* Two springs whose rates are inputs, in one T + V. Each spring has an entry, (k2 - k1) x^2/2. A refused step does not lose
+ * it. */
 TEST(energy_integral, springs_whose_rates_are_changed) {
     static const char text[] =
         "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"
@@ -647,7 +648,6 @@ TEST(energy_integral, springs_whose_rates_are_changed) {
     motion_close(&m);
 }
 
-/* Both energies at the start and the end, of oscillators with known states. */
 TEST(energy_integral, both_energies_at_both_ends) {
     dice d = dice_of("energy_integral", 41);
     for (int i = 0; i < 20; i++) {
@@ -695,7 +695,7 @@ static int check_plain(const scene *s) {
     return 1;
 }
 
-/* The summary names the booked integral beside both energies only if it differs from their sum. */
+/* The summary names the energy integral of the balance beside T and V only if the integral differs from T + V. */
 static void expect_told(const image *im) {
     char *text;
     size_t length;
@@ -717,7 +717,7 @@ static void expect_told(const image *im) {
     engine_double.stop(run);
 }
 
-/* In every built-in scene with T + V as its integral, T + V is booked. */
+/* In every built-in scene with T + V as its energy integral, the balance is that of T + V. */
 TEST(energy_integral, where_the_integral_is_the_energy) {
     static const struct {
         const char *text;

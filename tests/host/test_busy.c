@@ -8,11 +8,11 @@
 #include "motion.h"
 #include "rattle.h"
 
-/* A busy run must be reported if its error exceeds this part of its range, and not below that. */
+/* A run with busy contacts must be reported if its error exceeds this part of its range, and only then. */
 #define OFF 0.02
 #define RIGHT 3e-3
 #define CURED 5e-3
-/* Round-off of a bounce's time in float, in parts of the gap: some units in the last place. */
+/* Round-off of the time of a bounce in float, relative to the gap: some units in the last place. */
 #define ROUNDED 1e-6
 
 typedef struct measured {
@@ -64,7 +64,7 @@ static void say(const char *text, const char *step, bool is_float, said *what) {
 
 static bool is_told(const said *what) { return strstr(what->err, "warning: ") != NULL; }
 
-/* The proposed step with the number format beside it; false without a proposal. */
+/* The proposed step and the number format named with it; false without a proposal. */
 static bool step_said(const said *what, char word[40], bool *is_float) {
     const char *hint = strstr(what->err, "\nhint: --step ");
     *is_float = *is_float && (hint == NULL || strstr(hint, "--number double") == NULL);
@@ -127,7 +127,7 @@ TEST(busy, busy_contacts_are_told_and_cured) {
     TEST_ASSERT_TRUE(without <= off / 10);
 }
 
-/* A million events per step and more; the hint's change of the scene is applied. */
+/* The ball would need a million events per step and more. The scene is changed as the hint proposes. */
 TEST(busy, where_no_step_helps_the_scene_is_changed) {
     dice d = dice_of("busy_scenes", 15002);
     const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));

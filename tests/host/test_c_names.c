@@ -70,7 +70,7 @@ TEST(c_names, compilers_have_nothing_to_say_of_what_is_free) {
     TEST_ASSERT_EQUAL_INT(0, complaints);
 }
 
-/* Natural names of mechanisms, close to names of the library. */
+/* Natural names in mechanisms that are close to names of the C library. */
 TEST(c_names, ordinary_names_are_free) {
     static const char *const names[] = {"spring",
                                         "strut",
@@ -127,7 +127,7 @@ TEST(c_names, names_to_come_are_refused) {
     }
 }
 
-/* All names of <stdint.h> and <inttypes.h> by their parts. A name with a part missing or doubled is free. */
+/* All names of <stdint.h> and <inttypes.h>, composed of their parts. A name that lacks a part or has one twice is free. */
 TEST(c_names, names_of_integers_are_refused) {
     static const char *const kinds[] = {"", "_least", "_fast"};
     static const char *const kinds_of_macros[] = {"", "_LEAST", "_FAST"};
@@ -178,7 +178,7 @@ TEST(c_names, names_of_integers_are_refused) {
     }
 }
 
-/* A function variant for another type ends with that type's letters; only a few may have _r after them. */
+/* The variant of a function for another type ends with that type's letters. Only a few variants may end with _r as well. */
 TEST(c_names, variants_of_functions_are_refused) {
     static const char *const of[] = {"sin", "lgamma", "exp10", "nextafter", "fmaximum_mag_num"};
     static const char *const types[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",

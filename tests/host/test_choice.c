@@ -90,7 +90,7 @@ static const table_row *row_of(const request *q, const choice_row *r) {
 
 enum { SUBSTEPS_MOST = 40 };
 
-/* Exhaustive search over settings (some, unless WHIRL_FULL) and substeps: least cycles and flash that meet all
+/* Exhaustive search over settings (a sample, unless WHIRL_FULL) and substeps for the least cycles and flash that meet all
  * limits. */
 static void try_all(request *q, double *cycles, double *flash) {
     *cycles = *flash = (double)INFINITY;
@@ -163,7 +163,8 @@ static bool is_same(const table_row *a, const table_row *b) {
            a->result.error == b->result.error && a->price.value == b->price.value;
 }
 
-/* The same effort gives the same rows on any number of processors. Less effort gives fewer rows and reports that. */
+/* With the same effort the rows are the same on any number of processors. With less effort there are fewer rows, and the
+ * output says so. */
 TEST(choice, rows_depend_on_the_effort_alone) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
@@ -194,7 +195,8 @@ TEST(choice, rows_depend_on_the_effort_alone) {
     }
 }
 
-/* The answer's larger error limit or faster clock suffices, and slightly less does not. */
+/* If the request gets the larger error limit or the faster clock of the answer, there is a choice. With slightly less there
+ * is none. */
 TEST(choice, what_would_fit_does) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
@@ -233,7 +235,7 @@ static char *code_of(const request *q, const setting *s, bool *own) {
     return text;
 }
 
-/* Of all settings that make the same code, exactly one is the scene's own. */
+/* Of all settings that generate the same code, a scene has exactly one. */
 TEST(choice, settings_of_a_scene_are_those_that_differ) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
@@ -280,7 +282,7 @@ TEST(choice, settings_of_a_scene_are_those_that_differ) {
     }
 }
 
-/* Does another row of the table have no more cost and no more error? */
+/* Is there another row of the table with at most this cost and this error? */
 static bool is_beaten(const table *made, const table_row *row) {
     for (int i = 0; i < made->count; i++) {
         const table_row *other = &made->row[i];

@@ -31,7 +31,7 @@ typedef struct duration {
     char text[64];
 } duration;
 
-/* `digits` with so many decimals, in a unit of 1/per s. */
+/* `digits` with `decimals` decimals, in a unit of 1/per s. */
 static duration duration_of(uint64_t digits, int places, const char *of, uint64_t per) {
     duration d = {digits, per, ""};
     char number[32];
@@ -50,7 +50,8 @@ static uint64_t number_behind(const char *in, const char *what) {
     return strtoull(at + strlen(what), NULL, 10);
 }
 
-/* The generated code counts as the decimals say: round-half-down(until / step), with the decimal step. */
+/* The generated code has the number of steps that follows from the decimals: until / step, ties rounded down, with the
+ * decimal step. */
 static void expect_count(const duration *step, const duration *until) {
     char text[320];
     char message[160];
@@ -120,14 +121,14 @@ TEST(counts, counts_are_exact) {
         }
         const duration step =
             duration_of(1 + random_below(most), (int)random_below(4), units[k].name, units[k].per);
-        /* a number of steps from one to 50 years, off by up to half a step */
+        /* any number of steps, up to 50 years, plus or minus up to half a step */
         const double span_s = (double)step.digits / (double)step.in;
         const double count = exp(log(1.6e9 / span_s) * (double)random_below(1000) / 1000.0);
         const double end_s = floor(count + 1.0) * span_s;
         if (end_s > 1.6e9 && count > 2.0) {
             continue;
         }
-        int places = 0; /* up to 14 digits, which a double holds exactly enough */
+        int places = 0; /* up to 14 digits, which a double can tell apart */
         double digits = end_s;
         while (places < 12 && digits < 1e12) {
             digits *= 10.0;
@@ -216,7 +217,7 @@ TEST(counts, times_are_rounded_once) {
     }
 }
 
-/* --every and --from, as values computed in double: within round-off of a step's end, they mean that end. */
+/* A --every or --from that was computed in double, and thus differs from a step's end by round-off, means that end. */
 TEST(counts, spacings_and_begins_are_counted_in_steps) {
     for (int i = 0; i < 20000; i++) {
         const whole_ratio step =
@@ -365,7 +366,7 @@ TEST(firstlight, broken_records) {
     }
 }
 
-/* A valid CRC does not make a valid record: other lines, control bytes, too long a text. */
+/* A valid CRC does not make a valid record. The test seals other lines, control bytes and a text that is too long. */
 TEST(firstlight, sealed_nonsense) {
     static char before[ROOM];
     size_t from[LIGHT_FIELDS + 3];

@@ -37,7 +37,7 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
         const bool is_fine = what.err[0] == '\0';
         run(text, form, cells, "1ms", &what);
         if (!is_fine || what.err[0] == '\0') {
-            continue; /* the step is too coarse, or there is no loss */
+            continue; /* no test of tables: the step is too coarse, or there is no loss */
         }
         told++;
         char twice[60];

@@ -93,7 +93,7 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
     model_drop();
 }
 
-/* Finite samples whose measure overflows, and the same ones small enough. */
+/* A measure of finite samples overflows; the same samples, made small enough, give a number. */
 TEST(command_changes, measures_that_overflow_fail_their_points) {
     static const struct {
         const char *measure; /* of x swinging over +-1 */

@@ -37,7 +37,7 @@ static const char *blanks_of(uint64_t *seed) {
     return some[random_bits(seed) % (sizeof some / sizeof some[0])];
 }
 
-/* Take `text` as the value of --with (or --without); its names in *o. */
+/* Takes `text` as the value of --with (or --without), and writes its names to *o. */
 static bool take(common_options *o, bool with, const char *text, bool joined) {
     char option[20];
     char whole[400];

@@ -65,8 +65,8 @@ TEST(busy_beside, a_cure_is_one_of_all) {
     TEST_ASSERT_TRUE(energies > cases / 4 && cured > cases / 4 && (both > 0 || cases < 30));
 }
 
-/* A heavy round body hits another head-on, without a force that presses them together. The restitution in the hint ends
- * the events. */
+/* A heavy round body hits another one head-on, and no force presses them together. The restitution named in the hint ends the
+ * events. */
 TEST(busy_beside, head_on) {
     dice d = dice_of("head on", 15006);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 300));
@@ -97,7 +97,7 @@ TEST(busy_beside, head_on) {
     TEST_ASSERT_TRUE(told * 10 > cases);
 }
 
-/* A clock in a stop with far less inertia than the body: its run ends, and the hint names the stop. */
+/* A body with far less inertia than the others, used as a clock, hits a stop. Its run ends, and the hint names the stop. */
 TEST(busy_beside, light_clocks) {
     dice d = dice_of("light clocks", 15007);
     const unsigned cases = dice_cases(usual_or(20, 8));
@@ -488,7 +488,7 @@ static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
 
 static double apart(double got, double wanted) { return fabs(got - wanted) / (1.0 + fabs(wanted)); }
 
-/* Error of the account of contact k: the energy, then each momentum. */
+/* Error in the account of contact k: first the energy, then each momentum. */
 static double books_apart(const motion *m, const drawn *b, int k, double energy, double impulse) {
     double total[64] = {0.0};
     double left[DRAWN_MOST + 1] = {0.0};
@@ -730,8 +730,8 @@ TEST(contact_law, no_contact_does_more_than_it_can) {
     TEST_ASSERT_TRUE(worst <= 1e-11 && over <= runs / 10);
 }
 
-/* A hold and a resting stop in opposite directions of one row: impacts release the stop, which stays closed, as nothing
- * pushes it off. Friction that stuck at x0 has no part in that: its normal force is zero. */
+/* A hold and a resting stop act along one row in opposite directions. Impacts unload the stop, which stays closed because
+ * nothing pushes the body off. Friction that stuck at x0 plays no part: its normal force is zero. */
 TEST(contact_law, friction_takes_no_impulse_when_a_stop_rests_on) {
     drawn b = {.n = 3,
                .contacts = 5,

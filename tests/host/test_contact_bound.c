@@ -76,10 +76,11 @@ typedef struct worst {
     uint64_t declared;
     uint64_t events;
     uint64_t overruns;
-    double gained_J; /* by one contact in one run, beyond the run's numerical drift */
+    /* largest energy that one contact gave in a run, beyond the run's numerical drift */
+    double gained_J;
 } worst;
 
-/* All contacts except the assignments of crossings only take energy, apart from the run's numerical drift. */
+/* Apart from the run's numerical drift, every contact only takes energy; the assignments of crossings are exempt. */
 static void watch_books(const image *p, const engine_kind *kind, const void *run, worst *w) {
     const image_ledger *l = &p->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);

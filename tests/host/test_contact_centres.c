@@ -83,7 +83,7 @@ static long double way_of(const machine *c, const long double s[2]) {
     return next > 0.0L ? 1.0L : next < 0.0L ? -1.0L : f[2] > 0.0L ? 1.0L : -1.0L;
 }
 
-/* To `until_s`; false if the machine comes to rest or its stop would have to pull. */
+/* Integrates to `until_s`. False if the machine comes to rest or its stop would have to pull. */
 static bool reference(const machine *c, long double until_s, long double s[2]) {
     const long double h = 5e-5L;
     long double t = 0.0L;
@@ -194,7 +194,7 @@ TEST(contact_centres, the_cam_goes_on) {
     expect_between("float, rad off", 0.0, 1e-2, f.off_rad);
 }
 
-/* At rest, started at the exact centre and driven, slow passages, fast ones. */
+/* Machines at rest, started exactly at a dead centre and driven; slow passages, fast ones. */
 static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     machine c = {.kind = kind};
     c.J = random_between(seed, 0.05, 0.4);
@@ -229,7 +229,8 @@ static void check_machines(int how, const char *words, double until_s, unsigned 
             const machine c = random_machine(&seed, (machine_kind)kind, how);
             long double s[2];
             if (!reference(&c, wide(until_s), s)) {
-                continue; /* it comes to rest or leaves its stop: another class */
+                /* the machine comes to rest or leaves its stop, which other tests cover */
+                continue;
             }
             done++;
             for (int n = 0; n < 2; n++) {

@@ -137,7 +137,7 @@ TEST(contact_holds, linkages_stay_closed) {
     }
 }
 
-/* If shortest + longest equals the sum of the others, a linkage lies flat once per turn and can continue in two
+/* If shortest + longest equals the sum of the others, the linkage lies flat once per turn. From there it can continue in two
  * ways. */
 TEST(contact_holds, a_flat_linkage_is_refused) {
     const char *asked = getenv("WHIRL_FLAT_RUNS");
@@ -176,7 +176,7 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
                 printf("%sstatus %d, a = %g, %s\n", text, (int)status, motion_value(&m, "a"),
                        KINDS[n]->name);
             }
-            /* not much earlier, and the last good state is kept */
+            /* the run does not end much earlier, and the last good state is kept */
             missed[n] += status != WH_E_SINGULAR || flat > 0.1;
             motion_close(&m);
         }
@@ -189,8 +189,8 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
 
 /* --- gears ------------------------------------------------------------------------------------------------------ */
 
-/* Turned by 20000 rad, which a double resolves to 4e-12. In float, angles are integers: a gear ratio that float
- * represents keeps its mesh exactly, another one as well as its rounded ratio. */
+/* The gears are turned by 20000 rad, where a double resolves 4e-12. In float, angles are integers: the mesh is exact for a
+ * gear ratio that float represents. For another ratio the mesh is as accurate as the rounded ratio. */
 TEST(contact_holds, gears_keep_their_mesh) {
     uint64_t seed = 14;
     static const double ratios[] = {1.0, 2.0, -3.0, 1.5, 0.0};
@@ -359,9 +359,9 @@ static const char *fill(const char *from, const held *of, const double number[st
     return to;
 }
 
-/* When such a hold closes, its condition is at its limit to the last digits. It holds in both number formats, against
- * any pull and other events in the same steps, until another condition releases it. A hold that starts at its limit
- * stays, unless it moves out. */
+/* When a hold closes at its own limit, its condition equals the limit to the last digits. The hold stays closed in both
+ * number formats, against any pull and through other events in the same steps, until another condition releases it. A hold
+ * that starts at its limit stays closed, unless its body moves out. */
 TEST(contact_holds, a_hold_stays_at_its_own_limit) {
     dice d = dice_of("contact_holds", 1);
     int failures = 0;
@@ -433,8 +433,8 @@ static const stepping *each_number(int i) {
 
 /* --- the weaker contact -------------------------------------------------------------------------------- */
 
-/* The push exceeds both friction limits. But the block's friction can pass on 4.905 N, less than the plank's 5.886
- * N. */
+/* The push exceeds both friction limits. But only 4.905 N reach the plank through the block's friction, less than the plank's
+ * limit of 5.886 N. */
 TEST(contact_load, the_weaker_friction_protects_the_other) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
@@ -470,7 +470,7 @@ TEST(contact_load, leaning_blocks_rest_exactly) {
     }
 }
 
-/* Only together can the frictions hold it: capacities of 3.687 N each, load 6.710 N. */
+/* Each friction holds 3.687 N, the load is 6.710 N: the frictions can hold it only together. */
 TEST(contact_load, frictions_add_up_through_a_hold) {
     static const char text[] =
         "mechanism coupled\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n"
@@ -537,7 +537,6 @@ TEST(contact_load, a_ball_comes_to_rest_in_a_groove) {
     }
 }
 
-/* Three carts in a row, in plastic impacts, without a force that presses them together. */
 TEST(contact_load, plastic_impacts_without_a_force) {
     static const char text[] =
         "mechanism carts\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
@@ -618,7 +617,7 @@ TEST(contact_load, an_input_moves_a_stop) {
     }
 }
 
-/* A restitution outside 0 ... 1 from an input counts as the nearer end, so that no energy appears. */
+/* If an input makes the restitution less than 0 or more than 1, the nearer end counts, so that no energy appears. */
 TEST(contact_load, restitution_has_its_range_while_running) {
     motion m;
     stepping how = IN_DOUBLE;
@@ -635,7 +634,7 @@ TEST(contact_load, restitution_has_its_range_while_running) {
     motion_close(&m);
 }
 
-/* A held rate is captured again and booked: momentum m (2 - 0), energy m 2^2/2. */
+/* An assignment sets a held rate: the hold captures it again and books momentum m (2 - 0) and energy m 2^2/2. */
 TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     static const char text[] =
         "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"

@@ -85,7 +85,7 @@ typedef struct chain {
     int order[BODIES - 1]; /* order of declaration of its stops */
 } chain;
 
-/* Impacts of touching pairs until none closes. Returns their number; *first_Ns is the first body's impulse. */
+/* Lets touching pairs collide until no pair closes. Returns the number of impacts; *first_Ns is the first body's impulse. */
 static int collide(chain *c, double *first_Ns) {
     int count = 0;
     bool again = true;
@@ -205,7 +205,8 @@ TEST(contact_moments, an_impact_that_is_over_within_the_step) {
         if (collide(&c, &floor_Ns) > 6) {
             continue;
         }
-        /* off the floor within the step, but so weakly that the two separate for longer than a rest */
+        /* the pull lifts the body within the step, but so weakly that the two stay apart for longer than a flight that counts
+         * as rest */
         const double down = (1.0 + e) * u * mass[1] / (mass[0] + mass[1]);
         const double pull = random_between(&seed, 4.0, 10.0) * mass[0] * down / 1e-3;
         const char *const stops[] = {"stop low >= 0 restitution %.17g\n",
@@ -411,7 +412,7 @@ TEST(contact_scenes, two_frictions_come_to_rest) {
     expect_between("cart in float, m", 0.0, 2e-5, fabs(X[2] - X[1]));
 }
 
-/* Kick and drag balance: the loss of a period equals a kick's energy. */
+/* At the final amplitude kick and drag balance: the loss of a period equals the energy of a kick. */
 TEST(contact_scenes, escapement_reaches_its_amplitude) {
     const double d = 2e-5 / (2.0 * 1e-4);
     const double w = sqrt(0.01 / 1e-4 - d * d);
@@ -485,7 +486,6 @@ static uint64_t watch(const watched *w, const char *text, bool in_float, double 
     return overruns;
 }
 
-/* Runs `run` with seeds from 1 on. */
 static void watch_many(uint64_t run(uint64_t seed, double *deepest_m)) {
     const char *wanted = getenv("WHIRL_CASES");
     const long runs = wanted != NULL ? strtol(wanted, NULL, 10) : 100;
@@ -694,7 +694,7 @@ static uint64_t run_cage(uint64_t seed, double *deepest_m) {
 TEST(contact_squeezed, nothing_leaves_a_cage) { watch_many(run_cage); }
 
 /* === crossings ================================================================================ */
-/* Several crossings with assignments: each makes its own, in its own time. */
+/* Several crossings have assignments. Each makes its own assignment, at its own time. */
 
 /* x moves on at 1 m/s and crosses a level every second; each crossing sets rates of some of y, z, u. */
 TEST(crossings, each_crossing_sets_its_own) {
@@ -763,7 +763,7 @@ typedef struct bounce {
 
 enum { HITS_MOST = 12, HITS_IN_STEP = 5 };
 
-/* Time of the next crossing; infinity: never. A body at the level leaves it first. */
+/* Time of the next crossing; infinity: there is none. A body at the level leaves the level first. */
 static double next_hit_s(const bounce *b) {
     if (b->x_m == 0.0) {
         const double back_s = b->pull == 0.0 ? -1.0 : 2.0 * b->v_mps / b->pull;
@@ -870,8 +870,8 @@ TEST(crossings, what_turns_back_crosses_once) {
     TEST_ASSERT_TRUE(taken > 10 && crowded > 1);
 }
 
-/* A body stops at its crossing and stands, alone or by friction, until another crossing moves it on or back: it has
- * crossed once. A second level, half a metre on, is crossed and counted on the way. */
+/* A body stops at its crossing and stands there, alone or by friction, until another crossing moves it on or back. That is
+ * one crossing. On its way it crosses a second level, half a metre further, which counts too. */
 TEST(crossings, what_stands_at_its_crossing) {
     dice d = dice_of("what stands", 5521);
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -956,7 +956,7 @@ TEST(crossings, what_is_set_onto_another) {
     TEST_ASSERT_TRUE(passed > 5);
 }
 
-/* Each lossless bounce throws a rate across a crossing of that rate, and between bounces it falls through it: two
+/* Each lossless bounce throws a rate across the level of a crossing, and between bounces the rate falls back through it: two
  * crossings per bounce. */
 TEST(crossings, what_impacts_throw_across) {
     dice d = dice_of("thrown across", 5523);

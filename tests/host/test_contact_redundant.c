@@ -15,7 +15,7 @@ typedef struct plate {
     double mass_kg;
     double inertia_kgm2;
     double rate;   /* of the clock, rad/s */
-    double height; /* of the supports' swing, m; or of the torque, N m */
+    double height; /* amplitude of the supports' swing, m, or of the torque, N m */
 } plate;
 
 static plate drawn(dice *d) {
@@ -31,7 +31,8 @@ static plate drawn(dice *d) {
     return p;
 }
 
-/* `falls`: the supports move as height sin(c), with y above them; otherwise a torque turns the plate to the right. */
+/* With `falls` the supports move as height sin(c), and y is the plate's height above them. Otherwise a torque tips the plate
+ * to the right. */
 static void write(const plate *p, bool falls, char text[TEXT]) {
     int at = snprintf(text, TEXT,
                       "mechanism plate\ncoordinate y [m]\ncoordinate a [rad]\ncoordinate c [rad]\n"
@@ -92,7 +93,8 @@ static void expect(bool falls, const char *words) {
     for (unsigned i = 0; i < cases; i++) {
         plate p = drawn(&d);
         double until_s = 0.0;
-        if (falls) { /* it flies from sin c0 = share until shortly after the top of the supports' swing */
+        if (falls) {
+            /* the plate flies from sin c0 = share until shortly after the top of the supports' swing */
             const double share = dice_between(&d, 0.3, 0.9);
             p.height = GRAVITY / (share * p.rate * p.rate);
             until_s = 1.7 / p.rate;

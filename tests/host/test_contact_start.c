@@ -66,7 +66,7 @@ static int row_text(const row *of, char *text, size_t size) {
     return n;
 }
 
-/* The rates after one step, and its events. Were there too many? */
+/* Writes the rates after one step and its number of events. Were there too many events? */
 static bool after_a_step(const row *of, double *rate, uint64_t *events) {
     char text[4000];
     motion m;
@@ -385,8 +385,8 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
     return off_at(UNTIL_S, h, wanted, step_s, text);
 }
 
-/* A motion too fast for the step: with an eighth of the step, both programs' errors are 4096 times smaller. And a
- * little later, since an impact at the end itself may have happened in only one of them. */
+/* If a motion is too fast for the step, both programs err; with an eighth of the step their errors are 4096 times smaller. A
+ * check a little later is needed too, because an impact exactly at the end may have happened in only one of them. */
 static double off_in_finer(const hybrid *h, const char *text) {
     const double later_s = UNTIL_S + 8.0 * STEP_S;
     const hybrid_motion wanted = hybrid_move(h, HYBRID_STEP_S / 8.0, later_s, STEP_S);

@@ -131,7 +131,7 @@ TEST(contact_stops, too_many_bounces_are_told_and_end) {
     }
     TEST_ASSERT_TRUE(contacts_overruns(&m) >= 1);
     motion_close(&m);
-    /* a step with room for its bounces takes all. 25 m/s over 1 mm, 25000 per second */
+    /* a step short enough for its bounces handles all of them: 25 m/s over 1 mm are 25000 per second */
     motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
     motion_to(&m, 0.1);
     TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
@@ -141,7 +141,7 @@ TEST(contact_stops, too_many_bounces_are_told_and_end) {
     motion_close(&m);
 }
 
-/* Balls whose restitution depends on the impact speed: a warning must say where it leaves 0 to 1, and only there. */
+/* The restitution of the balls depends on the impact speed. A warning must appear where it is outside 0 to 1, and only there. */
 TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
     dice d = dice_of("contact_stops", 5);
     const unsigned cases = dice_cases(24);

@@ -10,7 +10,7 @@
 
 static const cost_number numbers[] = {COST_FLOAT, COST_DOUBLE};
 
-/* A figure is consistent: unknown quantities have no number, and the best estimate is within its bounds. */
+/* A figure must be consistent: an unknown quantity has no number, and the best estimate lies within its bounds. */
 static void expect_whole(const cost_figure *f, const char *what) {
     switch (f->basis) {
     case COST_NOT_KNOWN:
@@ -131,7 +131,7 @@ TEST(cost, a_longer_row_costs_more) {
     }
 }
 
-/* As `whirl describe` and the generated headers state it (WH_MEMORY_BYTES). */
+/* The number of bytes is that of `whirl describe` and of the generated headers (WH_MEMORY_BYTES). */
 TEST(cost, state_bytes_are_those_of_the_header) {
     static const struct {
         const char *name;
@@ -184,7 +184,7 @@ TEST(cost, measured_rows_are_read) {
         cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m7, &c));
     TEST_ASSERT_TRUE(c.cycles.basis == COST_RANGE && c.cycles.value == 0.0 &&
                      c.cycles.least < c.cycles.most);
-    /* another board's, one column less or more, the header, empty */
+    /* refused lines: another board's row, one column less or more, the header, an empty line */
     TEST_ASSERT_FALSE(
         cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m4, &c));
     TEST_ASSERT_FALSE(
@@ -260,7 +260,7 @@ static int by_size(const void *one, const void *other) {
     return (a > b) - (a < b);
 }
 
-/* The counted rows of docs/figures/price.csv, which are absent from the table of figures. */
+/* The counted rows of docs/figures/price.csv, which were not used for the table of figures. */
 TEST(cost, counted_steps_are_predicted) {
     static char head[2000];
     static char line[2000];

@@ -55,7 +55,7 @@ static double energy_J(const ruined *r, double x, double y, double vx, double vy
     return 0.0;
 }
 
-/* Scale of the exchanged energy: the stored energy at the start above its minimum. */
+/* Scale of the exchanged energy: the stored energy at the start, measured from its minimum. */
 static double moved_J(const ruined *r) {
     switch (r->kind) {
     case ORBIT: return 0.5;
@@ -154,7 +154,7 @@ TEST(cures, cures_were_tried) {
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", again.err, about);
             done++;
             if (r.kind == CLOCKED && r.number[0] == 'f' && !list[k].in_double) {
-                continue; /* float loses a part of that energy in a clock's rate */
+                continue; /* in float, the rounded rate of a clock loses a part of that energy */
             }
             TEST_ASSERT_TRUE_MESSAGE(left < CURED, about);
             worst = fmax(worst, left);
@@ -167,8 +167,9 @@ TEST(cures, cures_were_tried) {
     TEST_ASSERT_TRUE(told > cases / 3 && done > told / 2 && untried <= told / 5);
 }
 
-/* A body rolls up to the top of a hill, where its errors grow as exp(t), beside a spring that needs a shorter step. In float
- * its rounding throws it off the top: that is chaotic, and no finding. A cure in float is right to the end all the same. */
+/* A body rolls up to the top of a hill, where its errors grow as exp(t), beside a spring that needs a shorter step. In float,
+ * round-off decides on which side it rolls down; that is chaos, and Whirl reports no finding. A cure in float must still be
+ * right to the end. */
 TEST(cures, cures_in_float_are_right_to_the_end) {
     dice d = dice_of("cures_float", 29112026);
     const unsigned cases = dice_cases(few_or_all(12, 60));

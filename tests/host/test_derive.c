@@ -158,7 +158,7 @@ TEST(derive, power_balances_in_every_mechanism) {
     }
 }
 
-/* Two-sided: a lower cost is good, but needs a new bound and a check that nothing was lost. */
+/* The bound has two sides: after a lower cost, check that nothing was lost and enter the new cost here. */
 static void expect_cost(const char *name, int at_least, int at_most, int waves) {
     derived d = derived_builtin(name);
     derived_expect(&d, name);

@@ -92,7 +92,6 @@ static double sinh_range(void) { return within(-711.0, 711.0); }
 static double overflowing(void) { return either(within(709.0, 711.0)); }
 static double near_series_end(void) { return either(0.25 + scaled_between(-53, -4)); }
 
-/* The core's functions, with sine and cosine. */
 static const function functions[] = {
     {"exp", wh_exp, expl, {any, exp_range, small, subnormal_exp, next_to_one}},
     {"log", wh_log, logl, {any, positive, about_one, next_to_one, few}},

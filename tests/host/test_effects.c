@@ -113,7 +113,6 @@ TEST(effects, drag_is_along_the_velocity) {
     motion_close(&m);
 }
 
-/* The same flight with drag in spherical and Cartesian coordinates. */
 TEST(effects, drag_is_the_same_in_spherical_coordinates) {
     static const char *const names[] = {"x", "y", "z"};
     motion a;

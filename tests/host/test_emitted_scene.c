@@ -244,7 +244,6 @@ static void check_books(const image *im) {
 
 TEST(emitted_scene, books_are_the_images) { each_emitted(check_books); }
 
-/* The arrays of an observer. */
 static void check_observer(const image *im) {
     char words[200];
     if (im->outputs == 0) {

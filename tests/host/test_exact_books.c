@@ -213,7 +213,6 @@ static int check_listed(const scene *s) {
     return is_free;
 }
 
-/* The list has exactly the scenes without external forces. */
 TEST(force_free, no_force_free_scene_is_forgotten) {
     TEST_ASSERT_EQUAL_INT(FREE_COUNT, each_builtin_scene(check_listed));
 }
@@ -403,7 +402,6 @@ TEST(ledger_scenes, the_gears_torque_gives_what_theta_says) {
     motion_close(&m);
 }
 
-/* The residual is the method's error: of fourth order. */
 TEST(ledger_scenes, what_is_left_over_falls_at_fourth_order) {
     double left[3];
     for (int k = 0; k < 3; k++) {

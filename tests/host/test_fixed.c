@@ -379,7 +379,6 @@ TEST(fixed_runs, refusals) {
     }
 }
 
-/* The same denominator, kept from zero by its range. */
 TEST(fixed_runs, ranges_keep_denominators_from_zero) {
     derived d = derived_scene(
         "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J*m]/(x + 3 [m]) + 2 [N/m]*x^2\n"

@@ -39,7 +39,6 @@ typedef struct held {
 
 /* --- the text -------------------------------------------------------------------------------------------------------- */
 
-/* The place of a body, or its rates. */
 static void put_place(FILE *out, int body, const char *primes) {
     fputs("(0", out);
     for (int b = 0; b <= body; b++) {
@@ -432,7 +431,6 @@ static const maker makers[] = {
 };
 enum { MAKERS = sizeof makers / sizeof *makers };
 
-/* Its use. */
 typedef enum use { HOLDS, STARTS, PUSHES, RUBS, SETS, USES } use;
 
 typedef struct drawn {
@@ -503,7 +501,7 @@ static void put_motion(FILE *out, const drawn *w, const char *soft) {
     }
 }
 
-/* At the end. */
+/* The reference's places and rates at the end. */
 static void wanted_of(const drawn *w, double *x_m, double *v_mps) {
     const double turn = w->rate_radps * w->end_s;
     switch (w->use) {

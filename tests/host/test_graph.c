@@ -335,7 +335,6 @@ static enclosure read_number(const char *written) {
     return g_graph->node[number].number;
 }
 
-/* Integers stay exact through sums, products, quotients and powers with integer results. */
 TEST(graph, whole_numbers_stay_whole) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 60)); c++) {
         const int a = 1 + (int)dice_one_of(&die, 12);
@@ -404,7 +403,6 @@ SUITE(graph) { die = dice_of("graph", 41); }
 
 enum { LETS = 24, NUMBERS = 4, TEXT_SIZE = 6000, VARIABLES = 7 };
 
-/* A parsed text with its symbols. */
 typedef struct reading {
     whirl_model *model;
     const mechanism *of;

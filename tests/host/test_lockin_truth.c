@@ -155,7 +155,6 @@ static void check_scatter(const rig_noise *noise) {
     check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
 }
 
-/* Bias at most 0.5 % and 0.5 degrees. */
 TEST(lockin_truth, bias_and_scatter) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     for (unsigned k = 0; k < 5; k++) {

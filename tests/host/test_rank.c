@@ -378,7 +378,6 @@ TEST(solving, the_equation_that_repeats_others_is_named) {
 
 /* --- long products ---------------------------------------------------------------------------------------- */
 
-/* Products of up to forty factors and powers, alone and in a sum; lowering keeps 24 apart. */
 TEST(solving, long_products_keep_their_value) {
     uint64_t seed = 43;
     for (int factors = 20; factors <= 40; factors++) {

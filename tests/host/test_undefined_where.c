@@ -159,7 +159,6 @@ TEST(undefined_where, what_it_is_made_of) {
     }
 }
 
-/* Turning angles advance by their rates: a, b and x, declared in any order. */
 TEST(undefined_where, angles_that_it_is_made_of) {
     static const char *const orders[] = {
         "coordinate a [rad]\ncoordinate b [rad]\ncoordinate x [m]\n",

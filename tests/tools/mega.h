@@ -25,7 +25,6 @@ typedef struct mega_times {
     unsigned histogram[64]; /* of steps, 1000 cycles each; the last counts all above */
 } mega_times;
 
-/* The motor as its pins drive it. */
 typedef struct mega_motor {
     bool enabled;
     float duty;

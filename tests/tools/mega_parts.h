@@ -24,7 +24,7 @@ typedef struct mega_next {
         overflows; /* a bit for timer 4, one for 5: overflow pending, not affected by the instruction */
 } mega_next;
 
-/* Out of a reset. */
+/* Called after a reset. */
 void mega_parts_start(void);
 
 /* The firmware's violation of the data sheet; NULL: none. */

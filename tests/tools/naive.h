@@ -22,7 +22,6 @@ extern const naive_mechanism naive;
 void naive_start(double state[]);
 /* One step of the classic Runge-Kutta method, h_s seconds long. */
 void naive_step(double state[], double h_s);
-/* Copies the current state to state[]. */
 void naive_read(double state[]);
 
 /* The file that makes naive_step() from a mechanism's slope(), to be included after it. */
