@@ -14,7 +14,7 @@
  * line 12". *count is their number. */
 #define INFLUENCE_TEXT_SIZE 200
 
-/* Influences listed by name, at most. */
+/* Most influences listed by name. */
 enum { TOLD_MAX = 4 };
 
 static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, place at) {
@@ -172,7 +172,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     return g;
 }
 
-/* The same; if kept powers of sums prevent it, with them multiplied out. */
+/* The same. If unexpanded powers of sums prevent it, they are multiplied out. */
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
@@ -236,7 +236,7 @@ typedef struct momentum_law {
     const poly *others; /* G without the conserved coordinates' part */
 } momentum_law;
 
-/* sum over the conserved of m_kl x_l = right_k, solved for x by Cramer's rule. */
+/* Solves sum m_kl x_l = right_k, over the conserved coordinates l, for x by Cramer's rule. */
 static void solve_conserved(const equations *e, const conservation *c, const momentum_law *laws,
                             const poly *const *right, const poly **x) {
     algebra *a = e->algebra;
@@ -307,7 +307,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     return false;
 }
 
-/* G for each law, if it exists; else the coordinates are integrated. */
+/* Finds G for each law. If one law has none, the coordinates are integrated. */
 static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
     algebra *a = e->algebra;
     for (int k = 0; k < c->count && c->closed; k++) {

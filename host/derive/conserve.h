@@ -7,8 +7,8 @@
  *
  * so its rate follows algebraically from the others'. If the momentum is the rate of a function G(q) (a centre of mass
  * times the total mass), X itself follows too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and
- * their drift is round-off only. Otherwise X is integrated from its algebraic rate. So it is if a force or a contact
- * depends on X, since a step knows no time. */
+ * their drift is round-off only. Otherwise X is integrated from its algebraic rate. X is integrated, too, if a force or a
+ * contact depends on X, because a step does not know the time. */
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H
 

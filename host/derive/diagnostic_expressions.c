@@ -9,7 +9,7 @@
 
 #include "host/base/alloc.h"
 
-/* A poly or an atom entered before. */
+/* A poly or an atom that was already entered. */
 typedef struct known {
     const void *what;
     int node;

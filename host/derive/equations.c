@@ -77,7 +77,7 @@ bool contact_loosens(const contact_statement *h) {
     return h->kind == CONTACT_WHEN && h->normal != NULL;
 }
 
-/* Does the motion change it? Inputs change it only between steps. */
+/* Does the motion change the value? (Inputs change it only between steps.) */
 static bool moves(algebra *a, const mechanism *m, const poly *value) {
     for (int i = 0; i < m->coordinate_count; i++) {
         for (int primes = 0; primes < 2; primes++) {
@@ -89,7 +89,7 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
     return false;
 }
 
-/* After all others, a crossing for every friction whose normal force may vanish, as long as there is space. */
+/* Adds, after all other contacts, a crossing for every friction with a normal force that may vanish, as long as there is space. */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
     laws->loose = alloc(written, sizeof *laws->loose);
@@ -284,7 +284,7 @@ void equations_free(equations *e) {
 /* === the energy in the balance ================================================================ */
 /* The test for a quadratic form of the rates, and the energy integral of other forms. */
 
-/* Sampled states; so many must give finite values. */
+/* Number of sampled states, and how many of them must give finite values. */
 #define TRIES 12
 #define TRIES_NEEDED 3
 /* Round-off allowed in Euler's theorem, relative to its terms. T must be exactly zero at rest, so this test only has to

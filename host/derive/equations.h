@@ -37,8 +37,7 @@ typedef struct contact_laws {
     contact_law *law;         /* [count] */
     contact_set *sets;        /* [count] */
     int set_count;            /* of all crossings */
-    contact_statement *loose; /* [loosening] crossings that are not in the file: see
-                               * contact_loosens() */
+    contact_statement *loose; /* [loosening] crossings that Whirl adds: see contact_loosens() */
     int loosening;
 } contact_laws;
 
@@ -86,7 +85,7 @@ typedef struct equations {
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
     double
-        mass_blur; /* by such a part rounding of mass[] puts accelerations off, at the best of the states tried */
+        mass_blur; /* relative error of the accelerations by the rounding of mass[], at the best of the tried states */
     folding folding;        /* of the file's numbers */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
     const poly **potential; /* [count] dV/dq; for a system all other terms, moved to the left */

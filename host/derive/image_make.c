@@ -42,10 +42,10 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Greatest number of examined parts of a start. If p*p has p = q*q and so on, there are two to the power of the depth. */
+/* Most examined parts of a start. Their number may double with each level of lets: p*p with p = q*q, and so on. */
 enum { MOST_PARTS = 1000 };
 
-/* Is it a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
+/* Is the expression a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
 static bool is_written(const instance *inst, const expr *e, int *parts) {
     if (++*parts > MOST_PARTS) {
         return false;
@@ -100,7 +100,7 @@ static void start_components(image_draft *d) {
     }
 }
 
-/* Energy over rate. */
+/* The unit of a momentum: energy divided by rate. */
 static const char *momentum_unit(image_draft *d, const symbol *q) {
     char si[DIM_TEXT_SIZE];
     dimension dim = q->dim;
@@ -353,8 +353,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         program_free(p);
         return NULL;
     }
-    /* Contacts solve with the same matrix, and tables round on their own. Variants are never run in float, for which
-     * this is. */
+    /* Scaling helps float runs only, so variants do without it. It suits neither contacts, which solve with the same
+     * matrix, nor tables, which have a rounding of their own. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&p->step, op_list_scaling_price(p->step));
@@ -417,7 +417,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
 
-/* Has it the same state and the same signals? */
+/* Do the two images have the same state and the same signals? */
 static bool is_alike(const image *im, const image *other) {
     bool alike = im->form == other->form && im->coordinates == other->coordinates &&
                  im->angles == other->angles && im->reals == other->reals &&

@@ -17,7 +17,7 @@
  * algebra's threshold of zero in a sum. */
 #define NO_PIVOT 4e-14
 
-/* The power of two next to 1/sqrt(x); 1 for zero. */
+/* The power of two nearest to 1/sqrt(x); 1 for zero. */
 static double scale_for(double x) {
     int exponent;
     if (!(x > 0.0) || !isfinite(x)) {
@@ -64,7 +64,8 @@ static double largest_of_column(const double *m, int n, int j) {
     return largest;
 }
 
-/* Rows are scaled by one pass, columns by the next: roots of the largest, so that neither side decides. */
+/* One pass scales the rows, the next the columns. It divides by the root of the largest entry, so rows and columns share the
+ * scaling. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -110,17 +111,15 @@ bool rank_is_positive(double *m, int n) {
 }
 
 /* === can the equations be solved for the highest derivatives? ================================= */
-/* Can the equations be solved for the highest derivatives at all?
- *
- * trying the mass matrix at generic states, and at the start. */
+/* Tests the mass matrix at generic states, and at the start. */
 
 #define TRIES 24
-/* The last try: the state at which a run starts. A mass matrix with a narrow domain may be
- * undefined at all the others. */
+/* The last tried state is the start of the run. A mass matrix with a narrow domain may be undefined at all other
+ * states. */
 #define TRY_START TRIES
 /* Rounding of an entry, as part of the sizes of its terms. */
 #define ENTRY_ROUNDING 4e-16
-/* A relative accuracy of the mass matrix that suffices: no better state is searched for. */
+/* If the mass matrix is this accurate, no better state is searched for. */
 #define MASS_BLUR_FINE 1e-10
 
 enum { HINT_SIZE = 320 };
@@ -130,7 +129,7 @@ typedef struct generic_state {
     uint64_t seed;
 } generic_state;
 
-/* The same symbol always gets the same number within one try: a hash of its place. */
+/* A symbol has the same number throughout one try: a hash of the symbol's place. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
     if (s->kind == SYM_PARAMETER) {
@@ -154,7 +153,7 @@ static double generic_value(void *context, const symbol *s, int primes) {
 /* Four n by n matrices. */
 static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
 
-/* The values of the mass matrix at one try, and how well they are known; false when one is not finite. */
+/* The values of the mass matrix at one tried state, and their error bounds; false if one is not finite. */
 static bool mass_at(const equations *e, int try, double *m, double *error) {
     generic_state state = {e->instance, (uint64_t)try};
     bool finite = true;
@@ -203,7 +202,7 @@ static place place_of_equation(const equations *e, int row) {
     return m->at;
 }
 
-/* No highest derivative at all in the row: it binds the states, it does not move them. */
+/* Has the row no highest derivative? Then it constrains the states, but does not move them. */
 static bool row_is_empty(const equations *e, int row) {
     bool empty = true;
     for (int j = 0; j < e->count; j++) {
@@ -243,7 +242,7 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     return NULL;
 }
 
-/* At how many of the states tried this part of the kinetic energy is negative. */
+/* The number of tried states at which this part of the kinetic energy is negative. */
 static int times_negative(const equations *e, const term *t) {
     const poly *value = poly_from_expr(e->algebra, t->value);
     int negative = 0;
@@ -254,7 +253,7 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* The part of the kinetic energy that is negative most often, and the count in *most; NULL: it never is. */
+/* The part of the kinetic energy that is negative most often; *most is how often. NULL: no part ever is. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -325,7 +324,7 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
-/* An energy's constant part vanishes from the equations, but 1/0 in it is a mistake all the same. */
+/* Are the energies finite, including constant parts? Those vanish from the equations, but 1/0 in one is still a mistake. */
 static bool energies_finite(const equations *e, generic_state *state) {
     return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
@@ -345,7 +344,7 @@ static double blur_of(const double *m, const double *error, int n) {
     return most / least;
 }
 
-/* At one try, and of one that is solvable *blur; m is of room_for(n). */
+/* The verdict at one tried state; *blur is set if it is SOLVABLE. m comes from room_for(n). */
 static run_checks verdict_at(const equations *e, int try, double *m, double *blur) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
@@ -366,13 +365,13 @@ static run_checks verdict_at(const equations *e, int try, double *m, double *blu
         return SINGULAR;
     }
     *blur = blur_of(m, error, n);
-    /* The elimination of a mechanism relies on it; a system's equations are in any order and sign. */
+    /* The elimination of a mechanism relies on a positive definite matrix. A system's equations may have any order and sign. */
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
 /* Tries the mass matrix at a number of generic states and at the start. False, with an error that
- * names the cause, if it is singular at all of them or undefined at all of them. The mass matrix of
- * a mechanism given by energies must also be positive definite at one (otherwise: a negative mass).
+ * names the cause, if it is singular or undefined at all of them. The mass matrix of a mechanism
+ * given by energies must also be positive definite at one of them; otherwise a mass is negative.
  * A matrix that is singular only at some states (a pole of spherical coordinates) passes: such
  * states are found while running. e->mass_blur is set. */
 static bool equations_check_solvable(equations *e, diags *errors) {
@@ -448,7 +447,7 @@ static const poly *acceleration_of(algebra *a, const symbol *driven) {
     return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
 }
 
-/* Its equation: q'' = that. It has no momentum, and no force moves it. */
+/* The equation of a driven coordinate: q'' = its input's acceleration. It has no momentum, and no force moves it. */
 static void drive(equations *e, int i) {
     algebra *a = e->algebra;
     e->momentum[i] = e->velocity[i] = e->potential[i] = poly_number(a, 0.0);
@@ -583,7 +582,7 @@ static const poly **polys(int count) { return alloc(count, sizeof(const poly *))
 /* Beyond the limits of the algebra, or of walks through its results? */
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
-        return true; /* and the unvisited part is missing */
+        return true; /* the unvisited part of the result is missing */
     }
     double size = 0.0;
     for (int i = 0; i < e->count; i++) {

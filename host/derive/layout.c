@@ -7,7 +7,7 @@
 #include "host/base/alloc.h"
 #include "host/base/hashing.h"
 
-/* The noises of outputs with the same seed differ: the hash of the name (FNV-1a) enters the seed. */
+/* The seed of a noise. It includes the hash of the output's name, so that the noises of two outputs differ for equal seeds. */
 static uint32_t seed_of(const noise *of) {
     return hash_text(of->output->name, strlen(of->output->name)) ^ of->seed;
 }
@@ -162,7 +162,7 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
 
 /* --- arranging the state -------------------------------------------------------------------------*/
 
-/* Is this derivative of the unknown part of the state? Conserved coordinates are not, except an integrated value. */
+/* Is this derivative of the unknown part of the state? Of a conserved coordinate only the value is, if it is integrated. */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;

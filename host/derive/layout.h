@@ -10,8 +10,8 @@
 
 /* === noise on recorded quantities: on outputs, and on measures of recorded outputs ============ */
 
-/* Add the active noises to those results that are outputs of the mechanism itself. A sweep's measures in their place
- * get no noise. result[mechanism->output_count]. */
+/* Add the active noises to those of result[mechanism->output_count] that are outputs of the mechanism itself. A sweep
+ * replaces outputs by its measures, which get no noise. */
 void noise_on_outputs(const equations *e, lowering *l, int *result);
 
 /* Recorded outputs (SYM_RECORD), the inputs of measures. */
@@ -21,13 +21,12 @@ typedef struct noise_records {
     int count;          /* number of exact that are not NULL */
 } noise_records;
 
-/* In wanted [count], folded and settled: replace records without active noise by their outputs, and find the others.
- * Free with noise_records_free(). */
+/* In wanted[count], which are folded and settled, replace records without active noise by their outputs, and find the
+ * other records. Free with noise_records_free(). */
 noise_records noise_records_find(const equations *e, const conservation *conserved,
                                  const poly **wanted, int count);
 /* Enter them before lowering the polys that contain them. */
 void noise_records_lower(const equations *e, lowering *l, noise_records *r);
-/* The operation of this record. */
 void noise_records_free(noise_records *r);
 
 typedef struct layout {
@@ -60,7 +59,7 @@ void layout_free(layout *map);
 /* p ready for a list: folded, and without conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
 
-/* `leaf` and `turn` of a lowering whose context is a layout; and such a lowering onto `t`. */
+/* A lowering onto `t` that finds its leaves and turn angles by this layout. */
 lowering layout_lowering(layout *map, op_list *t);
 
 #endif

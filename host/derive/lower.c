@@ -75,8 +75,6 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
     return true;
 }
 
-/* === conversion =============================================================================== */
-
 /* === powers from multiple angles ============================================================== */
 /* Powers of sines and cosines from multiple angles. With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k
  * cos 2kx is a sum of products s^j c^(n-j). A sum of sin 2kx is sin x cos x times such a sum of degree n - 1. Without
@@ -122,7 +120,7 @@ typedef struct family {
     int members;
 } family;
 
-/* The whole number m with angle = m * base; 0 if there is none. */
+/* The whole number m for which angle = m * base; 0 if there is none. */
 static int multiple_of(const poly *angle, const poly *base) {
     if (angle->count != base->count) {
         return 0;
@@ -269,7 +267,7 @@ static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
 
 /* --- squares -------------------------------------------------------------------------------------*/
 
-/* c (1 - cos 2x) and c (1 + cos 2x), even if other multiples of x are present. */
+/* Finds c (1 - cos 2x) and c (1 + cos 2x), even if other multiples of x are present. */
 static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -333,7 +331,7 @@ struct wave {
     int cosine;
 };
 
-/* Only the first, smallest known angles are tried as parts of another. */
+/* Only this many of the smallest known angles are tried as parts of another angle. */
 #define PARTS_MAX 96
 #define BETWEEN_MAX 32
 
@@ -372,7 +370,7 @@ static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
 }
 
-/* The nesting depth of sines in it. */
+/* The nesting depth of sines in p. */
 static int sines_inside(const poly *p) {
     int most = 0;
     for (int i = 0; i < p->count; i++) {
@@ -391,8 +389,8 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* Can a wave be part of this angle's rule? Not if it has more nested sines: one of them could be the angle's own, a
- * circular definition. Rules lead to earlier waves, evaluation to fewer nested sines, so the recursion ends. */
+/* Can a wave be part of this angle's rule? Not if it has more nested sines, because one of them could be the angle's own
+ * sine. Rules refer to earlier waves, and an evaluated wave to fewer nested sines, so the recursion ends. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -408,7 +406,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
         if (poly_is_number(rest, &number) || rest->count > longest) {
-            continue; /* equal except for a constant: no help; or too long to be a known angle */
+            continue; /* equal except for a constant, which is no help; or too long to be a known angle */
         }
         rest = upright(l, rest, &flipped);
         const int other = find(l, rest);
@@ -425,7 +423,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
     return false;
 }
 
-/* The turn angle of a term that is a number times it, or -1. */
+/* If the term is a number times a turn angle, that angle; else -1. */
 static int turn_of(const lowering *l, const poly_term *t) {
     const mono *m = t->mono;
     const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;
@@ -443,7 +441,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Does it contain a fraction of a turn angle, such as half of one? */
+/* Does the angle contain a fraction of a turn angle, such as half of one? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -530,8 +528,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* Each operation is a statement of its own here and in lower.c: C leaves the order of evaluation of arguments open, and
- * it would decide the order of the list. */
+/* In this file each operation is a statement of its own. C leaves the order of evaluation of arguments open, and
+ * that order would become the order of the list. */
 static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
@@ -703,7 +701,7 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
             return;
         }
     }
-    if (p->count == FACTORS_MAX) { /* never observed, but still correct */
+    if (p->count == FACTORS_MAX) { /* never observed */
         const int last = FACTORS_MAX - 1;
         const int first = op_list_power(l->list, p->powers[last].node, p->powers[last].exponent);
         const int more = op_list_power(l->list, node, exponent);
@@ -798,7 +796,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
         }
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
-        /* sum_of_like subtracts negative products; with -size outside they must be added */
+        /* with -size outside, negative products must be added, but sum_of_like subtracts them */
         sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
                            : op_list_add(t, sum, part);
     }
@@ -929,7 +927,8 @@ static int sum_of(lowering *l, product *products, int count) {
         }
         with[in++] = *p;
     }
-    bool negative = out > 0; /* then the sum is subtracted: saves the operation for its sign */
+    bool negative =
+        out > 0; /* a negative sum is subtracted, which saves the operation for its sign */
     for (int i = 0; i < in; i++) {
         negative = negative && with[i].coefficient < 0.0;
     }

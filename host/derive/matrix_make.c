@@ -88,7 +88,7 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
         }
         return true;
     case OP_PHASE:
-    case OP_CELL: return true; /* operations on them are not affine */
+    case OP_CELL: return true; /* no coefficients: an operation on such a value is not affine */
     case OP_SIN:
     case OP_COS:
     case OP_LINE:
@@ -132,7 +132,7 @@ int affine_rates(const image *im, twofold *rates) {
     return bad;
 }
 
-/* taking[columns]: the columns on which operation `number` of the step's list depends, turn angles included. */
+/* Sets taking[columns] for the columns on which operation `number` of the step's list depends, turn angles included. */
 static void affine_takes(const image *im, int number, bool *taking) {
     const op_list *t = im->list[IMAGE_STEP];
     bool *needed = alloc(number + 1, sizeof *needed);
@@ -166,8 +166,8 @@ enum { NO_POWER = 1000 };
 /* The dependencies of a node of the blame list. */
 typedef struct made_of {
     int degree;      /* in states, rates and inputs together */
-    uint64_t states; /* unknowns it depends on, a bit each: above 64 they share bits */
-    uint64_t inputs; /* inputs, in the same way */
+    uint64_t states; /* unknowns, a bit each; above 64 they share bits */
+    uint64_t inputs; /* inputs, as bits in the same way */
 } made_of;
 
 static uint64_t bit(int number) { return UINT64_C(1) << (number % 64); }
@@ -214,8 +214,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
-/* Has the operand next to one of degree `other` the same limit as the whole? If both operands are within their limits,
- * only their combination exceeds it. */
+/* Has an operand the same limit of degree as the whole, if the other operand has the degree `other`? If both operands are
+ * within their limits, only their combination exceeds the limit. */
 static bool passes_on(diagnostics_code code, int other) {
     switch (code) {
     case DIAGNOSTICS_SAME:
@@ -304,7 +304,7 @@ static void report(const image *im, const made_of *of, int node, place where, di
     free(of_what);
 }
 
-/* Report it for an image with a blame list. `operation` of the step's list is not linear (host/derive/matrix_make.h). */
+/* Report that `operation` of the step's list is not linear. The image needs a blame list. */
 static void not_linear_report(const image *im, int operation, diags *errors) {
     const image_blame *b = &im->blame;
     const int states = affine_states(im);
@@ -347,13 +347,10 @@ static void not_linear_report(const image *im, int operation, diags *errors) {
     free(taking);
 }
 
-/* === the matrix of a step ===================================================================== */
-
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 /* Scaling, a series, squaring. */
 
-/* Each halving of the step costs a squaring, and each squaring up to one of the 104 bits: after 50, a double's digits
- * remain. */
+/* Each halving of the step needs a squaring, which may lose one of the 104 bits. After 50 a double's digits remain. */
 enum { HALVINGS_MOST = 50 };
 
 /* The remainder of the series after so many powers of a matrix of norm 1/2 or less is 2^-110 of the matrix. */
@@ -416,7 +413,7 @@ static double off_diagonal(const twofold *a, int i, bool row, int states, int co
     return sum;
 }
 
-/* State i in units `by` times as large. */
+/* Changes the unit of state i to one that is `by` times as large. */
 static void in_units(twofold *a, int i, double by, int states, int columns) {
     for (int j = 0; j < columns; j++) {
         a[i * columns + j] = double_double_scale(a[i * columns + j], 1.0 / by);
@@ -568,7 +565,7 @@ static int enter_row(const image *im, op_list *t, const twofold *row,
     return sum;
 }
 
-/* A row whose entry in column `of` is stored minus 1. If the full entry is nearly 1, only the difference is rounded. */
+/* Enters a row with 1 subtracted from the entry in column `of`. If that entry is nearly 1, only the difference is rounded. */
 static int enter_near(const image *im, op_list *t, twofold *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = double_double_add(row[of], double_double_of(1.0));
@@ -596,7 +593,7 @@ static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold
     return enter_near(im, t, row, rate);
 }
 
-/* `change` is the change in a step of h; it is overwritten. */
+/* The list of a step. `change` has the change in a step of length h, and is overwritten. */
 static op_list *make_list(const image *im, twofold *change, twofold h) {
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;
@@ -639,7 +636,7 @@ static void keep_numbers(image_draft *d, const twofold *change) {
     }
 }
 
-/* change[] holds the rates. */
+/* On entry change[] has the rates. */
 static bool make(image_draft *d, twofold *change, diags *errors) {
     image *im = d->made;
     const int states = affine_states(im);

@@ -19,8 +19,8 @@ int affine_rates(const image *im, twofold *rates);
 
 /* Make the matrix and its list, as the image's settings require; the image must be otherwise complete. Returns false,
  * reported, if there is no such matrix: events, a ledger, another method, a nonlinear term, or numbers that grow too
- * large. `has_blame`: the image has its blame list, which locates the nonlinear term. Without it that error is not
- * reported: *wants_blame is set instead. */
+ * large. `has_blame`: the image has its blame list, which locates the nonlinear term. Without that list a nonlinear term
+ * is not reported; *wants_blame is set instead. */
 bool matrix_make(image_draft *d, bool has_blame, bool *wants_blame, diags *errors);
 
 #endif

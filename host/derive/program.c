@@ -20,7 +20,7 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* Folded, and without conserved coordinates. */
+/* p, folded, and without conserved coordinates. */
 static const poly *ready(const equations *e, const conservation *c, const poly *p) {
     return conservation_settle(e, c, equations_fold(e, p));
 }
@@ -168,7 +168,7 @@ static int component_of(const layout *map, const assignment *set) {
     return -1;
 }
 
-/* 2: an input with a rate moves the stop; 1: another input moves it between steps; 0: it is fixed. */
+/* 2: an input with a rate moves the stop; 1: another input moves it between steps; 0: the stop is fixed. */
 static int stop_moves(const equations *e, const contact_law *law) {
     const mechanism *m = e->instance->mechanism;
     int moves = law->driven ? 2 : 0;
@@ -211,7 +211,7 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
     return true;
 }
 
-/* Parameter values may produce 1/0: a contact would then have no defined side. */
+/* Are all laws finite? Parameter values may produce 1/0, and then a contact would have no defined side. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, a root or logarithm of a negative number, or too large values";
@@ -235,7 +235,7 @@ static bool have_finite_laws(const equations *e, diags *errors) {
     return finite;
 }
 
-/* An impulse uses the mass matrix before it, so the matrix must not change during it. */
+/* An impulse is computed with the mass matrix before the impact, so the matrix must not depend on rates. */
 static bool have_impulses(const equations *e, diags *errors) {
     for (int k = 0; k < e->contacts->count; k++) {
         const contact_statement *h = e->contacts->law[k].from;
@@ -440,7 +440,7 @@ static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int co
     if (good) {
         l->powers = enter_ledger(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
-        /* an angle that the equations have only inside sines with whole factors, but a power has elsewhere */
+        /* the equations have such an angle only inside sines with whole factors, but a power has it elsewhere */
         l->turned = op_list_reads_turns(l->powers);
     }
     if (!good) {
@@ -470,9 +470,9 @@ static void ledger_lists_free(ledger_lists *l) {
 
 static const char no_stabilized[] = "leave out --stabilized";
 
-/* The check before the ledger exists. The scene needs an energy and a method of stages without events: contacts would
- * not see a correction of the rates after a step. `contacts` may be NULL, and `integral` is NULL if the energy is T +
- * V. False if impossible, reported with its place. */
+/* The check before the ledger exists. The scene needs an energy, a method of stages, and no contacts, which would not
+ * notice a correction of the rates after a step. `contacts` may be NULL, and `integral` is NULL if the energy is T + V.
+ * False if impossible, reported with its place. */
 static bool stabilizing_possible(const layout *map, const contact_lists *contacts,
                                  const poly *integral, const image_settings *settings,
                                  diags *errors) {
@@ -512,7 +512,7 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
     return false;
 }
 
-/* The check of the ledger: nothing may add or remove energy. */
+/* The check with the ledger: nothing may add or remove energy. */
 static bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
     for (int i = 0; i < books->smooth; i++) {
         if (books->entry[i].account == 0) {
@@ -595,7 +595,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
         t->result[i] = highest[i];
     }
     for (int i = 0; i < n && e->contacts != NULL; i++) {
-        if (map->place[i] >= 0) { /* with the contacts' forces: the core has them */
+        if (map->place[i] >= 0) { /* the core's acceleration includes the contacts' forces */
             highest[i] = op_list_leaf(t, OP_ACCEL, map->place[i]);
         }
     }
@@ -676,7 +676,7 @@ static op_list *make_books(const program *p, layout *map, const linear_system *s
     return t;
 }
 
-/* Parameter values may produce 1/0, or a number that is too large: such a program cannot run. */
+/* Are all constants finite? Parameter values may produce 1/0 or too large a number, and such a program cannot run. */
 static bool lists_finite(const program *p, const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, or values that are too large or too small";
@@ -705,8 +705,8 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* A step knows phases only. Coordinates whose turns the lists need are reals, so normally no list needs them. The
- * exception is a factor that grew too large while solving the equations. */
+/* Does the step use turn angles only as phases, which is all that a step has? A coordinate that is needed elsewhere is a
+ * real, so this fails only if a factor grew too large while solving the equations. */
 static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
     const contact_lists *c = p->contacts;
     const op_list *const lists[] = {p->step, c != NULL ? c->signals : NULL,

@@ -1,4 +1,4 @@
-/* solve.c: the solution for the highest derivatives in the cheapest of several arrangements. Arrangements (solve.h)
+/* solve.c: the solution for the highest derivatives in the cheapest of several arrangements. Arrangements
  * differ in the scale of the equations, the order of elimination, the evaluated sines, and the symbolic elimination.
  * Coordinates with a constant diagonal may be eliminated symbolically (a carriage's total mass, a body on a hinge): the
  * remaining equations return to normal form and may shrink. Two remaining equations are solved by Cramer's rule, with
@@ -45,7 +45,7 @@ static void solve_pair(op_list *t, int n, const int *mass, const int *force, int
 
 static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
                                 int done, int *solution) {
-    int left = n - 1; /* the last place whose value is still needed */
+    int left = n - 1; /* the last place with a value that is still needed */
     double value;
     for (int at = done; at < n - 1; at++) {
         const int k = order[at];
@@ -74,12 +74,12 @@ static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const 
 
 /* --- any regular matrix --------------------------------------------------------------------------*/
 
-/* A number between 0.3 and 0.67, different for each leaf. It depends on the leaf itself, not on its place in the list. */
+/* A number between 0.3 and 0.67, different for each leaf, and independent of the leaf's place in the list. */
 static double generic(double of) {
     return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
 }
 
-/* The value of every operation at an artificial generic state: distinguishes vanishing pivots from others. */
+/* The value of every operation at an artificial generic state, which tells vanishing pivots from others. */
 static double *sample(const op_list *t) {
     double *v = alloc(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
@@ -256,9 +256,9 @@ static void eliminate(op_list *t, bool symmetric, int n, int *mass, int *force, 
  *
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
- * The first part has no q and joins m_ij in the normal form. The second part is the body as seen from the hinge: a mass
- * along the rod, the part of its mass that the hinge can push. The same holds for the forces, with the rod's pull as
- * one common factor. A P~ is minus the derivative of P by q, divided by c. */
+ * The first part has no q and joins m_ij in the normal form. The second part acts like a mass along the rod: the part of
+ * the body's mass that the hinge can push. The same holds for the forces, with the rod's pull as one common factor. P~ is
+ * minus the derivative of P by q, divided by c. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
@@ -336,13 +336,13 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
     return g;
 }
 
-/* Eliminate the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. True if its own
- * diagonal is a number, *own, and its other entries are waves of it of one frequency. Then
+/* Eliminate the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. True if the
+ * diagonal entry of row k is a number, *own, and its other entries are waves of the angle with one frequency. Then
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
- * replace the equations without k; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns. False,
- * with nothing changed, for all others. */
+ * replace the entries of the other equations; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns.
+ * False otherwise, with nothing changed. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -393,7 +393,7 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
 typedef struct arrangement {
     bool scaled;
     bool rescaled; /* the equations after symbolic elimination */
-    bool hinged;   /* unknowns on hinges are eliminated first, in this order: solve.h */
+    bool hinged;   /* unknowns on hinges are eliminated first, in this order */
     int lead;      /* the sine that is evaluated first: lower.h */
     int first; /* unknown eliminated symbolically; -1: no unknown; -2: every constant diagonal */
     int order[COORDINATES_MAX]; /* of elimination */
@@ -406,10 +406,10 @@ typedef struct arranged {
     const poly **mass;  /* [n * n] */
     const poly **force; /* [n] */
     int hinges;
-    const poly **across; /* [hinges * (n + 1)] of solve.h */
-    double *inverse;     /* [hinges] factor of their products */
+    const poly **across; /* [hinges * (n + 1)] of hinge_eliminate() */
+    double *inverse;     /* [hinges] factor of the products of across */
     double *scale;       /* [n] of rows and columns */
-    bool *gone;          /* [n] eliminated in symbols */
+    bool *gone;          /* [n] eliminated symbolically */
     int *order;          /* [n] eliminated unknowns first */
     int eliminated;
 } arranged;
@@ -419,7 +419,7 @@ typedef struct arranged {
 
 /* --- scaling -------------------------------------------------------------------------------------*/
 
-/* Most different numbers in a tally; further ones are ignored in large equations. */
+/* Most different numbers in a tally. Large equations have more, which are ignored. */
 #define TALLY_MAX 128
 
 /* Starts as {0}. */
@@ -536,8 +536,8 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
-/* Eliminated unknowns, in order, up to the first wanted one. No wanted solution depends on them, so their equations,
- * and sines found only there, need not be computed. */
+/* Forgets the eliminated unknowns, in order, up to the first wanted one. No wanted solution depends on them, so their
+ * equations, and sines that occur only there, need not be computed. */
 static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
                             const poly **force, const int *order, int eliminated) {
     const int n = s->n;
@@ -629,7 +629,7 @@ static void put_away(arranged *w, int k) {
     w->order[w->eliminated++] = k;
 }
 
-/* Is unknown k on none of the hinges so far? */
+/* Does unknown k depend on none of the hinges so far? */
 static bool off_hinges(const arranged *w, int k) {
     bool off = true;
     for (int h = 0; h < w->hinges; h++) {
@@ -740,16 +740,16 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* Up to so many unknowns, all orders of elimination are tried, */
+/* All orders of elimination are tried up to this many unknowns */
 #define PERMUTED_MAX 4
-/* if the equations have no more leaves than this; larger ones use the first order. */
+/* and this many leaves of the equations. Larger equations use the first order. */
 #define PERMUTED_SIZE_MAX 4000.0
-/* So many sines are tried as the first evaluated one, besides the smallest angle's. */
+/* Besides the smallest angle, this many angles are tried as the first evaluated one. */
 #define LEADS_MAX 5
 
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
-/* Add the terms with `across` for one hinge (solve.h). */
+/* Add the terms with `across` for one hinge. */
 static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,
                        int *force) {
     const int factor = op_list_constant(t, inverse);
@@ -798,7 +798,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
     return can;
 }
 
-/* -1 if this arrangement is impossible. */
+/* The weight of the list of an arrangement; -1 if the arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     op_list *t = op_list_new(l->list->angles, s->n);
     int weight = -1;
@@ -866,7 +866,7 @@ static void try_it(const lowering *l, const linear_system *s, const arrangement 
     }
 }
 
-/* All methods of elimination in the order of `like`. */
+/* Tries all methods of elimination in the order of `like`. */
 static void try_order(const lowering *l, const linear_system *s, const arrangement *like,
                       bool permuted, choice *best) {
     for (int scaled = 0; scaled < 2; scaled++) {
@@ -890,7 +890,7 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
     }
 }
 
-/* The best one, with other sines evaluated first. */
+/* Tries the best arrangement again with other sines evaluated first. */
 static void try_leads(const lowering *l, const linear_system *s, choice *best) {
     arrangement how = best->how;
     for (how.lead = 1; how.lead <= LEADS_MAX; how.lead++) {

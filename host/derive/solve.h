@@ -13,12 +13,12 @@ typedef struct linear_system {
     const poly **mass;            /* [n * n], parameters folded */
     const poly **force;           /* [n] */
     const symbol *const *unknown; /* [n] */
-    const bool *turning;          /* [n] unknown is an angle: its row keeps the scale of energy */
-    const bool *wanted;           /* [n] the unknown's solution is needed: its cost counts */
-    /* Unwanted solutions are arbitrary, which allows more arrangements. False if contacts solve with the same matrix:
-     * their steps must not change by a bit. */
+    const bool *turning; /* [n] the unknown is an angle: its row keeps the scale of energy */
+    const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
+    /* Unwanted solutions are arbitrary, which allows more arrangements. False if contacts solve with the same matrix,
+     * because the bits of their steps must not change. */
     bool sparing;
-    /* Precision counts more than operations: no hinge is eliminated (solve.h). A list with hinges has two to five times
+    /* Precision matters more than operations: no hinge is eliminated (solve.c). A list with hinges has two to five times
      * the round-off (docs/dev/numerics.md). */
     bool precise;
 } linear_system;

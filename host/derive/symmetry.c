@@ -1,14 +1,4 @@
-/* symmetry.c: affine symmetries of a mechanism, and their momenta (Noether, "Invariante Variationsprobleme", 1918).
- *
- * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy by e*dT. All (A,
- * b) with dT = 0 for every state form a linear space: dT is linear in A and b, and each term of its normal form must
- * vanish. The potential energy has the same condition. Lagrange's equations then give the rate of the momentum P = sum
- * dT/dq_i' (A q + b)_i:
- *
- *     dP/dt = -dV + sum (Q_i - dF/dq_i') (A q + b)_i + contacts
- *
- * Translations and rotations are affine in Cartesian coordinates and in joint angles. In others, such as spherical
- * ones, a direction is not affine: the search then finds nothing and claims nothing. */
+/* symmetry.c: the search for affine symmetries as the null space of linear conditions (symmetry.h has the theory). */
 #include "host/derive/symmetry.h"
 
 #include <math.h>
@@ -21,13 +11,13 @@
 /* The null space of many linear conditions: a triangular factor, and its singular values by one-sided Jacobi
  * rotations (Hestenes, "Inversion of matrices by biorthogonalization", 1958). */
 
-/* The triangular factor of all conditions taken. */
+/* The triangular factor of all conditions so far. */
 typedef struct conditions {
     int columns;
     double *r; /* [columns * columns] */
 } conditions;
 
-/* An entry of a tidy vector below this is rounding, and so is the rest of a vector that others span. */
+/* A smaller entry of a vector is round-off. So is the remainder of a vector that depends on others, if it is smaller. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 #define SWEEPS_MOST 60
@@ -49,7 +39,7 @@ static double vector_length(const double *row, int columns) {
     return most * number_root(sum);
 }
 
-/* Takes a row, which is destroyed, by Givens rotations. */
+/* Adds a row to the factor by Givens rotations; the row is destroyed. */
 static void rotate_in(conditions *c, double *row) {
     const int n = c->columns;
     for (int k = 0; k < n; k++) {
@@ -67,7 +57,7 @@ static void rotate_in(conditions *c, double *row) {
     }
 }
 
-/* Takes a condition row . v = 0, scaled to length 1; the row is destroyed. */
+/* Adds a condition row . v = 0, scaled to length 1; the row is destroyed. */
 static void conditions_take(conditions *c, double *row) {
     const double length = vector_length(row, c->columns);
     for (int k = 0; k < c->columns && length > 0.0; k++) {
@@ -76,7 +66,7 @@ static void conditions_take(conditions *c, double *row) {
     rotate_in(c, row);
 }
 
-/* All conditions of `more`, in the size that they have there: some of its rows are rounding. */
+/* Adds all conditions of `more` without scaling, because small rows are only round-off. */
 static void conditions_add(conditions *c, const conditions *more) {
     double *row = alloc(c->columns, sizeof *row);
     for (int i = 0; i < c->columns; i++) {
@@ -88,7 +78,7 @@ static void conditions_add(conditions *c, const conditions *more) {
     free(row);
 }
 
-/* One Jacobi rotation that makes columns p and q of m orthogonal; v turns along. False when they are so already. */
+/* One Jacobi rotation that makes columns p and q of m orthogonal, applied to v as well. False if they already are. */
 static bool make_orthogonal(double *m, double *v, int n, int p, int q) {
     double pp = 0.0;
     double qq = 0.0;
@@ -162,7 +152,7 @@ static int null_space(const conditions *c, double zero, double *basis) {
     return count;
 }
 
-/* The same space by vectors that are easy to read: reduced echelon form, from the last columns on. */
+/* Replaces the basis by vectors that are easy to read: the reduced echelon form, from the last columns on. */
 static void null_space_tidy(double *basis, int count, int columns) {
     for (int done = 0; done < count; done++) {
         int row = done;
@@ -200,16 +190,16 @@ static void null_space_tidy(double *basis, int count, int columns) {
 
 /* === symmetries =============================================================================== */
 
-/* Singular values below this part of the largest count as zero: of coefficients, and of values at drawn states. A part
+/* Singular values below these parts of the largest count as zero, for coefficients and for values at random states. A part
  * of an energy may be as small as a millionth of it. */
 #define ZERO_OF_TERMS 1e-12
 #define ZERO_OF_VALUES 1e-11
-/* Attempts to draw one state: a function may be undefined at some. */
+/* Attempts to draw one random state, because a function may be undefined at some. */
 #define DRAWS 50
 
 /* --- the change of an energy ----------------------------------------------------------------------*/
 
-/* Columns: A row by row, then b. */
+/* The number of columns: A row by row, then b. */
 static int columns_of(const equations *e) { return e->count * (e->count + 1); }
 
 /* The change of an energy by column k alone. */
@@ -287,7 +277,7 @@ static int by_mono(const void *left, const void *right) {
                                       : x->column - y->column;
 }
 
-/* Each term of the normal form is a row: its coefficients, by column. */
+/* Adds a condition for each term of the normal form: the coefficients of the term, by column. */
 static void take_terms(conditions *s, const poly *const *change) {
     int64_t count = 0;
     for (int k = 0; k < s->columns; k++) {
@@ -316,7 +306,7 @@ static void take_terms(conditions *s, const poly *const *change) {
     free(all);
 }
 
-/* The power of a generalized force, or the rate of a gap, must vanish. */
+/* Adds the condition that the power of a generalized force, or the rate of a gap, vanishes. */
 static void take_row(const equations *e, conditions *s, const poly *const *row,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -325,7 +315,7 @@ static void take_row(const equations *e, conditions *s, const poly *const *row,
     take_terms(s, change);
 }
 
-/* A crossing sets this symbol, and changes every momentum that depends on it. */
+/* Adds the conditions of a symbol that a crossing sets, because that changes every momentum that depends on the symbol. */
 static void take_set(const equations *e, conditions *s, const assignment *set,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -354,7 +344,7 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
 
 /* --- the check by values ---------------------------------------------------------------------------*/
 
-/* A fixed number for every symbol of a state. */
+/* The number for a symbol at a random state; always the same for one state. */
 static double drawn_value(void *context, const symbol *s, int primes) {
     const uint64_t *seed = context;
     uint64_t x = *seed * UINT64_C(0x9e3779b97f4a7c15) +
@@ -364,7 +354,7 @@ static double drawn_value(void *context, const symbol *s, int primes) {
     return 0.1 + 1.7 * (double)(x >> 11) * 0x1p-53 - (*seed % 2 == 0 ? 0.0 : 1.0);
 }
 
-/* The number of motions that leave an energy unchanged, from its changes at drawn states; -1 without a value. */
+/* The number of motions that leave an energy unchanged, from its changes at random states; -1 if no state has a value. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
     conditions of_values = conditions_none(columns);

@@ -26,7 +26,7 @@ typedef struct symmetries {
                      * shifts (A = 0) of T only */
     symmetry *each; /* [count] */
     int broken;     /* further symmetries of T only: rotations */
-    bool complete;  /* values at drawn states show no missing affine symmetry of T or V */
+    bool complete;  /* values at random states show no missing affine symmetry of T or V */
     bool flat;      /* T has constant coefficients: every direction and rotation is affine */
 } symmetries;
 

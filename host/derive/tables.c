@@ -192,8 +192,8 @@ static void find_mirrors(op_list_tables *of) {
     }
 }
 
-/* The error of each table, at `TRIED` places a cell, including its middle and its knots: the largest errors are at or
- * near these. */
+/* Finds the error of each table by trying TRIED places a cell, including the middle and the knots. The largest errors are
+ * at or near these. */
 static void set_errors(const table_functions *f, op_list_tables *of) {
     enum { TRIED = 16 };
     const op_list *c = f->list;
@@ -322,7 +322,7 @@ static product_sum of_angles(collecting *c, int coefficient) {
     return sum;
 }
 
-/* Does it depend on the angles alone? Then *coefficient is its value. */
+/* Does the sum depend on the angles alone? Then *coefficient is the operation of its value. */
 static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
     bool alone = sum.count <= 1;
     for (int i = 0; i < c->made->symbols && sum.count == 1; i++) {
@@ -517,7 +517,7 @@ typedef struct coefficient {
     int table;
     double factor; /* of the table, or the constant */
     double *value; /* [TRIES] */
-    double size;   /* its largest absolute value there */
+    double size;   /* largest absolute value at the tried angles */
 } coefficient;
 
 typedef struct tabling {
@@ -547,7 +547,7 @@ static int divisor_of(int a, int b) {
     return (int)ratio_divisor((uint64_t)abs(a), (uint64_t)abs(b));
 }
 
-/* The first angle with a part in it. */
+/* The first angle with a nonzero factor in a phase. */
 static int leading(const int *turns, int angles) {
     int k = 0;
     while (k < angles - 1 && turns[k] == 0) {
@@ -572,7 +572,7 @@ static bool shares(int *turns, const int *other, int angles) {
     return true;
 }
 
-/* An angle in the other phase and not in this one, or its first. */
+/* An angle of the other phase that this phase does not have, or else the other's first. */
 static int angle_of_other(const int *turns, const int *other, int angles) {
     for (int k = 0; k < angles; k++) {
         if (other[k] != 0 && turns[k] == 0) {
@@ -616,7 +616,7 @@ typedef struct span_of {
     double most;
 } span_of;
 
-/* All of their values, and the poles. */
+/* Evaluates all coefficients at the tried angles, and finds poles. */
 static void try_angles(tabling *t) {
     const op_list *c = t->from->coefficients;
     turn_value *value = alloc(c->count, sizeof *value);
@@ -651,7 +651,7 @@ static void try_angles(tabling *t) {
     free(span);
 }
 
-/* The position of its maximum. */
+/* The tried angle at which the coefficient is largest. */
 static int peak_of(const coefficient *c) {
     int at = 0;
     for (int s = 1; s < TRIES; s++) {
@@ -669,7 +669,7 @@ static bool is_constant(const coefficient *c) {
     return true;
 }
 
-/* Is c, with its maximum at `peak`, a multiple of `of`? */
+/* Is c, which is largest at `peak`, a multiple of `of`? */
 static bool is_multiple(const coefficient *c, int peak, const coefficient *of, double *factor) {
     *factor = of->value[peak] != 0.0 ? c->value[peak] / of->value[peak] : 0.0;
     const double size = c->size + fabs(*factor) * of->size;

@@ -31,7 +31,7 @@ typedef struct products {
     struct arena *memory;
 } products;
 
-/* The reason why a list has no such form, in words after "the accelerations ", and a hint. NULL: it has. */
+/* The reason why a list has no such form, in words after "the accelerations ", and a hint. */
 typedef struct refusal {
     const char *reason;
     const char *hint;

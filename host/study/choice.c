@@ -20,8 +20,8 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* A counted figure must keep a limit with its upper bound, a prediction that will be counted with its
- * lower one. */
+/* The value compared with a limit: the upper bound of a counted figure, the lower bound of a prediction that will
+ * be counted. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_wish *w, const table *made, int i) {
@@ -57,7 +57,7 @@ static bool fails_besides(const choice_row *row, choice_limit but) {
     return false;
 }
 
-/* Rows come by rising price: the first of equal ones stays. */
+/* Keeps the row with the least value. Rows arrive by rising price, so of equal rows the cheapest stays. */
 static void keep_least(choice_row *kept, const choice_row *row, double value, double best) {
     if (kept->row < 0 || value < best) {
         *kept = *row;
@@ -107,13 +107,13 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w) {
 
 /* --- counting --------------------------------------------------------------------------------------*/
 
-/* A run on an emulator of no more instructions than this: some ten seconds. */
+/* Most instructions of a run on an emulator: about ten seconds. */
 #define RUN_INSTRUCTIONS 1e9
-/* Price of an evaluation in a number without any counted run: puts all of its rows before those of
- * other numbers. */
+/* Price of an evaluation for a number type without any counted run. It is low, so that such rows come first and one of
+ * them is counted. */
 #define UNTRIED 1e-3
 
-/* With contacts: the expected cost of runs that were not counted, by `each` evaluation of a number. */
+/* With contacts: the expected cost of runs that were not counted, from the cost of an evaluation by number type. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {
@@ -132,7 +132,7 @@ static void expect(const trials *t, table *made, const table_row *last,
     }
 }
 
-/* Runs of too many steps leave the table. */
+/* Drops rows with runs that are too long to count. */
 static void drop_long(const trials *t, table *made) {
     int kept = 0;
     for (int i = 0; i < made->count; i++) {
@@ -149,7 +149,7 @@ static void drop_long(const trials *t, table *made) {
     made->count = kept;
 }
 
-/* A row in an answer that was not counted, or -1. */
+/* A row of the answers that was not counted, or -1. */
 static int uncounted(const table *made, const choice *c) {
     const bool found = c->fastest.row >= 0;
     const choice_row *const named[] = {found ? &c->fastest : &c->weaker,
@@ -196,7 +196,7 @@ measured_end choice_counted(trials *t, table *made, const choice_wish *w, const 
 
 /* --- for people ------------------------------------------------------------------------------------*/
 
-/* Are this board's cycles counted? Else they are a range, and a row is compared by its instructions. */
+/* Are this board's cycles counted? If they are only a range, rows are compared by their instructions. */
 static bool has_cycles(const cost *c) {
     return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
 }
@@ -341,7 +341,7 @@ static void print_lines(FILE *out, const trials *t, const table_row *row,
     free(derive);
 }
 
-/* Two digits that are no less. */
+/* Rounds up to two digits. */
 static double no_less(double value) {
     double unit = 1.0;
     while (value / unit >= 100.0) {

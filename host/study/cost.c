@@ -49,7 +49,7 @@ const cost_board *cost_board_named(const char *name) {
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
 /* Values of the state and its stages beyond these lie in memory, not in registers of the FPU. */
 enum { REGISTERS = 16 };
-/* Sums of a number that a matrix moves, compensated. */
+/* With compensated sums, additions for each number that a matrix moves. */
 enum { SUMS_CARRIED = 9 };
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
@@ -147,7 +147,7 @@ static int pairs_of(const op_list *t) {
     return pairs;
 }
 
-/* The code of a function is there once. */
+/* Counts each used library function once, because its code exists once. */
 static void add_libraries(cost_counts *c, const image *im) {
     bool has[COST_CLASSES] = {false};
     bool calls[FUNCTIONS] = {false};
@@ -178,11 +178,11 @@ static void add_libraries(cost_counts *c, const image *im) {
 typedef struct work {
     int stages;
     int places; /* distinct places of the stages */
-    int shares; /* that are not zero: of stages in stages and places, and in the end */
-    int turns;  /* of a pair in a step, and stages that lean */
+    int shares; /* nonzero coefficients: of stages in stages and places, and in the step's end */
+    int turns;  /* rotations of a sine-cosine pair in a step */
 } work;
 
-/* Is stage s at the same place as an earlier one? */
+/* Is stage s at the same place as an earlier stage? */
 static bool stands_again(const wh_tableau *by, unsigned s) {
     const wh_places *at = by->places;
     for (unsigned e = 0; e < s; e++) {
@@ -414,7 +414,7 @@ static bool takes_method(const image *im) {
 static double state_bytes(const image *im, cost_number number) {
     if (number == COST_FIXED) {
         const int words = ((int)WH_FIXED_BYTES(im->angles, im->reals + im->inputs) + 7) / 8;
-        return 8.0 * words; /* the header's */
+        return 8.0 * words; /* the generated header reserves as much */
     }
     return 8.0 * im->angles + (number == COST_DOUBLE ? 8.0 : 4.0) * core_memory_reals(im);
 }

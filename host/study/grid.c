@@ -305,7 +305,7 @@ void grid_free(grid *g) {
     *g = (grid){0};
 }
 
-/* So far on the way between the logarithms; their ends' ratio may be no number though they are. */
+/* The value at this share of the way between the logarithms of the ends. Avoids the ends' ratio, which may overflow. */
 static double log_value(const axis *a, double share) {
     const double ratio = a->to / a->from;
     if (isfinite(ratio) && ratio != 0.0) {

@@ -168,8 +168,8 @@ static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     return check_orders(in, tree->left, let_seen) && check_orders(in, tree->right, let_seen);
 }
 
-/* "amplitude(x)/2": measures are no functions of the language. Reports and returns true when there
- * is one inside the text. */
+/* Reports a measure inside a larger expression, "amplitude(x)/2", and returns true: measures are not functions of the
+ * language. */
 static bool has_measure_inside(const source *typed, diags *errors) {
     for (measure_kind kind = MEASURE_AMPLITUDE; kind <= MEASURE_PERIOD; kind++) {
         const size_t length = strlen(kind_names[kind]);
@@ -190,8 +190,8 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* The expression with noisy outputs as they are recorded. Noise does not enter other outputs that
- * use them, as in the records. */
+/* The expression with each noisy output replaced by its record, which includes the noise. As in the records, noise does
+ * not enter other outputs that use a noisy one. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;
@@ -212,7 +212,7 @@ static const expr *as_recorded(measures *m, const mechanism *of, const expr *tre
     return kept;
 }
 
-/* Measures come one by one: a comma outside all parentheses is a list's. */
+/* Reports a comma outside all parentheses, and returns true: each option takes one measure, not a list. */
 static bool is_list(const source *typed, diags *errors) {
     int depth = 0;
     for (const char *at = typed->text; *at != '\0'; at++) {
@@ -353,8 +353,8 @@ typedef struct meter {
     run_checks *verdict;
     gauge *gauges; /* [measures] */
     double *output;
-    bool series;            /* some measure takes a sample each step */
-    bool series_of_outputs; /* and one of those reads an output */
+    bool series;            /* a measure takes a sample each step */
+    bool series_of_outputs; /* a measure takes a sample of an output each step */
 } meter;
 
 static meter meter_open(const measuring *w, const image *im, void *run) {
@@ -383,7 +383,7 @@ static void meter_close(meter *m) {
     free(m->output);
 }
 
-/* Take a sample of the present state: of the series, or of the final values. */
+/* Take a sample of the present state for the series, or for the final values. */
 static void meter_enter(meter *m, bool final) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -516,7 +516,7 @@ bool stepping_measure(const measuring *w, const image *im, double *value, diags 
 
 /* === a point ================================================================================== */
 
-/* Ends that differ by this part of the time are alike. */
+/* Ends that differ by less than this part of the time count as equal. */
 #define ENDS_ALIKE 1e-9
 
 static bool has_balance(const sweep *s) { return !s->mechanism->is_system; }

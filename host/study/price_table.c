@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* A finer step helps no more after it took off less than this part of the error, twice in a row. */
+/* Finer steps stop helping when the error stays above this part of the one before, twice in a row. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -70,7 +70,7 @@ static void price_by_evaluations(table_row *row) {
     row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
 }
 
-/* By ever finer steps, each of the same cost, except for a matrix and in fixed point. */
+/* Tries ever finer steps of a setting. A step costs `each`, however long it is, except for a matrix and in fixed point. */
 static void climb(trials *t, const table_wish *w, const setting *s, double each, climbed *c) {
     const bool contacts = t->image[0]->contacts > 0;
     deviation_pace first;
@@ -102,7 +102,7 @@ static void climb(trials *t, const table_wish *w, const setting *s, double each,
         row.result =
             own && (known || contacts) ? trial_run(t, s, row.pace) : (trial_result){.ran = false};
         if (!row.result.ran || !row.result.usable) {
-            continue; /* also in fixed point and as a matrix, which take no step that long */
+            continue; /* fixed point and a matrix may not allow a step that long */
         }
         if (contacts) {
             price_by_evaluations(&row);
@@ -126,7 +126,7 @@ typedef struct table_work {
     int count;
 } table_work;
 
-/* In a worker: its result goes to the parent as it lies in memory. */
+/* Runs in a worker, which sends the bytes of its result to the parent. */
 static bool work(void *context, uint64_t point, FILE *out, FILE *reason) {
     const table_work *w = context;
     climbed *c = alloc(1, sizeof *c);
@@ -226,7 +226,7 @@ void table_free(table *made) {
 enum { FIGURE_TEXT = 64 };
 /* Most records of the run, and its steps per record. */
 enum { RECORDS_MOST = 20000, SPACING = 2 };
-/* Steps that a step of the run becomes, all rows together; and the reference's two runs together. */
+/* Steps for each step of the run: of all rows together, and of the reference's two runs together. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
@@ -356,7 +356,7 @@ static void figure_legend(FILE *out, const cost *c) {
     }
 }
 
-/* Does a column count at any place? */
+/* Does a column count (reference_run.h) at any place? */
 static bool counts(const trials *t, int column) {
     for (int p = 0; p < t->points; p++) {
         if (t->reference[p]->column[column].counts) {
@@ -466,7 +466,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* The rows of the front that are shown: its errors fall by this factor at least, so that TABLE_ROWS rows do. */
+/* Marks the shown rows of the front: the error falls by at least `factor` from one to the next. Returns their number. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;
@@ -520,7 +520,7 @@ void table_print_left(FILE *out, const table *made, double operations) {
     fputc('\n', out);
 }
 
-/* Above the table: m is no metre. */
+/* Explains the letters above the table, so that nobody reads m as metre. */
 static void print_letters(FILE *out, const table_row *first) {
     fputs("\nletters behind figures: how each is known\n", out);
     figure_legend(out, &first->cost);
@@ -532,7 +532,7 @@ static void print_letters(FILE *out, const table_row *first) {
     }
 }
 
-/* The command that fills the columns that are empty. */
+/* Prints the command that fills the empty columns. */
 static void say_contacts(FILE *out, const trials *t, const table_words *words) {
     const char *board = t->wish.board->name;
     if (strcmp(board, "host") != 0) {
@@ -713,10 +713,10 @@ void table_json(FILE *out, const trials *t, const table *made, const table_words
 /* === counted prices =========================================================================== */
 
 #define COUNTS "mk/price/measure_one.sh"
-/* Its exit status for wrong words or a missing tool. */
+/* Exit status of measure_one.sh for wrong words or a missing tool. */
 #define STATUS_MISSING 2
 
-/* The last line that a command prints, or the first with this in it. Returns its exit status, or -1. */
+/* The last line that a command prints, or the first one that contains `with`. Returns the command's exit status, or -1. */
 static int line_from(const char *command, const char *with, char *line, int size) {
     FILE *from = system_read_from(command);
     if (from == NULL) {
@@ -791,7 +791,7 @@ enum {
 
 static double value_of(const char *text) { return decimal_read(text, NULL); }
 
-/* The larger of a figure and the count at one more place. */
+/* Raises a figure to the count at one more place, if that is larger. */
 static void grow(cost_figure *f, cost_basis basis, const char *text) {
     const double value = value_of(text);
     if (f->basis == COST_NOT_KNOWN || value > f->value) {

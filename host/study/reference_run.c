@@ -46,10 +46,10 @@ static const long double inverse_factorial[] = {1.0L,
                                                 1.0L / 10888869450418352160768000000.0L,
                                                 1.0L / 304888344611713860501504000000.0L,
                                                 1.0L / 8841761993739701954543616000000.0L};
-/* The last terms that a number of 64 or fewer digits takes notice of, and one of 113. */
+/* The last terms that matter for 113 binary digits, and for 64 or fewer. */
 enum { SINE_LAST = LDBL_MANT_DIG > 64 ? 29 : 21, EXP_LAST = LDBL_MANT_DIG > 64 ? 29 : 19 };
 
-/* sum of x^k/k!, k = from, from + 2, ... up to `last`, with signs that take turns for sign = -1; x^from left out. */
+/* The sum of x^k/k! for k = from, from + 2, ... up to `last`, divided by x^from. With sign = -1 the signs alternate. */
 static long double even_series(long double square, int from, int last, long double sign) {
     long double sum = 0.0L;
     for (int k = last - (last - from) % 2; k >= from; k -= 2) {
@@ -83,13 +83,13 @@ void long_sincos(long double rad, long double *sine, long double *cosine) {
     *cosine = behind ? -second : second;
 }
 
-/* Newton's rule from the double's root: one round doubles its digits; the second is for 113 of them. */
+/* Newton's rule from the double's root. One iteration doubles the digits; a second is needed for 113. */
 long double long_root(long double x) {
     if (!(x > 0.0L) || !isfinite(x)) {
         return x < 0.0L ? (long double)NAN : x;
     }
     long double y = (long double)number_root((double)x);
-    if (!(y > 0.0L) || !isfinite(y)) { /* no double is as large or small */
+    if (!(y > 0.0L) || !isfinite(y)) { /* outside the range of double */
         return x < 1.0L ? long_root(x * 0x1p512L) * 0x1p-256L : long_root(x * 0x1p-512L) * 0x1p256L;
     }
     y = 0.5L * (y + x / y);
@@ -98,7 +98,7 @@ long double long_root(long double x) {
 
 /* --- exponential and logarithm ---------------------------------------------------------------- */
 
-/* ln 2: 32 digits, so that whole multiples are exact, and the rest. */
+/* ln 2 in two parts: 32 binary digits, so that whole multiples are exact, and the remainder. */
 #define LN2_1 ((long double)UINT64_C(0xb17217f7) / 4294967296.0L)
 #define LN2_2 1.9082149292705878161442656807550013436025525412068e-10L
 
@@ -130,7 +130,8 @@ static long double logarithm(long double x) {
         return x < 0.0L ? (long double)NAN : x > 0.0L || x != x ? x : -(long double)INFINITY;
     }
     if (x > 0.8L && x < 1.25L) {
-        const long double s = (x - 1.0L) / (x + 1.0L); /* below 1/9: 6 binary digits a term */
+        const long double s =
+            (x - 1.0L) / (x + 1.0L); /* below 1/9, so each term adds 6 binary digits */
         long double sum = 0.0L;
         for (int k = 2 * (LDBL_MANT_DIG / 6) + 1; k >= 1; k -= 2) {
             sum = 1.0L / (long double)k + s * s * sum;
@@ -176,7 +177,7 @@ long double long_power(long double base, long double exponent) {
 
 /* --- angles of ratios, hyperbolic functions ------------------------------------------------------ */
 
-/* Corrects a double's angle y by the angle of (x - tan y)/(1 + x tan y), which is too small for more than a
+/* Corrects a double's angle y by the angle of (x - tan y)/(1 + x tan y), which is so small that its series ends with the
  * cube. */
 static long double angle_of(long double x) {
     if (x != x || !isfinite((double)x)) {
@@ -367,12 +368,12 @@ struct extrapolation {
     const image *image;
     extrapolation_setting how;
     long_list *list;
-    evaluator *rough; /* bounds the round-off of a zero */
+    evaluator *rough; /* in double, for bounds on the list's round-off */
     double *input;    /* [inputs] */
     int count;        /* components */
     long double *state;
     long double *lost;  /* round-off of the sums of steps (Kahan) */
-    long double *slope; /* at the state */
+    long double *slope; /* slope at the state */
     long double *largest;
     long double *row[2]; /* [columns][count]: two rows of the tableau */
     long double *before, *here, *work;
@@ -469,7 +470,7 @@ static void scale_of(extrapolation *e, long double span_s, long double *scale) {
             scale[i] = rounded > scale[i] ? rounded : scale[i];
         }
     }
-    for (int i = 0; i < first; i++) { /* a coordinate moves as its rate */
+    for (int i = 0; i < first; i++) { /* the error of a rate moves its coordinate */
         const long double moved = span_s * scale[first + i];
         scale[i] = moved > scale[i] ? moved : scale[i];
     }
@@ -479,7 +480,7 @@ static void scale_of(extrapolation *e, long double span_s, long double *scale) {
  * extrapolated instead of states, so that a short step has little round-off. False if a value is not finite. */
 static bool midpoint(extrapolation *e, long double span_s, int substeps, long double *result) {
     const long double h = span_s / (long double)substeps;
-    long double *here = result; /* moves: after k substeps, and before that */
+    long double *here = result; /* increments after k substeps, and one before */
     for (int i = 0; i < e->count; i++) {
         e->before[i] = 0.0L;
         here[i] = h * e->slope[i];
@@ -556,7 +557,7 @@ static void take(extrapolation *e, const long double *made) {
     }
 }
 
-/* How much longer a step may be than one with this error: it grows with the power 2 columns - 1 of the step. */
+/* The factor for the length of the next step after one with this error, which grows with the power 2 columns - 1 of the length. */
 static long double longer(const extrapolation *e, double error) {
     if (!(error > 0.0)) {
         return 3.0L;
@@ -601,7 +602,7 @@ extrapolation_status extrapolation_go(extrapolation *e, long double span_s) {
 
 /* === the deviation of a run =================================================================== */
 
-/* Enter a record: false when the run is of no use any more. */
+/* Enter a record; false if the run is useless from now on. */
 static bool enter(const reference *r, const records *now, int record, deviation_of_what what,
                   deviation *d) {
     const long double *row = r->row + (size_t)record * (size_t)r->columns;
@@ -624,7 +625,7 @@ static bool enter(const reference *r, const records *now, int record, deviation_
 /* Evaluations so far. With contacts, reading a record is also an evaluation, but not one of a step. */
 typedef struct counted {
     double in_steps;
-    double most; /* in one of these */
+    double most; /* most evaluations in one step */
 } counted;
 
 /* One step. With contacts their cost varies; a step as one matrix evaluates one list. */
@@ -658,7 +659,8 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     uint64_t most;
-    const bool matrix = im->list[IMAGE_MATRIX] != NULL; /* a step evaluates only one of its lists */
+    const bool matrix =
+        im->list[IMAGE_MATRIX] != NULL; /* then a step is one evaluation of the matrix */
     const uint64_t evaluations = matrix ? kind->steps(run) : kind->evaluations(run, &most);
     d.operations =
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
@@ -739,9 +741,9 @@ void long_rows_read(long_rows *l, const long double *state, long double time_s, 
 
 /* --- by fine steps ---------------------------------------------------------------------------------*/
 
-/* As many times finer than the scene's step, if they may take the operations. */
+/* The steps are this many times finer than the scene's, if the limit of operations allows it. */
 #define FINER 16.0
-/* Evaluations of a step: RK4's, and those of the search for events. */
+/* Evaluations in a step: those of RK4, and those of the search for events. */
 #define EVALUATIONS 4.0
 #define EVALUATIONS_CONTACTS 12.0
 
@@ -789,16 +791,16 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
 
 /* --- the two computations and their agreement ------------------------------------------------------*/
 
-/* The finer of two extrapolations, and its comparison, which has another order and so other steps. */
+/* The settings of the two extrapolations. The second has another order, and so other steps. */
 static const extrapolation_setting fine = {6, 16.0 * (double)LDBL_EPSILON};
 static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
 
-/* A record is trusted while the two differ by less than this part of a column's largest value. They begin with less than
- * 1e-16 in long double. A difference of this size is not their own error: the motion has amplified each round-off. */
+/* A record is trusted while the two computations differ by less than this part of a column's largest value. In long double they
+ * first differ by less than 1e-16. When the difference reaches the limit, the motion has amplified the round-off. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
-/* A component is round-off if the two never agree to this part of it before the first record at which it reaches this part
- * of its largest value. The round-off is the motion's, or that of the list's constants. */
+/* A component is only round-off if the two computations never agree to this part of its value up to the first record at which it
+ * reaches this part of its largest value. The round-off comes from the motion, or from the list's constants. */
 #define KNOWN_BY 1e-6L
 
 typedef struct computed {
@@ -840,7 +842,7 @@ static long double row_off(const reference *r, const computed *other, int record
     return isfinite(off) ? off : (long double)INFINITY;
 }
 
-/* Largest and most different values of a column over the records up to `until`. */
+/* Finds a column's largest value and largest difference over the records up to `until`. */
 static void measure(reference *r, const computed *other, int until, int column) {
     reference_column *c = &r->column[column];
     c->largest = 0.0L;
@@ -853,7 +855,7 @@ static void measure(reference *r, const computed *other, int until, int column) 
     }
 }
 
-/* Did they agree about a column, with a known largest value, before the motion may have carried them apart? */
+/* Did the two computations agree about a column, with known largest value, before the motion may have separated them? */
 static bool is_known(const reference *r, const computed *other, int until, int column) {
     const long double enough = KNOWN_BY * r->column[column].largest;
     long double largest = 0.0L;
@@ -871,7 +873,7 @@ static bool is_known(const reference *r, const computed *other, int until, int c
     return false;
 }
 
-/* Which columns count, and until when they agree. */
+/* Decides which columns count, and up to which record the computations agree. */
 static void judge(reference *r, const computed *other) {
     const int both = other->records < r->records ? other->records : r->records;
     for (int k = 1; k < r->columns; k++) {
@@ -970,7 +972,7 @@ static reference *by_fine_steps(const reference_wish *w) {
     return r;
 }
 
-/* Does anything but outputs? */
+/* Does a coordinate or a rate move? Outputs do not matter. */
 static bool moves(const reference *r) {
     for (int k = 1; k < r->columns; k++) {
         for (int i = 0; r->shape->column[k].unknown >= 0 && i <= (r->records < 0 ? 0 : r->records);
@@ -983,7 +985,7 @@ static bool moves(const reference *r) {
     return false;
 }
 
-/* If no column is known, the trust has no end either, because records prove nothing. */
+/* Is any column known? If not, the agreement of all records proves nothing. */
 static bool knows(const reference *r) {
     for (int k = 1; k < r->columns; k++) {
         if (r->column[k].counts) {
@@ -996,7 +998,7 @@ static bool knows(const reference *r) {
 reference *reference_new(const reference_wish *w) {
     const bool steps = w->image->contacts > 0 || w->by.steps > 0;
     reference *r = steps ? by_fine_steps(w) : by_extrapolation(w);
-    if (!r->stopped && r->broken) {          /* of extrapolations alone */
+    if (!r->stopped && r->broken) {          /* the extrapolations found no small step */
         reference *other = by_fine_steps(w); /* kinks and jumps are passed by steps */
         if (knows(other) && (other->records > r->records || !knows(r))) {
             reference *swap = r;

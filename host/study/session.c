@@ -110,7 +110,7 @@ static char *swept_text(const resumable_csv_settings *s, uint64_t row) {
     return text;
 }
 
-/* Is this the row: its swept fields, followed by this many numbers or empty fields? */
+/* Does the line consist of the row's swept fields, followed by s->measures numbers or empty fields? */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,
                    bool *failed) {
     char *swept = swept_text(s, row);
@@ -280,7 +280,7 @@ bool resumable_csv_close(resumable_csv *s) {
 
 /* === a sweep from its first missing row to its last =========================================== */
 
-/* In the declared unit of `of`, else in that of the dimension. */
+/* Writes a column's name and unit: the declared unit of `of`, or else the SI unit `si`. */
 static void put_column(json *j, const char *name, const symbol *of, int primes, const char *si) {
     char *unit = of != NULL ? shown_unit_name(of, primes) : alloc_words("%s", si);
     json_open(j, NULL, '{');
@@ -490,19 +490,19 @@ typedef struct sitting {
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
-    int told;                 /* failures described */
-    uint64_t ran;             /* points delivered, now */
-    uint64_t found[FINDINGS]; /* points with this finding of `whirl run`, */
+    int told;                 /* failures that were described */
+    uint64_t ran;             /* points delivered in this session */
+    uint64_t found[FINDINGS]; /* number of points with this finding, and the first one */
     uint64_t found_first[FINDINGS];
-    uint64_t unlooked_points; /* not checked for some finding, */
-    unsigned unlooked;        /* these */
+    uint64_t unlooked_points; /* points that were not checked for some finding */
+    unsigned unlooked;        /* those findings, as bits */
     unsigned against;
     unsigned fails; /* for these findings the exit status is 1 */
 } sitting;
 
 enum { TOLD_MAX = 20 };
 
-/* Of a point that did not fail, `reason` is its notes. */
+/* Runs a point in a worker. If it does not fail, `reason` gets its notes. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;
@@ -602,7 +602,7 @@ static void swept(const void *context, uint64_t row, FILE *out) {
     sweep_swept_fields(s->sweep, s->first + row, out);
 }
 
-/* The findings of `whirl run` for them; of the points that ran now, as rows found in the file do not tell. */
+/* Prints the findings of the points that ran in this session. The file's earlier rows do not contain theirs. */
 static void say_found(const sitting *s) {
     for (int id = 0; id < FINDINGS; id++) {
         if (s->found[id] > 0) {

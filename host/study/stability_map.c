@@ -43,14 +43,14 @@ double map_row(const stability_map *m, uint64_t row) {
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
 /* Runs of a row. Their errors are relative to the range of each column in the first and finest run. A coarse run has
- * few samples, and if half its step is too long as well, its finer run diverges with it. */
+ * few samples, and its finer run may diverge, too, so neither has a useful range. */
 typedef struct row_runs {
     const map_wish *wish;
     stability_map *map;
     double *range; /* [columns], in the columns' units; NULL: not known yet */
 } row_runs;
 
-/* Is there no column of its derivative? */
+/* Is column k the highest recorded derivative of its unknown? */
 static bool is_highest(const step_doubling *t, int k) {
     const record_column *c = &t->shape->column[k];
     bool highest = true;
@@ -68,7 +68,7 @@ static void take_ranges(row_runs *p, const horizon *h) {
     }
 }
 
-/* If the finer run is out of bounds at half the step, the run is as well. */
+/* The run counts as out of bounds if the finer run is, at half the step. */
 static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
     for (int k = 1; k < h->of->columns; k++) {
@@ -144,7 +144,7 @@ static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
     row_runs p = {.wish = w, .map = m};
     for (uint64_t i = 0; i < w->of.grid->axes[m->along].count && !interrupted; i++) {
         const uint64_t point = map_point(m, row, i);
-        if (!m->by_step) { /* another scene, not the same in other steps */
+        if (!m->by_step) { /* the next point is another scene, so its ranges differ */
             free(p.range);
             p.range = NULL;
         }
@@ -206,7 +206,7 @@ static void print_row(FILE *out, const stability_map *m, uint64_t row) {
     fputc('\n', out);
 }
 
-/* The largest value of a row on top, as in the picture. */
+/* The row with the largest value is on top, as in the picture. */
 void map_print(FILE *out, const stability_map *m, const char *words) {
     const axis *along = along_of(m);
     const axis *rows = rows_of(m);
@@ -334,7 +334,7 @@ static void set_axis(FILE *to, const axis *a, char letter) {
     fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
 }
 
-/* x, y and the edges of each stretch of cells of a row that have this verdict. */
+/* Writes x, y and the edges of each run of adjacent cells of a row with this verdict. */
 static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     const axis *along = &m->grid->axes[m->along];
     const axis *rows = &m->grid->axes[1 - m->along];

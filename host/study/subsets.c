@@ -99,7 +99,7 @@ void subsets_close(subsets *s) {
 
 /* --- runs side by side -------------------------------------------------------------------------------*/
 
-/* The first is the full run. */
+/* One of the runs side by side. Lane 0 is the full run. */
 typedef struct lane {
     subset *subset;
     image *image;
@@ -135,7 +135,7 @@ static void lane_close(lane *l, int columns) {
     image_free(l->image);
 }
 
-/* The largest difference of each column. A difference to NAN is infinite. */
+/* Updates each column's largest difference from the full run. A difference from NAN is infinite. */
 static void lane_compare(lane *l, const records *full) {
     records_read(l->records, l->run, full->row[0]);
     for (int i = 1; i < full->columns; i++) {
@@ -150,8 +150,8 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Does leaving out terms change a slope of the full run, at its state, by more than round-off? The two may keep their
- * components in another order. */
+/* Do the missing terms change a slope at the full run's state by more than round-off? The two may have their components in
+ * different orders. */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;
@@ -177,7 +177,7 @@ static bool terms_act(const lane *all, vector_field *less) {
     return act;
 }
 
-/* Statements are identified by their places. */
+/* The effect of this contact acts. The effect is found by the statement's place. */
 static void contact_acts(subsets *s, int contact) {
     for (int i = 0; i < s->of->contact_count; i++) {
         const contact_statement *c = &s->of->contacts[i];
@@ -188,7 +188,7 @@ static void contact_acts(subsets *s, int contact) {
     }
 }
 
-/* Friction always acts, a stop or hold while it is closed, and any contact at an event. */
+/* A friction always acts, a stop or hold acts while it is closed, and any contact acts at an event. */
 static void contacts_act(subsets *s, void *run) {
     engine_event event[WH_EVENT_LOG];
     int mode[WH_CONTACTS_LIMIT];
@@ -238,8 +238,8 @@ static void lane_stop(lane *l, const char *why) {
     l->run = NULL;
 }
 
-/* The full run, together with those from list[first] on; after those without one effect, while they are within the
- * limits. */
+/* Steps the full run, together with the subsets from list[first] on. Subsets other than those without one effect stop as soon
+ * as they exceed the limits. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;

@@ -55,7 +55,7 @@ static const char *matrix_word(int i) { return image_matrix_words[i]; }
 static int matrix_of(const setting *s) { return (int)s->image.matrix; }
 static void matrix_put(setting *s, int i) { s->image.matrix = (image_matrix_of)i; }
 
-/* Tables of each form with the cells that it has by itself, and with a quarter or half, and four times as many. */
+/* Tables of each form with the default number of cells, with a quarter or half of it, and with four times as many. */
 static const struct {
     const char *word;
     const char *options;
@@ -93,8 +93,8 @@ typedef struct axis_row {
     const char *(*word)(int i);
     int (*of)(const setting *s);
     void (*put)(setting *s, int i);
-    const char *option;  /* NULL: it has words of its own */
-    bool always_written; /* also its first word */
+    const char *option;  /* NULL: setting_options() writes this axis specially */
+    bool always_written; /* the option is written even for the default word */
 } axis_row;
 
 static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE; }
@@ -137,7 +137,7 @@ static setting combination(int i) {
 
 bool setting_is_fixed(const setting *s) { return s->number == &engine_fixed; }
 
-/* Does each of its words say something? Fixed point knows one method, and one way to its sines (host/fixed). */
+/* Does each word of the combination have an effect? Fixed point has one method, and one way to compute sines (host/fixed). */
 static bool makes_sense(const setting *s) {
     const bool plain = s->image.angles == ANGLES_TURNED;
     if (setting_is_fixed(s)) {
@@ -232,11 +232,11 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* === trials =================================================================================== */
 
-/* Operations that a reference's two computations may evaluate each, of all points: some seconds. */
+/* Limit on the operations of each of the reference's two computations, for all points together: some seconds. */
 #define REFERENCE_OPERATIONS 6e8
 /* A run with a larger error, as a part of the largest value, is useless. */
 #define USABLE 1.0
-/* If a scene has no step in fixed point, this many times a tenth of the step is tried. */
+/* If a scene has no step in fixed point, a tenth of the step is tried, up to this many times. */
 enum { FINER_MOST = 3 };
 
 const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
@@ -354,7 +354,8 @@ static void cut(trials *t) {
     }
 }
 
-/* Drops the places where nothing moves: no error is a part of anything there. If nothing moves at all, that is the report. */
+/* Drops the places without motion, which have no largest value to compare an error with. If no place has motion, all stay, and the
+ * report says so. */
 static void drop_still(trials *t) {
     int kept = 0;
     for (int p = 0; p < t->points; p++) {
@@ -423,7 +424,7 @@ const char *trial_until(const trials *t, char text[TRIAL_TIME]) {
     return text;
 }
 
-/* Of an image and its step in fixed point, if it has one. */
+/* Frees an image and its step in fixed point, if it has one. */
 static void drop(image *im) {
     if (im != NULL) {
         fixed_plan_free((fixed_plan *)(uintptr_t)im->fixed);
@@ -431,8 +432,8 @@ static void drop(image *im) {
     }
 }
 
-/* Makes its step in fixed point; NULL, with the image freed, if it has no such step. Undeclared ranges come from a run in
- * double to the end, which counts as evaluated. */
+/* Adds the step in fixed point to an image; NULL, with the image freed, if there is no such step. Undeclared ranges come from a
+ * run in double to the end, whose operations are counted. */
 static image *in_fixed_point(trials *t, image *im) {
     diags *unsaid = diags_new();
     im->fixed = fixed_plan_make(im, false, unsaid);
@@ -446,7 +447,7 @@ static image *in_fixed_point(trials *t, image *im) {
     return im;
 }
 
-/* In fixed point an image is first priced and then run: it is stored between the two. */
+/* In fixed point an image is first priced and then run. It is stored in between. */
 static image *kept(trials *t, int point, deviation_pace pace) {
     trial_planned *k = &t->planned[point];
     image *im = k->pace.steps == pace.steps && k->pace.records == pace.records ? k->image : NULL;
@@ -519,7 +520,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             return (trial_result){.ran = false};
         }
         deviation_of_what what = t->what;
-        if (what.column >= 0) { /* in its own unit */
+        if (what.column >= 0) { /* errors are in the column's unit */
             what.give_up = number_most(
                 t->tolerated, USABLE * (double)t->reference[p]->column[what.column].largest);
         }
@@ -565,7 +566,7 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     for (int p = 0; p < t->points; p++) {
         image *im = priced_image(t, p, s, pace);
         if (im == NULL && setting_price_varies(s) &&
-            !setting_is_fixed(s)) { /* a step that long has no matrix: its own may */
+            !setting_is_fixed(s)) { /* a step that long may have no matrix: try the scene's step */
             im = make_at(t, p, s, NULL, NULL);
         }
         if (im == NULL) {
@@ -586,7 +587,7 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     return dearest;
 }
 
-/* Undeclared ranges take a run in double to the end. */
+/* The run is in double to the end; it is needed only for undeclared ranges. */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
     return setting_is_fixed(s) && t->planned_most > 0.0 &&
            trial_operations(t, s, pace) > t->planned_most;
