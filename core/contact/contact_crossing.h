@@ -1,7 +1,8 @@
 /* contact_crossing.h: crossings: their assignments, and their sides of zero afterwards.
  *
- * A crossing's mode is its side, +1 or -1. Its location has an error, so its value is then slightly off zero. A value
- * that turns back or stands there has crossed once, although it passes that small offset again. */
+ * A crossing's mode is its side of zero, +1 or -1. A crossing is located with an error, so after the event its value is
+ * not exactly zero. If the value then turns back or stands still, it may pass zero again by that small error. That
+ * counts as one crossing. */
 #ifndef WH_CONTACT_CROSSING_H
 #define WH_CONTACT_CROSSING_H
 
@@ -42,13 +43,13 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         }
     }
     wh_books_levels(of, w, s, input, k, WH_R(1.0));
-    /* where the assignment leaves each contact, if it moved it */
+    /* the signals after the assignment show which contacts it moved */
     wh_contact_point_of(of, s, &at);
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
-        /* a hold's new value, too */
+        /* a hold's value may have changed although its signals did not */
         w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
     unsigned onto = 0; /* crossings with values that were set to zero */
@@ -62,9 +63,10 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Crossings in work->stands are past zero by the error of their location. A value that moves back to its old side has turned
- * back, and its return over zero is no second crossing. The direction comes from the first derivative, without any fall that
- * follows. If that is zero, it comes from the second; if that is zero as well, the crossing stands and is on no side. */
+/* Decides the sides of the crossings in work->stands, which are past zero by the error of their location. A value that
+ * moves back to its old side has turned back, and its return over zero is no second crossing. The direction comes from
+ * the first derivative. If that is zero, the second derivative decides. If both are zero, the crossing stands still and
+ * is on no side. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -85,7 +87,9 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                 w->stands &= ~(1U << k);
                 if (gain > WH_R(0.0) ? w->mode[k] < 0 : w->mode[k] > 0) {
                     w->mode[k] = (int8_t)-w->mode[k];
-                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30); /* never 0 */
+                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30); /* 0 would mean:
+                                                                                 * has not turned
+                                                                                 * back */
                     /* an acceleration may end at once, as friction's does where it sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
@@ -101,7 +105,7 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
     w->stands = 0;
 }
 
-/* The values of crossings, which wh_contact_carry() compares. */
+/* Saves the values of the crossings for wh_contact_carry(). */
 WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *signal,
                                    wh_real *before) {
     for (unsigned k = of->forced; k < of->contacts; k++) {
@@ -109,7 +113,8 @@ WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *s
     }
 }
 
-/* A stop's projection may carry a value off its crossing, which changes sides without an event. */
+/* If the projection of a stop moved the value of a crossing by more than its distance from zero, the crossing changes
+ * sides without an event. */
 WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *before, const wh_real *signal) {
     unsigned sides = 0;
@@ -121,9 +126,9 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Crossings that went against their direction, or left their starting value, change sides without an event. One that
- * turns back is on no side until the end of the next step, unless it is there already. One that stands is on no side
- * until it has moved by more than its offset from zero. */
+/* Without an event, sides change for crossings that went against their direction, and for those that left the value at
+ * which they stood. A crossing that turned back is on no side until it has gone the distance work->due when a step ends.
+ * A crossing that stands is on no side until it has moved by more than its distance from zero. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;
@@ -139,7 +144,7 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-/* Values of the crossings that are on no side when a try from `s` begins. */
+/* Saves the values that crossings on no side have when a try from `s` begins. */
 WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;

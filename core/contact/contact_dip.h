@@ -4,23 +4,23 @@
 
 #include "contact_locate.h"
 
-/* The rest of a step, tried: from `now` to `next`. */
+/* A try of the rest of a step: from `now` to `next`. */
 typedef struct wh_contact_attempt {
     wh_contact_state now;
     wh_contact_state next;
-    wh_real span;       /* how long it is, s: wh_contact_attempt_dipped() */
-    wh_margins margins; /* at the end */
-    unsigned
-        leaving; /* free stops that open at the end and are closed or nearer than the way of the try, as
-                  * bits */
-    unsigned dips; /* subset, as bits: open at both ends, perhaps closed in between */
-    int fault;     /* component that left all bounds */
-    bool made;     /* the step was computed, */
-    bool sound;    /* and its end is within bounds */
+    wh_real span;       /* length of the try, s: set by wh_contact_attempt_dipped() */
+    wh_margins margins; /* at `next` */
+    unsigned leaving; /* bits: free stops that open at the end, and are closed or less open than the
+                  * distance they open in the try at that rate */
+    unsigned dips;    /* subset of `leaving`: open at both ends, perhaps closed in between */
+    int fault;        /* component that left all bounds, if !sound */
+    bool made;        /* the step was computed, */
+    bool sound;       /* and its end is within bounds */
 } wh_contact_attempt;
 
-/* Share of the try at which the tangents of its ends cross. A gap that bends upwards, as for a body that passes a convex
- * obstacle, is lowest no lower than there. gap, rate: at both ends, `h` apart. */
+/* Share of the try at which the tangents of the gap at both ends cross, and in *least the gap there. If the gap bends
+ * upwards, as for a body that passes a convex obstacle, it is nowhere lower than *least. gap[2] and rate[2] belong to
+ * the ends, which are h seconds apart. */
 WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, wh_real h,
                                       wh_real *least) {
     const wh_real share = (gap[1] - gap[0] - rate[1] * h) / ((rate[0] - rate[1]) * h);
@@ -28,8 +28,9 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Stops that are closed at the end and opening were hit if they were open or closing at the begin. A gap that is
- * positive at both ends, and closes and then opens, may have been negative in between. */
+/* Finds stops that were hit although they open again at the end of the try. A stop that is closed at the end was hit if
+ * it was open or closing at the begin: its margin becomes negative. A gap that is positive at both ends, and closes and
+ * then opens, may have been negative in between: a->dips. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -62,10 +63,10 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
     }
 }
 
-/* The share of the try at which the first of a->dips is found closed; 1: no dip. Each probe on the cubic through the try's
- * ends replaces the end with the same sign, until the tangents cross above zero. Tangents find the lowest point of a root,
- * linear rates that of a parabola, so they take turns. From a point inside, one more probe goes half the way back to the
- * surface, because a post's gap may be undefined at its centre. */
+/* The share of the try at which the first of a->dips is found closed, or 1 if none is. Each probe on the cubic through the
+ * ends replaces the end whose rate has the same sign, until the tangents cross above zero. Odd and even probes take turns:
+ * tangents find the lowest point of a gap shaped like a square root, linear rates that of a parabola. A probe inside the
+ * obstacle is followed by one half the way back to the surface, because a round post's gap may be undefined at its centre. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;
@@ -74,7 +75,7 @@ WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt 
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real first = WH_R(1.0);
     wh_contact_path_of(of, &a->now, &a->next, h, &path);
-    for (unsigned i = 0; i < of->coordinates; i++) { /* rates on a straight line */
+    for (unsigned i = 0; i < of->coordinates; i++) { /* makes the rates linear in time */
         path.a0[i] = path.gain[i] / h;
         path.a1[i] = path.gain[i] / h;
     }

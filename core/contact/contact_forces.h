@@ -4,9 +4,10 @@
 
 #include "contact_lcp.h"
 
-/* Redundant contacts, as bits of indices in member[], first get no force. If that overloads another contact, or if they
- * contradict the others, the load is shared: work->force has the shares. A contact that gives way gets its limit plus the
- * excess. The accelerations change only after a contradiction; otherwise they stay identical to the bit. */
+/* Shares the load with the redundant contacts `repeats` (bits of indices in member[]), which have no force so far. It
+ * does so only if that overloads another contact, or if the redundant contacts contradict the others. work->force gets
+ * the shares. A contact that gives way gets its limit plus the excess. The accelerations change only after a
+ * contradiction; otherwise their bits stay the same. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -38,7 +39,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         w->force[k] = lambda[i];
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
-            if (!wh_contact_exceeds(of, w, k, w->force[k])) { /* by less than shows */
+            if (!wh_contact_exceeds(of, w, k, w->force[k])) { /* the excess is lost in round-off */
                 w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
                                                    : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
@@ -46,7 +47,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The accelerations with the contacts' forces, which stay in work->force. A wh_accel_fn. */
+/* The accelerations with the contacts' forces, which are stored in work->force. A wh_accel_fn. */
 static inline void wh_contact_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_contact_model *m = model;
@@ -84,7 +85,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (pin >= 0) { /* zero, unless the force is no number */
+        if (pin >= 0) { /* zero, or NaN if the force is NaN */
             accel[pin] = lambda[i] - lambda[i];
         }
     }
@@ -108,9 +109,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Impulses, all at once. Each contact in `set` (bits) gets the impulse that leaves J_k q' = target[k], or more for a
- * stop that others push further. Active contacts keep their rates. Resting stops, and those in `beside`, push but do
- * not pull. work->law must belong to this position. The impulses are added to impulse[forced]. Returns the stops that
+/* Solves for all impulses at once. Each contact in `set` (bits) gets the impulse that leaves J_k q' = target[k]; a stop
+ * may end faster if others push it. Active contacts keep their rates. Resting stops, and the stops in `beside`, push but
+ * do not pull. work->law must belong to this position. The impulses are added to impulse[forced]. Returns the stops that
  * would have had to pull, as bits. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,

@@ -4,17 +4,17 @@
 
 #include "contact_project.h"
 
-/* A rate counts as zero if friction stops it within this share of the step. The forces then decide if it sticks. */
+/* Round-off in an impact: a rate is zero if it is at most this share of the rate that the impact passes on. */
 #define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
 
-/* Gaps close at the same moment if they differ by at most this share of their terms. */
+/* Two gaps close at the same moment if they differ by at most this share of the terms they consist of. */
 #define WH_CONTACT_TIE (WH_DOUBLE ? WH_R(0x1p-50) : WH_R(0x1p-21))
 
 typedef struct wh_contact_moment {
-    unsigned events; /* contacts that have one, as bits */
-    unsigned falls;  /* stops that rest no longer, as bits */
-    wh_real h;       /* the step, s */
-    bool last;       /* no more bounces in this step */
+    unsigned events; /* contacts with an event, as bits */
+    unsigned falls;  /* resting stops that are to open, as bits */
+    wh_real h;       /* length of the step, s */
+    bool last;       /* the last moment of the step: a stop that is hit must rest */
 } wh_contact_moment;
 
 /* --- modes --------------------------------------------------------------------------------------- */
@@ -26,7 +26,7 @@ WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* Crossings: the side of zero of each value in `bits`; a zero keeps its side. */
+/* Sets the side of zero of the crossings in `bits`. A crossing whose value is zero keeps its side. */
 WH_INLINE void wh_contact_set_sides(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
                                     const wh_real *signal) {
     WH_UNROLL
@@ -38,7 +38,7 @@ WH_INLINE void wh_contact_set_sides(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* The contacts of a kind that hold (1) or do not (0), as bits. */
+/* The contacts of a kind that are active or stuck (holds true), or not, as bits. */
 WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contact_work *w,
                                     wh_contact_kind kind, bool constrains) {
     unsigned bits = 0;
@@ -51,7 +51,7 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
 
 /* --- velocities ---------------------------------------------------------------------------------- */
 
-/* Sum of |terms| of J_k x, the scale of its round-off. */
+/* Sum of the magnitudes of J_k x's terms: the scale of its round-off. */
 static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -62,8 +62,8 @@ static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_con
     return size;
 }
 
-/* How stop k is pressed, as an acceleration that would close it. Values within the round-off of the other contacts'
- * forces count as zero. work->law and accel[] must belong to the state. */
+/* The pressing of stop k: the acceleration with which the forces would close its gap. Values within the round-off of the
+ * other contacts' forces count as zero. work->law and accel[] must belong to the state. */
 static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned k, const wh_real *accel) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
@@ -74,7 +74,7 @@ static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_
     return WH_ABS(pressing) <= none ? WH_R(0.0) : pressing;
 }
 
-/* Would a flight that begins with `speed` be too short, as stop k is pressed? */
+/* Would a flight of stop k that begins with `speed` be too short (WH_REST_SHARE), given how the stop is pressed? */
 static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_contact_moment *m, wh_real speed,
                                     const wh_real *accel, const wh_real *rate) {
@@ -86,8 +86,8 @@ static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contac
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Resting stops with restitution and without any pressing force: they merely touch. An impulse through them is an
- * impact of its own in the next round (Newton's cradle). work->force must be up to date. */
+/* Resting stops that merely touch: they have a restitution, and nothing presses them. An impulse through such a stop is
+ * an impact of its own in the next round, as in Newton's cradle. work->force must be up to date. */
 static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned resting, const wh_real *accel) {
     unsigned bits = 0;
@@ -104,8 +104,8 @@ static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_co
     return bits;
 }
 
-/* Free stops that close and touch, within the error of their gaps and rates. All are hit at the same moment,
- * independent of the order of their location. */
+/* Free stops that touch and close, within the error of their gaps and rates. All of them are hit at the same moment, so
+ * the result does not depend on which was located first. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
                                        wh_real h, const wh_real *signal, wh_contact_state *s) {
     const wh_real *rate = wh_contact_rates(of, s);
@@ -121,8 +121,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Free stops, except for `hits`, that touch within the error of location and that an impulse made close. They are
- * hit in the next round. `before` and `after` are the signals around the impulse. */
+/* Free stops outside `hits` that touch, within the error of location, and that an impulse made close: they are hit in
+ * the next round. `before` and `after` are the signals before and after the impulse. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -137,9 +137,9 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Free stops without restitution that touch and are at rest while the rates change along `hits`. Nothing presses
- * them, but they block the motion after the impact. Two plastic impacts in turn would never end; impacts with
- * restitution do, so those are taken in turn. */
+/* Free stops without restitution that touch, and are at rest compared with the change of rates along `hits`. Nothing
+ * presses them, but they block the motion after the impact. They take part in the same impact, because two plastic
+ * impacts that cause each other in turn would never end. Impacts with restitution do end, so those are taken in turn. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -163,12 +163,12 @@ static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_c
     return bits;
 }
 
-/* The interpreter defines this to see the restitution of stop k at an impact. In generated code it is empty. */
+/* The interpreter defines this macro to record the restitution of stop k at an impact. In generated code it is empty. */
 #ifndef WH_RESTITUTION_SEEN
 #define WH_RESTITUTION_SEEN(of, k, given) ((void)0)
 #endif
 
-/* The restitution of stop k, which must be a number; beyond 0 ... 1 it counts as the nearer end. */
+/* The restitution of stop k, limited to 0 ... 1. A value that is not a number is reported (work->undefined). */
 WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact_work *w,
                                          unsigned k) {
     const wh_real given = wh_contact_law(of, w, k)[WH_LAW_FIRST];
@@ -177,10 +177,10 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Stops are hit, all at once: they bounce, or rest if the next flight would be too short. Stops that come to rest
- * get a single impulse. Two of them, there and back, would release stops that the single one keeps. Stops released
- * by the impact stay at rest if their flight would be too short. Otherwise a body in a corner would bounce for ever.
- */
+/* Stops are hit, all at once: each bounces, or rests if its next flight would be too short. A stop that comes to rest
+ * gets a single impulse: a bounce followed by a second impulse back would release other stops that the single impulse
+ * keeps. Stops released by the impact stay at rest if their own flight would be too short. Otherwise a body in a corner
+ * would bounce for ever. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -220,7 +220,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_look(of, w, s, input, accel, signal);
         wh_contact_passed_on(of, w, closing, m->h, before, signal);
         for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
-            if ((closing & ~released & 1U << k) == 0) { /* others push it further, or moved it */
+            if ((closing & ~released & 1U << k) == 0) { /* its speed is not the one that was set */
                 speed[k] = wh_jacobian_times(of, w, k, rate);
             }
         }
@@ -235,12 +235,12 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((rest >> k & 1U) != 0 && was[k] == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
-            spot.but =
-                wh_contact_stuck(of, w); /* at rest beyond it: friction does not hold it there */
+            spot.but = wh_contact_stuck(of, w); /* a body at rest beyond the stop: friction does not
+                                          * keep it there */
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = of->forced > 1 /* a single contact is the one that was hit */
+    unsigned gone = of->forced > 1 /* a single contact cannot release another one */
                         ? resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next
                         : 0U;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
@@ -250,7 +250,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* a push alone would not keep them */
+    if ((gone | leaving) != 0) { /* without an impulse their rates would carry them away */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -259,9 +259,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* Moves bodies off the free stops that they have passed (by more than round-off if `coarse`). The move is the least one in
- * the metric of the masses. Stops push and do not pull, as in an impact. Returns the stops that were passed and those that
- * pushed, as bits. signal[] and work->law then belong to the state. */
+/* Moves bodies off the free stops that they have passed (by more than round-off if `coarse`). The move is the smallest
+ * one, measured with the mass matrix. Stops push and do not pull, as in an impact. Returns the stops that were passed
+ * and those that pushed, as bits. Afterwards signal[] and work->law belong to the state. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -278,7 +278,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         unsigned mover = WH_CONTACTS_MAX;
         unsigned count = 0;
-        unsigned over = 0; /* pushed too far: their gaps are curved */
+        unsigned over = 0; /* stops that were pushed too far, because their gaps are curved */
         wh_contact_look(of, w, s, input, accel, signal);
         for (unsigned k = 0; k < of->forced; k++) {
             const bool stop = wh_contact_of(of, k, WH_STOP);
@@ -297,7 +297,8 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         if ((mover == WH_CONTACTS_MAX && over == 0) || pass + 1U == looks) {
             break;
         }
-        if (mover == WH_CONTACTS_MAX) { /* back, until they touch: only then may a stop pull */
+        if (mover == WH_CONTACTS_MAX) { /* Nothing is passed: move back until the stops touch.
+                                         * Only here may a stop pull. */
             unsigned kept = 0;
             for (unsigned i = 0; i < count; i++) {
                 const unsigned k = member[i];
@@ -318,7 +319,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
         wh_real part =
-            WH_R(1.0); /* of the way: a slope does not hold for an angle beyond half a radian */
+            WH_R(1.0); /* share of the way: linearized, an angle moves at most half a radian */
         for (unsigned i = 0; coarse && i < of->angles; i++) {
             const wh_real turn = WH_ABS(way[i]);
             part = turn * part > WH_R(0.5) ? WH_R(0.5) / turn : part;
@@ -332,7 +333,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
     return passed | *pushed;
 }
 
-/* After a step with too many events: bodies are moved off free stops that they passed, and touching stops get no
+/* Ends a step with too many events: bodies are moved off free stops that they passed, and these stops are hit without
  * restitution. */
 static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_real *input, wh_contact_state *s) {
@@ -342,7 +343,8 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* a body moved off its stop rests there no longer, and is not hit */
+        unsigned open = 0; /* stops that lost their body by the move: they do not rest and are
+                            * not hit */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -356,15 +358,13 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 
 /* --- conditions that a hold freezes --------------------------------------------------------------- */
 
-/* A hold with its own expression in its condition captures at the condition's limit. */
-
-/* Perturbation of a hold's expression, as a share of its terms, that shows if its condition depends on it. The same share
- * of the resulting change is the round-off of the condition. */
+/* A hold whose condition depends on the held expression captures at the condition's limit. To find this dependence, the
+ * expression is perturbed by this share of its terms. The condition's round-off is the same share of the resulting change. */
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
-/* Change of the condition of hold k, which is `now`, with the hold's expression and its rate, each perturbed by WH_EDGE_PROBE
- * of its terms. work->law must belong to the state. */
+/* Change of the condition of hold k, now `now`, if the held expression and its rate are perturbed by WH_EDGE_PROBE of
+ * their terms. work->law must belong to the state. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -384,8 +384,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* Distance from zero within which hold k's condition, `now`, is at its limit to round-off. Negative if the condition falls
- * with the expression; 0: it is not at its limit. */
+/* The round-off of hold k's condition, `now`, if the condition is at its limit (zero within that round-off), else 0.
+ * Negative if the condition falls when the expression rises. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -393,8 +393,9 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* Holds that have just captured, as bits, a little short of their own limit because of the location's error. Their
- * expressions are moved as far beyond it. signal[] must belong to the state; rates[]: signals before the capture. */
+/* Corrects holds that have just captured (bits) a little short of their condition's limit, because of the location's
+ * error. Their expressions are moved to the same distance beyond the limit. signal[] must belong to the state; rates[]
+ * are the signals before the capture. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {
@@ -411,7 +412,8 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
             if (WH_ABS(by) <=
-                WH_ABS(rates[2 * k + 1]) * h / 64) { /* else it is not its own limit */
+                WH_ABS(rates[2 * k + 1]) * h / 64) { /* a larger move: the condition does not
+                                                      * depend on this expression */
                 wanted[i] = by;
                 mover = k;
             }

@@ -1,24 +1,24 @@
 /* contact_lcp.h: load sharing between contacts with limits, as a linear complementarity problem.
  *
- * A resting stop pushes and does not pull, and a sticking friction takes no more than its static limit. So the forces
- * of the active contacts solve, with the Delassus matrix J M^-1 J^T,
+ * A resting stop pushes and does not pull, and a sticking friction takes no more than its static limit. So the forces of
+ * the active contacts solve, with the Delassus matrix J M^-1 J^T,
  *
- * a = J M^-1 J^T lambda - wanted, low <= lambda <= high, a_k = 0 between the limits, a_k >= 0 at the low one, a_k <= 0
- * at the high one (it gives way).
+ * a = J M^-1 J^T lambda - wanted, low <= lambda <= high,
+ * a_k = 0 between the limits, a_k >= 0 at the low limit, a_k <= 0 at the high limit (contact k gives way).
  *
- * Normal forces do not depend on lambda, so the problem is convex and its accelerations are unique. The forces are
- * unique, too, unless contacts are redundant. With impulses for forces and rates for accelerations it is the impact's
- * problem (Moreau; Pfeiffer & Glocker, chapter 8).
+ * Normal forces do not depend on lambda, so the problem is convex and its accelerations are unique. The forces are unique,
+ * too, unless contacts are redundant. With impulses for forces and rates for accelerations it is the problem of an impact
+ * (Moreau; Pfeiffer & Glocker, chapter 8).
  *
  * The method is principal pivoting by least index (Murty, Linear Complementarity, Linear and Nonlinear Programming,
- * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). It starts from the present modes: in the first round
- * all active contacts stay active. It is proved to end for a P-matrix, which this is if the rows are independent. With
- * redundant rows it is only semidefinite. Then each contact that would enter the basis a second time is tested for a
- * contradiction. The leaving contact is found by a ratio test along the null direction, as in the pivoting of Keller
- * and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
+ * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). It starts from the present modes: in the first round all
+ * active contacts stay active. The method provably ends if the matrix is a P-matrix, as it is with independent rows. With
+ * redundant rows the matrix is only semidefinite. Then each contact that would enter the basis a second time is tested for
+ * a contradiction. The leaving contact is found by a ratio test along the null direction, as in the pivoting of Keller and
+ * of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
  *
- * No proof is known for both together. So the rounds are capped at 4 n + 1, and a step that meets the cap counts as an
- * overrun.
+ * No proof is known for the combination of both. So the rounds are capped at 4 n + 1, and a step that meets the cap counts
+ * as an overrun.
  *
  * Checked by: tests/core/test_lcp.c, 80,000 random problems with redundant rows, all below the cap. */
 #ifndef WH_CONTACT_LCP_H
@@ -26,18 +26,18 @@
 
 #include "contact_ledger.h"
 
-/* Beyond any force: no limit. */
+/* Stands for "no limit": larger than any force. */
 #define WH_LIMITLESS WH_R(1e30)
 
-/* Forces and accelerations below this share of their terms count as zero. Otherwise round-off would release and
- * hit an unloaded resting stop for ever. */
+/* Forces and accelerations below this share of their terms count as zero. Otherwise round-off would release and hit an
+ * unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path that bends by less than this share of the largest acceleration counts as straight: the squared residue of
- * a rate that has come to zero. */
+/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration: a rate that has
+ * come to zero leaves such a residue, squared. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* A force beyond its limit by less than its round-off is set beyond it by this share of the limit. */
+/* If a force is beyond its limit by less than its round-off, it is set beyond the limit by this share of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 /* Round-off of a sum with terms of the sizes a, b and c. */
@@ -47,18 +47,19 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
 
 /* The contacts of one problem. */
 typedef struct wh_contact_set {
-    const uint8_t *member; /* [count]: their numbers */
+    const uint8_t *member; /* [count] contact numbers */
     unsigned count;
     const int8_t
-        *at; /* [count]: -1, 1: at the low, at the high limit; 0: within. NULL: all within */
+        *at; /* [count] -1: at the low limit, 1: at the high one, 0: between. NULL: all between */
 } wh_contact_set;
 
-/* A redundant contact may contradict the others. At a dead centre two rows are parallel, but only one of the paths bends,
- * so one contact must give way. In an impact two stops on one path may bounce differently.
+/* Finds redundant contacts that contradict the others. At a dead centre two rows are parallel, but only one of the paths
+ * bends, so one contact must give way. In an impact two stops on one path may bounce differently.
  *
- * Finds the sign of the push that each of `repeats` (bits of indices in member[]) needs: 1, -1, or 0 without contradiction.
- * way[] is the change of the accelerations by all forces, or of the rates by `impulse`, if not NULL. The path's curvature
- * J' q' is also tested by itself, because in a slow passage it would drown in the round-off of the accelerations. */
+ * For each of `repeats` (bits of indices in member[]) push[] gets the sign of the push that is missing: 1, -1, or 0
+ * without contradiction. way[] is the change of the accelerations by all forces; with impulse[] (not NULL) it is the
+ * change of the rates by all impulses. The path's curvature J' q' is also tested by itself, because in a slow passage it
+ * would drown in the round-off of the accelerations. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -102,7 +103,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
     }
 }
 
-/* The limits of contact k's force. */
+/* The high and the low limit of contact k's force. */
 WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned k) {
     return wh_contact_is(of, k, WH_LIMITED) ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
@@ -118,8 +119,8 @@ WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_
     return lambda < wh_contact_low(of, w, k) || lambda > wh_contact_high(of, w, k);
 }
 
-/* Bounds on the size of the terms of each member's acceleration, into work->rough: its own terms, plus the round-off
- * of the other forces. accel[] is the residual of all forces together. */
+/* Stores in work->rough a bound for each member's acceleration: the sum of the magnitudes of its terms, including the
+ * round-off of the other forces. accel[] are the accelerations with all forces. */
 static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact_work *w,
                                          const uint8_t *member, unsigned count,
                                          const wh_real *accel) {
@@ -135,7 +136,7 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* from one to the next, through chains of bodies; no round amplifies what returns (Cauchy, Schwarz) */
+    /* round-off spreads from one contact to the next, through chains of bodies; no round amplifies it (Cauchy, Schwarz) */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
@@ -152,9 +153,10 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. Friction gives way
- * itself, at its limit, and so does a stop that would have to pull. For a stop that must push more, or a hold, it is the
- * first of the relieved contacts to reach a limit. Returns its index in member[] and the limit, or count. */
+/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. A friction at its
+ * limit gives way itself, and so does a stop that would have to pull. For a hold, or a stop that must push more, the
+ * contact that gives way is the first of the relieved ones to reach a limit. Returns its index in member[] and the
+ * limit, or `count` if there is none. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -162,7 +164,8 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     int8_t fixed[WH_CONTACTS_MAX];
     wh_real less[WH_CONTACTS_MAX];
-    wh_real share[WH_CONTACTS_MAX]; /* change of each force with a unit of i, at the same motion */
+    wh_real share[WH_CONTACTS_MAX]; /* change of each force if contact i takes a unit of force
+                                     * and the motion stays the same */
     wh_real soonest = WH_LIMITLESS;
     unsigned first = count;
     *limit = push;
@@ -188,9 +191,9 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     return first;
 }
 
-/* One round of the pivoting: the forces lambda[] of the contacts within their limits, with the others at the
- * limit in at[] (-1: low, 1: high). `way` is the change of the accelerations by all forces. Returns the
- * redundant contacts, as bits of indices. */
+/* One round of the pivoting. The contacts with at[] = 0 get forces between their limits, the others stay at the limit
+ * that at[] says (-1: low, 1: high). `way` gets the change of the accelerations by all forces. Returns the redundant
+ * contacts, as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {
@@ -217,7 +220,7 @@ static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const w
     return repeats;
 }
 
-/* Round-off of the residual of k, which is at a limit. */
+/* Round-off of the residual acceleration of contact k, which is at a limit. */
 WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
                                                const wh_contact_work *w, unsigned k, bool forces,
                                                wh_real wanted, wh_real made, wh_real lambda) {
@@ -225,7 +228,7 @@ WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
            (forces ? WH_CONTACT_QUIET * w->rough[k] : WH_R(0.0));
 }
 
-/* The problem of one contact: within its limits, or at the nearer. */
+/* The problem of a single contact: its force is clamped to its limits. */
 WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_contact_work *w,
                                       unsigned k, wh_real wanted, bool forces, wh_real *lambda,
                                       wh_real *left) {
@@ -246,16 +249,16 @@ WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_cont
 /* The pivoting's state: the contacts in the order of elimination, with their marks. */
 typedef struct wh_contact_pivot {
     uint8_t member[WH_CONTACTS_MAX];
-    int8_t at[WH_CONTACTS_MAX]; /* -1, 1: at the low, at the high limit */
+    int8_t at[WH_CONTACTS_MAX]; /* -1: at the low limit, 1: at the high limit, 0: between */
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
-    unsigned contradicted; /* those in `at` because of a contradiction, as bits of contacts */
-    unsigned giving;       /* at a limit, with an acceleration off it, as bits of contacts */
+    unsigned contradicted; /* contacts that are at a limit because of a contradiction, as bits */
+    unsigned giving;       /* contacts that are at a limit and move away from it, as bits */
 } wh_contact_pivot;
 
-/* Contact at index i goes to its limit `to`, or, with 0, becomes free. Then it is eliminated last. So if it is
- * redundant, it is the one that is tested for a contradiction. */
+/* The contact at index i goes to its limit `to`; 0: it becomes free. A contact that becomes free is eliminated last: if
+ * it is redundant, it is the one that is tested for a contradiction. */
 WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
     const uint8_t k = p->member[i];
     const wh_real wanted = p->wanted[i];
@@ -274,7 +277,8 @@ WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsign
     p->wanted[i] = wanted;
 }
 
-/* The index of the contact on the wrong side, by least number, and its new limit; or count. */
+/* The index of the contact on the wrong side of its condition, and its new limit; `count` if none is wrong. If several
+ * are wrong, the one with the least number. */
 static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
                                               wh_contact_pivot *p, unsigned count, bool forces,
                                               const wh_real *way, int8_t *to) {
@@ -298,7 +302,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* by less than shows here */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* the acceleration may be lost in
+                                                        * round-off here */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }
@@ -306,8 +311,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
     return wrong;
 }
 
-/* The forces (or impulses) lambda[count] of the contacts in member[] within their limits, and left[count], the residual
- * accelerations (or rates). `forces`: not impulses. Returns the contacts that give way, as bits. */
+/* Solves for the forces (or impulses) lambda[count] of the contacts in member[], within their limits. left[count] gets
+ * the residual accelerations (or rates). `forces` is false for impulses. Returns the contacts that give way, as bits. */
 static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
                                       bool forces, wh_real *lambda, wh_real *left) {

@@ -6,13 +6,14 @@
 
 #if WH_LEDGER
 
-/* Does this scene keep a ledger, and is this a part of its run (not a probe)? */
+/* True if the scene keeps a ledger and this evaluation belongs to the run (it is not a probe). */
 WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work *w) {
     return of->ledger != NULL && w->books != NULL;
 }
 
-/* Contact k's force (or impulse) `lambda`, over a time `share` (or 1), worked at the mean speed J_k q' = `speed`. The
- * part that moves an input is the input's work: the contact's energy is the part that the coordinates got. */
+/* Enters the work and the impulse of contact k. Its force `lambda` acted over the time `share` at the speed J_k q' =
+ * `speed`; for an impulse, share is 1 and speed the mean speed. The work on an input with a rate is the input's entry:
+ * the contact's entry has only the work on the coordinates. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
                                   wh_real *entry) {
@@ -29,7 +30,7 @@ static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* One stage of a try. */
+/* Enters one stage of a try. */
 static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_work *w,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input) {
@@ -46,7 +47,8 @@ static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* An impulse of contact k changed its speed. The work is that of the mean speed (Kelvin). */
+/* Enters an impulse of contact k that changed its speed from `before` to `after`. The work is that at the mean speed
+ * (Kelvin). */
 WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real impulse, wh_real before, wh_real after,
                                 const wh_real *rate) {
@@ -56,7 +58,8 @@ WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* The accounts before and after a crossing's assignments. The difference is the crossing's entry. */
+/* Called before and after a crossing's assignments, with sign -1 and 1: the difference of the accounts is the crossing's
+ * entry. */
 static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,
                                    wh_real sign) {
@@ -71,8 +74,9 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
     }
 }
 
-/* The accounts before and after the projection of a contact. The difference is contact k's entry. Entries within
- * the accounts' own round-off are dropped: in float, the noise of many steps would exceed the true entries. */
+/* wh_books_look() and wh_books_moved() are called before and after the projection of a contact. The difference of the
+ * accounts is the contact's entry. A difference within the accounts' round-off is dropped: in float, the noise of many
+ * steps would exceed the true entries. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_state *s, const wh_real *input) {
     if (wh_books_open(of, w)) {

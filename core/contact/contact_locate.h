@@ -4,12 +4,12 @@
 
 #include "contact_forces.h"
 
-/* The event margins of each contact: positive before its event. */
+/* The distance of each contact from its event: positive before the event. */
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real accel[WH_COORDS]; /* if any depends on a force: wh_contact_watched() */
-    wh_real all;              /* sum of all margins: not finite if one of them is not */
+    wh_real accel[WH_COORDS]; /* only if an event depends on a force: wh_contact_watched() */
+    wh_real all;              /* a sum that is not finite if one of the contacts' values is not */
 } wh_margins;
 
 /* The path between two states that are `h` apart. Positions follow the cubic through both ends' positions and rates.
@@ -17,15 +17,15 @@ typedef struct wh_margins {
  * one order less accurate, and magnify the positions' round-off by 1/h.) */
 typedef struct wh_contact_path {
     wh_real h;              /* s */
-    wh_contact_point begin; /* at its begin */
-    wh_real way[WH_COORDS]; /* displacement to its end, rad or m */
+    wh_contact_point begin; /* state at the path's begin */
+    wh_real way[WH_COORDS]; /* displacement from begin to end, rad or m */
     wh_real end_rate[WH_COORDS];
-    wh_real gain[WH_COORDS]; /* gain of the rates on it */
+    wh_real gain[WH_COORDS]; /* change of the rates from begin to end */
     wh_real a0[WH_COORDS];
     wh_real a1[WH_COORDS];
 } wh_contact_path;
 
-/* The path without its accelerations. */
+/* Fills in the path, except for a0 and a1. */
 static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_state *from,
                                       wh_contact_state *to, wh_real h, wh_contact_path *path) {
     const wh_real *v0 = wh_contact_rates(of, from);
@@ -49,7 +49,7 @@ static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_st
     }
 }
 
-/* The place at the share `s` of the path. */
+/* The point of the path at the share `s` of its time. */
 WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_path *path,
                                   wh_real s, wh_contact_point *at) {
     const wh_real rest = WH_R(1.0) - s;
@@ -69,8 +69,8 @@ WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* The margin of a force beyond its limit, or zero within the round-off of the other forces along k. Computed only
- * for forces beyond their limit. */
+/* The margin of contact k's force. A negative margin within the round-off of the other contacts' forces counts as zero.
+ * (The round-off is computed only for negative margins.) */
 static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, wh_real margin) {
     wh_real others = WH_R(0.0);
@@ -85,7 +85,7 @@ static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_co
     return margin;
 }
 
-/* Does any contact's event depend on its force? */
+/* True if the event of a contact depends on its force. */
 WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
@@ -96,7 +96,7 @@ WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* The margins at a place, and work->force if they depend on it. */
+/* Evaluates the margins at a point of the path, and work->force if an event depends on it. */
 static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_margins *m) {
@@ -116,7 +116,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
         case WH_STOP:
             if (mode == WH_ACTIVE) {
                 margin = wh_contact_beyond(of, w, k, w->force[k]);
-            } else { /* one that began closed may be on its way out */
+            } else { /* a stop that was closed when the try began may be opening */
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed > WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
             }
@@ -136,7 +136,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
             }
             all += signal;
             break;
-        case WH_WHEN: /* only in its direction */
+        case WH_WHEN: /* a crossing has events only in its direction */
             if (mode != 0 && of->contact[k].direction != mode) {
                 margin = (mode > 0 ? signal : -signal) + w->slack[k];
             }
@@ -149,8 +149,8 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     m->all = all;
 }
 
-/* Has no event happened, and is all a finite number? A NaN compares as "not yet" with everything, and its contact
- * would be as good as gone. */
+/* True if no event has happened and all values are finite. (A NaN is never below zero, so without this test its contact
+ * would have no more events.) */
 WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
     WH_UNROLL
@@ -160,7 +160,7 @@ WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m)
     return calm;
 }
 
-/* The contact with the undefined signal or limit, into work->undefined, after margins that are not calm. */
+/* After margins that are not calm: stores a contact whose signal or limit is not finite in work->undefined. */
 WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_margins *m) {
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -184,8 +184,9 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
-/* Holds that began at the limit of their conditions are released only beyond their slack. Those that are still held at the
- * end are not released at all, because the cubic slips a little. `events`: those at the end. */
+/* A hold that began the try at the limit of its condition is released only if the condition falls below zero by more
+ * than its slack. If it is still held at the end of the try, it is not released in between at all: the cubic is slightly
+ * inaccurate. `events` are the contacts with an event at the end. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -197,16 +198,16 @@ WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Several contacts share loads, the deepest calls there are. So the search's own storage must not lie below
- * them on the stack. */
+/* The search is not inlined if a scene has several contacts: sharing the load takes the deepest calls, and these must
+ * not lie on top of the search's own variables on the stack. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
 #else
 #define WH_SEARCH static inline
 #endif
 
-/* Locates the first event between `from` and `to`: returns its share of h, just past it, by WH_BRACKET
- * at most. *events are the contacts with events there. at_end are the margins of `to`. */
+/* Locates the first event between `from` and `to`. Returns its share of h: a point after the event by at most
+ * WH_BRACKET. *events are the contacts that have an event there. at_end are the margins of `to`. */
 WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                     wh_contact_state *from, wh_contact_state *to, wh_real h,
                                     const wh_real *input, const wh_margins *at_end,
@@ -215,20 +216,21 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     wh_contact_path path;
     wh_contact_point at;
     wh_margins probe;
-    wh_real before[WH_CONTACTS_MAX] = {WH_R(0.0)}; /* margins at `low`, */
-    wh_real after[WH_CONTACTS_MAX] = {WH_R(0.0)};  /* and at `high` */
+    wh_real before[WH_CONTACTS_MAX] = {WH_R(0.0)}; /* margins at `low` */
+    wh_real after[WH_CONTACTS_MAX] = {WH_R(0.0)};  /* margins at `high` */
     wh_real low = WH_R(0.0);
     wh_real high = WH_R(1.0);
     const unsigned at_end_events = wh_contact_happened(of, at_end);
     *events = at_end_events;
 
-    /* A force that is out of bounds already, or a gap: at once. Sliding starts at rate zero. */
+    /* A force that is already beyond its limit, or a gap that is already negative, has its event at once. This does not
+     * hold for sliding, which starts at rate zero. */
     wh_contact_path_of(of, from, to, h, &path);
     wh_contact_margins(of, w, &path.begin, input, &probe);
     wh_contact_slacken(of, w, *events, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
-    unsigned loads = 0; /* contacts with forces that are tested */
+    unsigned loads = 0; /* contacts whose event is tested on their force */
     for (unsigned k = 0; k < of->contacts; k++) {
         const bool load = k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
                           wh_contact_constrains(of, w, k);
@@ -241,7 +243,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
-        /* a body beyond a stop that was open, or closing, has hit it, even on its way out again */
+        /* a body beyond a stop that was open or closing has hit it, even if the stop is opening at the end */
         if (wh_contact_any_of(of, WH_STOP) &&
             (probe.signal[2 * k] > WH_R(0.0) || probe.signal[2 * k + 1] < WH_R(0.0))) {
             w->inside &= ~(1U << k);
@@ -263,7 +265,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
     }
     wh_real reach = WH_R(1.0);
-    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths, two and one probes ago */
+    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* interval widths before the last two probes */
     wh_real most =
         WH_PROBES_SPARE; /* the largest interval after this probe from which halving still reaches
                           * WH_BRACKET */
@@ -271,7 +273,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* at zero already; but later than at the start a load at its limit may be one that others bear */
+            /* A margin that is already zero counts as the begin of an event. But later than at the start, a load at its
+             * limit may be a load that other contacts bear. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -280,15 +283,15 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* slightly past it, towards the farther end, so that the interval closes from both sides; further
-         * after each failure, and the middle if two probes did not halve it */
+        /* The guess is slightly past the root, towards the farther end, so that the interval closes from both sides. It
+         * goes further after each failure, and to the middle if two probes did not halve the interval. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;
         wh_real if_found = reach;
         wh_real if_not = reach;
         if (width > WH_R(0.5) * earlier[0]) {
-            /* so it is halved */
+            /* the guess is the middle */
         } else if (root - low > high - root) {
             guess = root - over;
             if_found = reach * WH_R(8.0);

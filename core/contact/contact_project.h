@@ -18,13 +18,14 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
     }
 }
 
-/* *sum + *rest += a b, without the product's rounding, which would add up over the steps. */
+/* *sum + *rest += a b, with the product's round-off in *rest: otherwise it would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
-    *sum += a * b; /* opposite turns cancel exactly */
+    *sum += a * b; /* exact if opposite turns cancel */
 }
 
-/* Displacement of a straight hold between two states: J_k, which is constant, times the way; rad or m. */
+/* Displacement of a straight hold k between two states: J_k, which is constant, times the change of the coordinates, rad
+ * or m. */
 static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_contact_state *from,
                                        const wh_contact_state *to) {
@@ -38,7 +39,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 #else
         const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
         const int32_t way =
-            (int32_t)(uint32_t)turned; /* less than half a turn: in two exact parts */
+            (int32_t)(uint32_t)turned; /* less than half a turn, split into two exact parts */
         wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
         rests[0] += row[i] * (wh_real)(way & 255);
 #endif
@@ -50,13 +51,13 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
     return (turns + rests[0]) / WH_PHASE_PER_RAD + (ways + rests[1]);
 }
 
-/* Is contact k a hold that can slip? One with a pin cannot. */
+/* True if contact k is a closed hold that can slip. A hold with a pin cannot. */
 WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_work *w, unsigned k) {
     return of->held > 0 && wh_contact_of(of, k, WH_HOLD) && !wh_contact_pinned(of, k) &&
            w->mode[k] == WH_ACTIVE;
 }
 
-/* The displacement of contact k from its place. `from`: the begin of a try to `s`; NULL: no try. */
+/* The displacement of contact k from its place, at state `s`. `from` is the begin of the try that led to `s`, or NULL. */
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
                                    const wh_contact_state *s) {
@@ -73,7 +74,7 @@ WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
-/* Stores the value of a hold that has just captured or been set. work->law must belong to this position. */
+/* Stores the value of a hold that has just captured or whose expression was set. work->law must belong to this position. */
 WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
@@ -92,7 +93,7 @@ WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Contacts that keep their J_k q' at zero, except for those in `but`, as bits. Returns their number. */
+/* Lists the contacts that keep J_k q' at zero in member[], without those in `but` (bits). Returns their number. */
 WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_contact_work *w,
                                       unsigned but, uint8_t *member) {
     unsigned count = 0;
@@ -104,18 +105,19 @@ WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_cont
     return count;
 }
 
-/* Displacements of resting stops and of holds, and the account of each in the ledger. */
+/* How to project resting stops and holds. */
 typedef struct wh_contact_place {
-    const wh_contact_state *from; /* begin of a try, or NULL */
-    wh_real h;                    /* how long it was, s */
+    const wh_contact_state *from; /* begin of the try, or NULL */
+    wh_real h;                    /* length of the try, s */
     unsigned but;                 /* contacts that are left out, as bits */
-    unsigned mover; /* the energy's account; WH_CONTACTS_MAX: the first with an error */
+    unsigned mover; /* contact whose entry gets the energy; WH_CONTACTS_MAX: the first contact
+                     * with an error */
 } wh_contact_place;
 
 #define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
 
-/* Projects resting stops and holds to their places, while stuck coordinates stay. work->law and signal[] must
- * belong to this position. True: the error was so large that a second projection is needed. */
+/* Projects resting stops and holds to their places; stuck coordinates stay. work->law and signal[] must belong to this
+ * position. Returns true if the error was so large that a second projection is needed. */
 static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_contact_place *spot, const wh_real *signal,
                                              const wh_real *input, wh_contact_state *s) {
@@ -124,7 +126,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real way[WH_COORDS] = {0};
-    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* by the pinned coordinates */
+    wh_real moved[WH_COORDS] = {WH_R(0.0)}; /* moves of the pinned coordinates */
     const unsigned count = wh_contact_members(of, w, spot->but, member);
     unsigned mover = spot->mover;
     bool together = false;
@@ -148,13 +150,14 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
         if (off[i] != WH_R(0.0) && pin >= 0) {
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
             const wh_real rest = off[i] + entry * moved[pin];
-            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* another has not put it right */
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* not yet corrected through
+                                                                * another contact */
                 moved[pin] -= rest / entry;
                 wh_contact_move(of, (unsigned)pin, -rest / entry, s);
             }
         }
     }
-    /* the other coordinates move only if contacts tie them to it */
+    /* the other coordinates move only if contacts tie them to the pinned one */
     for (unsigned i = 0; i < count; i++) {
         const bool pinned = wh_contact_pinned(of, member[i]);
         wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
@@ -186,8 +189,8 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     return coarse;
 }
 
-/* Projects the rates along all active contacts to zero together, except for `but`, as bits. `booked`:
- * entered in the ledger as their impulses. work->law must belong to this position. */
+/* Projects the rates along all active contacts to zero together, except for the contacts in `but` (bits). If `booked`,
+ * the ledger gets the change as the contacts' impulses. work->law must belong to this position. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -222,7 +225,7 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* The terms that a stop's gap is the difference of, in size. */
+/* Sum of the magnitudes of the terms that make up a stop's gap. */
 static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -233,8 +236,8 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Is stop k passed, or open, by more than rounding, as after a step with too many events? Friction does not keep a body
- * beyond it. */
+/* Is stop k passed, or open, by more than round-off? After a step with too many events it may be. Friction does not keep
+ * a body beyond a stop. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
@@ -264,8 +267,8 @@ static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_w
     wh_contact_project_rates(of, w, spot.but, false, wh_contact_rates(of, s));
 }
 
-/* Removes the integrator's slip on the way from `from`, h long, to `s`: first the places of resting stops and
- * holds, then the rates along active contacts. A pinned coordinate cannot slip. */
+/* Removes the integrator's slip in the step from `from` to `s`, of length h: first the displacements of resting stops
+ * and holds, then the rates along active contacts. A pinned coordinate cannot slip. */
 WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                     const wh_real *input, const wh_contact_state *from,
                                     wh_contact_state *s) {

@@ -11,12 +11,12 @@
 
 #include "contact_project.h"
 
-/* For each active hold: the remainder of its row after the earlier ones, and M^-1 times that. */
+/* For each active hold: the remainder of its row after the earlier rows (row), and M^-1 times that remainder (way). */
 typedef struct wh_contact_rows {
     wh_real row[WH_CONTACTS_MAX][WH_COORDS];
     wh_real way[WH_CONTACTS_MAX][WH_COORDS];
-    wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: redundant, or inactive */
-    unsigned holds;                /* active holds */
+    wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: the hold is redundant or inactive */
+    unsigned holds;                /* number of active holds */
 } wh_contact_rows;
 
 WH_INLINE wh_real wh_contact_dot(const wh_contact_system *of, const wh_real *a, const wh_real *b) {
@@ -63,14 +63,15 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The first hold with a remainder in `before` that vanishes or has turned back in `after`; or of->contacts. */
+/* The first hold with a remainder in `before` whose remainder vanishes or has turned back in `after`; of->contacts if
+ * there is none. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     of = WH_CONTACTS_HERE(of);
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* one hold alone must point right back: a row that has only turned far is too coarse a step's */
+        /* a single hold must have turned back almost completely: a row that has merely turned far only shows a coarse step */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {
@@ -80,9 +81,9 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     return of->contacts;
 }
 
-/* The hold that lost rank in a step of `span`, or of->contacts; `to` is NULL if the step failed. The end of
- * the step is not enough: accelerations have no bound near such a place, and may have moved it anywhere. So
- * the state along the rates alone is tested, too. */
+/* The hold that lost rank in a step of length `span`, or of->contacts. `to` is the end of the step, or NULL if the step
+ * failed. Near such a place the accelerations have no bound and may have moved `to` anywhere. So the state reached by
+ * the rates alone is tested, too. */
 static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {
@@ -102,7 +103,7 @@ static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_w
     return wh_contact_fallen(of, &before, &after);
 }
 
-/* The hold that lost its say between the ends of a try that is taken, or of->contacts. */
+/* The hold that lost rank in an accepted try, or of->contacts. */
 WH_INLINE unsigned wh_contact_flat(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                    wh_contact_state *from, wh_contact_state *to,
                                    const wh_real *input) {

@@ -28,9 +28,9 @@
 
 /* --- disturbance by crossings -------------------------------------------------------------------- */
 
-/* After a crossing's assignments changed the gaps, conditions or rates of the contacts in work->moved. A
- * stop that was passed gets its gap closed; like one that was left, it rests no longer. Active holds
- * capture again. The crossing caused the change, so the energy is the crossing's entry. */
+/* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A stop that was
+ * passed gets its gap closed. A stop that moved, in either direction, rests no longer. Active holds capture again. The
+ * crossing caused the change, so its entry in the ledger gets the energy. */
 static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -61,7 +61,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
-        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only while it is put back */
+        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only while the body is put back */
         wh_real before[2 * WH_CONTACTS_MAX];
         wh_contact_remember(of, signal, before);
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
@@ -78,9 +78,10 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
 
 /* --- accelerations ------------------------------------------------------------------------------- */
 
-/* The contacts that give way first, as bits. All stops do. Without a stop it is the friction with the load
- * most above its limit, because sliding pushes less than sticking and may relieve the others. That one is the
- * first to reach its limit if the load grew from zero. Those that reach it together slide together. */
+/* The contacts of `giving` (bits) that give way first, as bits. If there are stops, they are all stops. Otherwise it is
+ * the friction whose load exceeds its limit by the largest factor: it would be the first to reach its limit if the load
+ * grew from zero. Sliding pushes less than sticking, so it may relieve the others. Frictions with equal factors slide
+ * together. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
@@ -100,10 +101,10 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* The direction of sliding, from the sign of the rate, or the direction at the location if that left the rate on its
- * old side. Rates that just came to zero wait for the forces (`zeros`, as bits, unless an impact of the same moment
- * moved them). So do rates at the round-off of other contacts. `h`: the step; work->law must belong to this position,
- * except for h = 0. */
+/* Sets the direction of each sliding friction from the sign of its rate. If the location of an event left the rate on
+ * its old side, the direction at the location stays. A rate that has just come to zero waits for the forces: the
+ * frictions in `zeros` (bits), unless an impact of the same moment changed their rate, and rates within the round-off of
+ * other contacts. `h` is the length of the step; work->law must belong to this position, except for h = 0. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -133,9 +134,9 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Resting stops with no more load than round-off that push in the direction of a stop in `gone`, as bits. They are
- * released with it. Redundant supports all lose their load at one moment. If some stayed, round-off would hit and
- * release the others again. */
+/* Resting stops without load (within round-off) that push in the direction of a stop in `gone`, as bits. They are
+ * released together with that stop. Redundant supports all lose their load at one moment: if some stayed, round-off
+ * would hit and release the others again. */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -152,9 +153,9 @@ WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact
     return bits;
 }
 
-/* Releases resting stops that would have to pull and stuck coordinates beyond their limits. A released contact
- * pushes less, so others may follow: each round releases at least one. At least one of `must`, as bits, is released,
- * even by round-off only, because its force was found beyond its limit. */
+/* Releases resting stops that would have to pull, and stuck coordinates beyond their limits. A released contact pushes
+ * less, so others may follow: each round releases at least one. At least one of `must` (bits) is released, even if only
+ * by round-off, because the search found its force beyond its limit. */
 static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned must, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -196,9 +197,9 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Rates that have just come to zero stick if the forces keep them there. Friction sticks if it would remove
- * the rest of the rate at once. It does so together with all active contacts, so that two frictions do not
- * release each other. The others slide in the direction of the push, on either side of zero. */
+/* A rate that has just come to zero sticks if the forces keep it there: friction would remove the rest of the rate at
+ * once. The rates are set to zero together with those of all active contacts, so that two frictions do not release each
+ * other. Other rates slide in the direction of the push, even from the other side of zero. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -218,7 +219,7 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
 
 /* --- all that happens at one moment -------------------------------------------------------------- */
 
-/* Returns the contacts with an event, as bits; impulse[contacts]: the impulse of each. */
+/* Resolves one moment. Returns the contacts with an event, as bits, and the impulse of each in impulse[contacts]. */
 WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_contact_moment *m, const wh_real *input,
                                      wh_contact_state *now, wh_real *impulse) {
@@ -266,14 +267,15 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     if (wh_contact_any_of(of, WH_FRICTION)) {
         wh_contact_stick(of, w, rate);
     }
-    for (unsigned k = 0; k < of->forced; k++) { /* others relieved it */
+    for (unsigned k = 0; k < of->forced; k++) { /* no event if another release has relieved the
+                                                 * contact */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
 }
 
-/* A step with too many events ends, `h` long. Friction that was carried past zero sticks, unless the forces carry it
- * on. Stuck coordinates that were moved slide. */
+/* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces carry the
+ * rate on. Stuck coordinates that were moved slide. */
 static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                       const wh_real *input, wh_contact_state *s) {
     wh_contact_moment end = {0, 0, h, true};
@@ -315,8 +317,8 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Follows inputs with a rate, after that rate changed between two steps. Returns the resting stops that open, as bits, and in
- * *hits those that are hit. A resting stop takes on the new rate if its pressing force achieves that within the step.
+/* Follows inputs with a rate, after that rate changed between two steps. A resting stop takes on the new rate if its
+ * pressing force achieves that within the step. Otherwise it opens (returned as bits) or is hit (*hits, as bits).
  * Impulses correct the rates of the other active contacts. work->law must belong to this position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
@@ -346,8 +348,8 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
     return but;
 }
 
-/* After an input has moved a resting stop. The body is put back onto it, or falls if the pressing force does not close the
- * gap within the step. Holds are projected, too. The energy is the contact's entry. */
+/* Follows a resting stop that an input has moved. The body is put back onto the stop, or it falls if the pressing force
+ * cannot close the gap within the step. Holds are projected, too. The contact's entry in the ledger gets the energy. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];

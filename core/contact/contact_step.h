@@ -70,7 +70,7 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
 
-/* Step `s` by h in the modes of work. False: *fault left all bounds and s is as it was. */
+/* Steps `s` by h in the modes of work. Returns false if component *fault left all bounds; `s` is then unchanged. */
 static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                   wh_real *input, wh_contact_state *s, int *fault) {
     of = WH_CONTACTS_HERE(of);
@@ -85,12 +85,12 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
     return status == WH_OK;
 }
 
-/* Between two events of a step; the interpreter watches this. */
+/* The interpreter defines this macro to record the pieces of a step between two events. */
 #ifndef WH_PIECE_SEEN
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Tries `left` from `next`, a copy of `now`. Only holds that can slip need `now`. */
+/* Tries the remaining time `left` from `next`, which is a copy of `now`. Only holds that can slip need `now`. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -115,8 +115,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Finds the holds that began the try at the limit of their conditions, to round-off. They stay active while that is so: a
- * hold survives its condition's coming to zero. */
+/* Finds the closed holds that began the try at the limit of their conditions (zero within round-off), and gives them
+ * slack. They stay closed while their conditions stay there. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -133,13 +133,13 @@ WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Did it end without an event, with finite margins? */
+/* True if the try ended without an event and with finite margins. */
 WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_contact_work *w,
                                        const wh_contact_attempt *a) {
     return wh_contact_calm(of, &a->margins) && (of->held == 0 || w->undefined < 0);
 }
 
-/* A try from `from`, h long, failed. Looks along the rates for a friction or hold that is undefined on the way. */
+/* After a failed try of length h from `from`: looks along the rates for a friction or hold that becomes undefined. */
 WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
@@ -161,7 +161,7 @@ typedef struct wh_contact_log {
     unsigned count;
 } wh_contact_log;
 
-/* `events`, as bits. */
+/* Logs `events` (bits). */
 WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_work *w,
                                unsigned events, wh_real at_s, const wh_real *impulse,
                                wh_contact_log *log) {
@@ -184,8 +184,8 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
     }
 }
 
-/* The modes at the start of a run. Impacts there, with those settled before, are logged in the first step. Returns
- * the moments with events that this counts as. */
+/* Sets the modes at the start of a run. The first step logs the impacts at its start. Returns the number of moments with
+ * events that the start counts as. */
 static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *now,
                                         wh_contact_log *log) {
@@ -196,7 +196,7 @@ static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_
     return rounds;
 }
 
-/* Stops that an impact made close and that are still open, as bits; they are then handled. */
+/* The stops in work->hit_next that are still open, as bits; clears work->hit_next. */
 WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work *w) {
     unsigned bits = 0;
     if (of->forced <= 1 || w->hit_next == 0) {
@@ -247,7 +247,7 @@ WH_INLINE void wh_contact_commit_events(const wh_contact_log *log, bool overran,
     }
 }
 
-/* Accepts a try from `from` to `to`, `span` long. Returns the hold that lost rank in it, or of->contacts. */
+/* Accepts a try of length `span`. Returns the hold that lost rank in it, or of->contacts. */
 WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
                                      const wh_real *input) {
@@ -256,18 +256,18 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
-/* A step with events in progress: it goes by tries from attempt->now to the step's end, or to the next events. Scalars
- * alone, which compilers keep in registers. */
+/* A step with events in progress. It consists of tries from attempt->now to the step's end or to the next events. The
+ * numbers are scalars, which compilers keep in registers. */
 typedef struct wh_contact_progress {
     wh_contact_attempt *attempt;
-    const wh_contact_state *end; /* of the step, once it is done */
+    const wh_contact_state *end; /* end of the step, if done */
     wh_real *input;
     wh_contact_log *log;
-    wh_real h;       /* the step, s */
-    wh_real left;    /* of it from attempt->now on, s */
-    wh_real reach;   /* of the next try, s: shorter than `left` after a dip */
-    unsigned round;  /* moments so far, at most WH_EVENTS_MAX */
-    unsigned events; /* at attempt->now, as bits */
+    wh_real h;       /* length of the step, s */
+    wh_real left;    /* remaining time from attempt->now on, s */
+    wh_real reach;   /* length of the next try, s: shorter than `left` after a dip */
+    unsigned round;  /* number of moments so far, at most WH_EVENTS_MAX */
+    unsigned events; /* events at attempt->now, as bits */
     unsigned flat;   /* the hold that lost rank; of->contacts: none */
     bool calm;       /* the step ended without an event, and all that it used was finite */
     bool diverged;   /* a try left all bounds */
@@ -275,7 +275,7 @@ typedef struct wh_contact_progress {
     bool done;
 } wh_contact_progress;
 
-/* From the step's begin. A try that was made had modes, and no input moved its contacts. */
+/* Begins a step with events. If a first try was already made, the modes are known and no input moved the contacts. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
     wh_contact_state *now = &p->attempt->now;
@@ -305,7 +305,8 @@ static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_con
     }
 }
 
-/* A try `span` long from `from` left all bounds. It diverges before a place where a hold loses rank, not only there. */
+/* Ends a step whose try of length `span` from `from` left all bounds. Divergence may come before a place at which a hold
+ * loses rank; that case is tested elsewhere. */
 static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_contact_work *w,
                                                 wh_real span, wh_contact_state *from,
                                                 wh_contact_progress *p) {
@@ -314,7 +315,7 @@ static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_
     p->done = true;
 }
 
-/* The try is accepted: it reached the step's end, or the place of a dip that was none. */
+/* Accepts the try: it reached the step's end, or a place where a dip was suspected and none was found. */
 static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_contact_work *w,
                                             wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -335,13 +336,13 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     if (p->round == WH_EVENTS_MAX) {
         p->overran = p->overran || !p->calm;
         wh_contact_overrun(of, w, p->h, p->input, &a->next);
-        p->calm = false; /* its probes must be finite, too */
+        p->calm = false; /* the repair's values must be finite, too */
     }
     p->end = &a->next;
     p->done = true;
 }
 
-/* The try is cut short at its first events: the step goes on from there. */
+/* Cuts the try short at its first events: the step goes on from there. */
 static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -384,7 +385,7 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     wh_contact_attempt_dipped(of, w, p->reach, p->input, a);
     if (a->dips != 0 && p->round + 2U < WH_EVENTS_MAX) {
         const wh_real share = wh_contact_dip(of, a, p->input);
-        if (share < WH_R(1.0)) { /* the try ends there instead, as one of the moments */
+        if (share < WH_R(1.0)) { /* the next try ends there; the dip counts as a moment */
             p->reach *= share;
             p->round++;
             return;
@@ -401,7 +402,8 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     }
 }
 
-/* The events at attempt->now. Of the last moment that a step has, a stop that comes to rest might have bounced. */
+/* Resolves the events at attempt->now. A stop that comes to rest at the step's last moment might have bounced: that
+ * counts as an overrun. */
 static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
                                               wh_contact_progress *p) {
     const bool last = ++p->round == WH_EVENTS_MAX;
@@ -414,7 +416,7 @@ static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_co
     p->done = w->undefined >= 0 || w->fault >= 0;
 }
 
-/* Commits the step, or refuses it. Returns as wh_step_contact(). */
+/* Commits the step, or refuses it. Returns as wh_step_contact() does. */
 static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_contact_work *w,
                                                 wh_contact_progress *p, wh_state *state) {
     if (p->flat < of->contacts) {
@@ -432,7 +434,7 @@ static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_
     return WH_OK;
 }
 
-/* A step with events, from the first try on, which may have been made. Returns as wh_step_contact(). */
+/* A step with events. a->made: its first try was made already. Returns as wh_step_contact() does. */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
     wh_contact_log log;
@@ -457,8 +459,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     return wh_contact_progress_end(of, w, &p, state);
 }
 
-/* One step with its events. Returns as wh_step_second(), or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
- * state->fault. Only values that the step uses must be finite: a try cut short at an event may have left an
+/* One step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
+ * state->fault. Only values that the step uses must be finite: a try that is cut short at an event may have left an
  * expression's domain. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
@@ -479,9 +481,9 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
             wh_contact_copy(of, state->angle, state->real, state->carry, &a.now);
         }
         wh_contact_attempt_make(of, &work, h, state->input, &a);
-        const bool capped = of->forced > 1 && work.capped; /* and is counted */
+        const bool capped = of->forced > 1 && work.capped; /* a capped pivoting must be counted */
         if (a.sound && a.leaving == 0 && !capped &&
-            wh_contact_attempt_calm(of, &work, &a)) { /* as most are */
+            wh_contact_attempt_calm(of, &work, &a)) { /* most steps end here */
             wh_contact_pass(of, &a.margins, &work);
             const unsigned flat = wh_contact_accept(of, &work, h, &a.now, &a.next, state->input);
             if (flat < of->contacts) {

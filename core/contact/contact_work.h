@@ -14,7 +14,7 @@
 /* Marks of a step's parts, for programs that count instructions between them (boards/programs/mark.h). Empty
  * in all other programs. */
 #define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
-#define WH_MARK_SIGNALS 2 /* the signals are */
+#define WH_MARK_SIGNALS 2 /* the signals are evaluated next */
 #ifndef WH_MARK
 #define WH_MARK(kind)
 #endif
@@ -25,27 +25,29 @@ typedef struct wh_contact_work {
     wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
     /* J q'' + J' q' that the forces of the active contacts had to cancel */
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real rough[WH_CONTACTS_MAX]; /* bound on the size of its terms, if contacts are redundant */
+    wh_real rough[WH_CONTACTS_MAX]; /* bound on the magnitudes of the terms of `wanted`, if
+                                     * contacts are redundant */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-    /* stops with a closed gap when the try begins, as bits: they may be on the way out */
+    /* bits: stops whose gap was closed when the try began; they may be opening */
     unsigned inside;
-    unsigned hit_next; /* touching stops that an impact of this moment makes close, as bits */
-    unsigned turned;   /* frictions with a rate just come to zero, as bits: sticking is undecided */
-    /* Sliding friction: the error of the located rate, rad/s or m/s. Crossings that turn back: the distance beyond zero
-     * that counts as not crossed. In the search, holds that began at the limit of their conditions: the distance beyond it
-     * that still counts as true, else 0. */
+    unsigned hit_next; /* bits: touching stops that an impact of this moment makes close */
+    unsigned turned;   /* bits: frictions whose rate has just come to zero; sticking is undecided */
+    /* Sliding friction: the error of the located rate, rad/s or m/s. A crossing that turned back: the distance beyond
+     * zero that is no second crossing. A hold that began a try at the limit of its condition: the distance beyond the
+     * limit that still counts as true. Else 0. */
     wh_real slack[WH_CONTACTS_MAX];
-    wh_real due
-        [WH_CONTACTS_MAX]; /* for these crossings: the distance to have gone when the step ends */
-    /* crossings on no side: the value when the try began, or when the crossing came to stand */
+    wh_real
+        due[WH_CONTACTS_MAX]; /* a crossing that turned back: a step must end farther than this from
+                            * zero, or the crossing is on no side */
+    /* a crossing on no side: its value when the try began, or when the crossing came to stand */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates when the present moment began */
-    wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by index: see wh_contact */
-    unsigned moved; /* contacts whose signals a crossing's assignments changed, as bits */
-    unsigned mover; /* that crossing */
-    /* crossings just taken with values at zero, or next to it, as bits */
+    wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by wh_contact's first_set */
+    unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
+    unsigned mover; /* the crossing that changed them */
+    /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
-    /* time has passed since an assignment moved values across: a value past zero now is the error of location */
+    /* time has passed since an assignment moved a value across zero: a value past zero is then the error of location */
     bool located;
     bool capped;   /* the pivoting met its cap */
     int fault;     /* component with an assignment beyond its range, or -1 */
@@ -62,8 +64,9 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* The scene's contacts in a function that is not inlined. Code for size may be compiled with -fno-ipa-cp. Then no
- * constants are passed into functions, and gcc warns of loops without a bound. Code for speed keeps gcc's own way. */
+/* WH_CONTACTS_HERE is the scene's contacts in a function that is not inlined. If code is compiled for size, possibly
+ * with -fno-ipa-cp, the compiler passes no constants into functions, and gcc warns of loops without a bound. Code for
+ * speed keeps the argument. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
@@ -134,8 +137,8 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* State after moving along the rates of `s` for a time, and accel[coordinates], if it is not NULL; the rates stay
- * those of `s`. */
+/* The state after moving for the time `span` along the rates of `s`, and along accel[coordinates] if accel is not NULL.
+ * The rates stay those of `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {
@@ -156,13 +159,13 @@ WH_INLINE bool wh_contact_any_of(const wh_contact_system *of, wh_contact_kind ki
     return (of->kinds & WH_KIND_BIT(kind)) != 0;
 }
 
-/* Is contact k, which has a force, of this kind? Constant if all contacts are of one kind. */
+/* Is contact k, which has a force, of this kind? A constant if all contacts are of one kind. */
 WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact_kind kind) {
     return wh_contact_any_of(of, kind) &&
            (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
 }
 
-/* Is contact k, which has a force, of a kind with this trait (or one of several)? */
+/* Does the kind of contact k, which has a force, have one of these traits? */
 WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
 #define WH_KIND_IS(name, is) || (((is)&trait) != 0 && wh_contact_of(of, k, name))
     return false WH_CONTACT_KINDS(WH_KIND_IS);
@@ -207,7 +210,7 @@ WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* J_k M^-1 J_l^T, an entry of the Delassus matrix: the acceleration along k by a unit force of l. */
+/* J_k M^-1 J_l^T, an entry of the Delassus matrix: the acceleration along k by a unit force of contact l. */
 WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               unsigned l) {
     return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
@@ -216,15 +219,15 @@ WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work
 /* Round-off of a sum, as a share of its terms. */
 #define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
 
-/* Its diagonal: the factor of k's own force in its acceleration. */
+/* A diagonal entry of the Delassus matrix: the acceleration along k by a unit force of contact k. */
 WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k) {
     return wh_delassus(of, w, k, k);
 }
 
 /* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without pivoting.
- * The matrix is positive definite, except for redundant contacts, which get zero (NaN if the repeated contact is not a
- * number). Returns those, as bits of their indices in member[]. Those with nonzero at[] get zero, too; at may be NULL. */
+ * The matrix is positive definite, except for redundant contacts. These get zero (NaN if their wanted value is not a
+ * number) and are returned, as bits of their indices in member[]. Contacts with at[] != 0 also get zero; `at` may be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,
@@ -262,7 +265,7 @@ static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const 
     return repeats;
 }
 
-/* The same, with short cuts for no or one active contact: most steps of most scenes. */
+/* As wh_delassus_eliminate(), with short cuts for no or one active contact, as in most steps of most scenes. */
 WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
                                      const uint8_t *member, unsigned count, const int8_t *at,
                                      const wh_real *wanted, wh_real *lambda) {
@@ -280,21 +283,21 @@ WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_conta
 
 WH_INLINE bool wh_finite(wh_real value) { return value - value == WH_R(0.0); }
 
-/* `value` is of contact k. */
+/* Reports contact k as undefined if its `value` is not finite. */
 WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) {
     if (!wh_finite(value) && w->undefined < 0) {
         w->undefined = (int)k;
     }
 }
 
-/* Does the contact keep J_k q' at zero? */
+/* Does contact k keep J_k q' at zero? */
 WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k) {
     return w->mode[k] == (wh_contact_is(of, k, WH_LIMITED) ? WH_STUCK : WH_ACTIVE);
 }
 
-/* Checks that the limits of sticking frictions, the forces of sliding ones and the values of holds are finite. (A
- * stop's restitution counts only at an impact and is left out.) Rarely called, so out of line. */
+/* Checks that the limits of sticking frictions, the forces of sliding frictions and the values of holds are finite. (A
+ * stop's restitution matters only at an impact.) Rarely called, so out of line. */
 WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
         const bool friction = wh_contact_of(of, k, WH_FRICTION);
