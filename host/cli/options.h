@@ -21,7 +21,8 @@
       "effects to add; ledger: the balance of energy and momentum; all: every effect but " \
       "the ledger. Whirl takes all first: `--without all --with drag` is drag alone.") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
-      "effects to leave out; all: every effect; conserve: integrate every coordinate") \
+      "effects to leave out; all: every effect; conserve: integrate also the coordinates " \
+      "that the scene conserves") \
     X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "the fixed step") \
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, \
       "the end of the run, to the nearest whole number of steps; 0 takes no step") \

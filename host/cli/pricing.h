@@ -34,7 +34,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "try these methods instead of rk4,nystroem3,nystroem4,nystroem5; all: every method") \
     X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
       "operations that all trials may evaluate: 1e9 take about 5 s of processor time. " \
-      "Shorter steps that do not fit are left out and counted.") \
+      "Shorter steps that need more are left out and counted.") \
     X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
     X(PRICING_CSV, PRICE, "--csv", "FILE", \
       "every row, with its command lines; - is standard output (the table then goes to " \
@@ -47,9 +47,10 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "the processor's clock: the longest possible steps of a period must fit into it " \
       "(default: the board's own, if it is one chip)") \
     X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
-      "the flash that the firmware may take; K, KB and KiB are 1024 bytes (default: the " \
-      "board's, if it is one chip)") \
-    X(PRICING_RAM, CHOOSE, "--ram", "2KB", "the same for RAM with stack") \
+      "the available flash; K, KB and KiB are 1024 bytes (default: the board's, if it is " \
+      "one chip)") \
+    X(PRICING_RAM, CHOOSE, "--ram", "2KB", \
+      "the available RAM for data and stack, in the same units") \
     X(PRICING_PREDICT, CHOOSE, "--predict", NULL, \
       "predict steps instead of counting them, which saves a few seconds; not for scenes " \
       "with contacts") \

@@ -4,8 +4,8 @@ set -eu
 cat <<'END'
 # Figures
 
-Whirl draws the dissertation's simulated figures from its own runs, and two measured figures from the
-rig's firmware in the loop ([pil.md](pil.md)). [findings.md](findings.md) has the conclusions,
+Whirl draws the dissertation's simulated figures, and two measured figures from the rig's firmware
+in the loop ([pil.md](pil.md)). [findings.md](findings.md) has the conclusions,
 [models.md](models.md) the mechanisms. The command below each figure prints its numbers. The
 dissertation's other figures are drawings and photographs.
 
