@@ -19,7 +19,7 @@
       "a start value: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
       "effects to add; ledger: the balance of energy and momentum; all: every effect but " \
-      "the ledger. Whirl takes all first: `--without all --with drag` is drag alone.") \
+      "the ledger. Whirl applies all first: `--without all --with drag` leaves drag alone.") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
       "effects to leave out; all: every effect; conserve: integrate also the coordinates " \
       "that the scene conserves") \
