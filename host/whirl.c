@@ -17,7 +17,7 @@ typedef struct command {
     const char *name;
     int (*run)(int count, char **words);
     const char *takes; /* in the list of commands */
-    const char *text;  /* what it is for; NULL hides it: for the project's own build */
+    const char *text;  /* its purpose; NULL hides a command of the project's own build */
 } command;
 
 static const command commands[] = {
@@ -131,8 +131,8 @@ static int answer(int count, char **words) {
     return asks_for_help ? named->run(1, help) : named->run(count - 2, words + 2);
 }
 
-/* Whatever was said must have arrived: an answer that is cut off is none. An error may be of a part that was written
- * long before the last one, which went well. */
+/* Checks that all output was written, because an answer that is cut off is useless. An early part may have failed although
+ * the last one was written. */
 static int after_writing(int code) {
     errno = 0;
     const bool last_part = fflush(stdout) == 0;

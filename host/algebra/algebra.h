@@ -59,11 +59,11 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 /* The order of atoms, apart from their arguments. */
 int poly_order(const poly *x, const poly *y);
 
-/* --- looking (poly.c) ---------------------------------------------------------------------------*/
+/* --- questions (poly.c) -------------------------------------------------------------------------*/
 
 /* x + y, or zero if the sum is only a rounding error of decimals. */
 double coefficient_sum(double x, double y);
-/* A sum of positions, parameters and numbers only, without rates and functions? */
+/* Is p a sum of positions, parameters and numbers only, without rates and functions? */
 bool poly_is_place(const poly *p);
 
 /* --- sums of many polys (poly.c) ------------------------------------------------------------------*/

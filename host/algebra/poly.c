@@ -56,7 +56,7 @@ static int atom_order(const atom *x, const atom *y) {
     return order;
 }
 
-/* The pure number comes first: size_of_sum() in poly.c relies on it. */
+/* The pure number comes first: size_of_sum() relies on it. */
 static int mono_order(const mono *x, const mono *y) {
     if (x == y) {
         return 0;
@@ -286,7 +286,7 @@ static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
     return (unsigned)table->count++;
 }
 
-/* --- life ----------------------------------------------------------------------------------------*/
+/* --- opening and closing -------------------------------------------------------------------------*/
 
 algebra *algebra_new(void) {
     algebra *a = alloc(1, sizeof *a);
@@ -836,7 +836,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* The sign stays inside if it cannot leave a fractional power. */
+    /* The sign stays inside a fractional power. */
     const double size = size_of_sum(base, exponent);
     const double outside = exponent_is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);

@@ -180,7 +180,7 @@ static void print_names(const subsets *s, const char *head, uint64_t bits, const
     }
 }
 
-/* --set of a parameter of an omitted effect: `run` would refuse it. */
+/* Does a --set name a parameter of an omitted effect? `run` would refuse it. */
 static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     struct arena *memory = arena_new();
     diags *unsaid = diags_new();
@@ -196,7 +196,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* The names of --with without the omitted ones; *out receives those that the scene itself, or `all`, has. */
+/* Removes omitted effects from the names of --with. *out keeps only the omitted effects that the scene itself, or `all`, has. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

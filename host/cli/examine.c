@@ -38,7 +38,7 @@ typedef struct examine_options {
 
 /* --- causes of a momentum's change ----------------------------------------------------------------- */
 
-/* The place of a statement, and its effect, after a text. */
+/* Prints the place of a statement, and its effect. */
 static void say_where(FILE *out, const equations *e, int within, place at) {
     fprintf(out, ", line %d", at.line);
     if (within >= 0) {

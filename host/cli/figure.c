@@ -217,8 +217,8 @@ typedef struct figure_options {
     const char *out;
     const char *given[DATA_MOST]; /* NAME=FILE */
     int given_count;
-    char *passed[WORDS_MOST]; /* to every run, */
-    char *varied;             /* and as text, a blank before each word */
+    char *passed[WORDS_MOST]; /* words for every run */
+    char *varied;             /* the same words as text, a blank before each */
     int passed_count;
 } figure_options;
 

@@ -252,7 +252,7 @@ static int say_wrong(const char *name, const char *why, const char *hint) {
     return EXIT_BAD_INPUT;
 }
 
-/* The whole of a file; or from a line the first complete record, requested repeatedly. */
+/* Reads the whole of a file, or from a serial line the first complete record, which is requested repeatedly. */
 static int listen(port *line, const firstlight_options *o, const char *from_name, light *l) {
     static char bytes[BYTES_MOST];
     size_t count = 0;

@@ -301,7 +301,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* One line each: the title of its description. A script makes a `table`. */
+/* Prints a line for each figure, with the title of its description. A script makes a `table`. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;

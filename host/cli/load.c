@@ -38,7 +38,7 @@ static bool same_time(struct timespec one, struct timespec other) {
     return one.tv_sec == other.tv_sec && one.tv_nsec == other.tv_nsec;
 }
 
-/* All attributes are equal: a link, or a file that came without a name. */
+/* Are all attributes equal, for a link or for a file without a known path? */
 static bool look_alike(const struct stat *one, const struct stat *other) {
     return one->st_dev == other->st_dev && one->st_mode == other->st_mode &&
            one->st_size == other->st_size && one->st_nlink == other->st_nlink &&

@@ -151,7 +151,7 @@ typedef struct monitor {
     bool live;       /* a line, not a recorded file */
     bool met;        /* the rig has answered at least once */
     bool begun;      /* and has sent the data left from an earlier time */
-    int unheard;     /* unanswered questions since the line was opened */
+    int unheard;     /* number of unanswered questions since the line was opened */
     int64_t asked_ms;
     int64_t kept_ms;  /* time when all records were last written to their files */
     int64_t alive_ms; /* time of the last message to the rig */
@@ -199,8 +199,8 @@ static bool open_line(monitor *m) {
     return true;
 }
 
-/* Disturbed lines contain control characters that a terminal would obey. Neither they nor lines that may begin with a
- * part of a frame are shown of a rig that has not answered yet. */
+/* A disturbed line may contain control characters that a terminal would obey. Before the rig has answered, neither
+ * disturbed lines are shown, nor lines that may begin with a part of a frame. */
 static void show(const monitor *m, const char *line) {
     char shown[WIRE_LINE + 1];
     size_t count = 0;
@@ -293,7 +293,7 @@ static bool written(const monitor *m) {
     return true;
 }
 
-/* However this program ends: data older than a second is in the files. */
+/* Writes the records to their files once a second, so that a sudden end loses at most a second. */
 static void keep_records(monitor *m) {
     const int64_t now = now_ms();
     if (now - m->kept_ms < KEPT_MS) {
@@ -307,8 +307,8 @@ static void keep_records(monitor *m) {
     }
 }
 
-/* The rig ends a run when it hears nothing for the time of its setting `host`. An empty line is no request. It is not
- * sent while a line is being typed, which it would split. */
+/* Sends an empty line from time to time, because the rig ends a run when it receives nothing for the time of its setting
+ * `host`. Nothing is sent while the user types a line, which would be split. */
 static void stay_alive(monitor *m) {
     const int64_t now = now_ms();
     if (m->line.is_line && m->met && !m->half_typed && now - m->alive_ms >= ALIVE_MS) {

@@ -21,7 +21,7 @@ static const command_usage usage = {
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the file cannot be written whole",
             [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "NAME is not a valid name, or NAME.whirl exists"}};
 
-/* Takes the name of the mechanism, and that of its scene in two parts. */
+/* A printf() format with the name of the mechanism, and the name of the scene in two parts. */
 static const char template[] =
     "# One mechanism: coordinates, constants, energies. Values carry their units.\n"
     "mechanism %s \"A pendulum on a cart\"\n"

@@ -116,7 +116,7 @@ bool options_strict(const char *command, char **words, int *at, double *strict, 
     "  --strict=off         exit status 0 even with a warning (default: 1)\n" \
     "  --strict=LIMIT       the allowed energy residual, as a part of the balance's largest entry\n"
 
-/* What changes an instance: --set, --start, --with, --without, --step, --until. */
+/* The options that change an instance: --set, --start, --with, --without, --step, --until. */
 typedef struct change_options {
     const char **sets;
     int set_count;
@@ -150,7 +150,7 @@ void options_forget(common_options *options);
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
-/* A name as in a .whirl file, of at most `most` letters? Any other is reported, with a hint. */
+/* Is it a name as in a .whirl file, with at most `most` letters? If not, reports it with a hint. */
 bool options_is_name(const char *command, const char *name, int most);
 
 overrides options_overrides(const change_options *changes);

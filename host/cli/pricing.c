@@ -123,7 +123,7 @@ static int run_command(const pricing_command *c, int count, char **words) {
     return code;
 }
 
-/* --measure is impossible. */
+/* Reports that --measure is impossible. */
 static void says_missing(const pricing *p, const char *why) {
     fprintf(
         stderr,
@@ -173,7 +173,7 @@ static bool find_board(pricing *p) {
 /* Operations that all trials may evaluate without --effort. */
 #define EFFORT 1e9
 
-/* --error, in the dimension of its quantity or that of --of. An unknown one is reported later. */
+/* Reads --error, in the dimension of its own quantity or of --of's. An unknown quantity is reported later. */
 static bool read_error(pricing *p) {
     const char *text = p->options->value[PRICING_ERROR];
     const char *command = p->options->command;
@@ -330,7 +330,7 @@ int pricing_open(pricing *p, const pricing_options *o) {
     p->changes = options_overrides(&o->common.change);
     p->changes.balance = o->balance;
     overrides asked = p->changes;
-    asked.until = NULL; /* the lines that name settings have an end of their own */
+    asked.until = NULL; /* printed command lines get an --until of their own */
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(o->target);
     if (!find_board(p) || !read_effort(p) || !read_methods(p) || !read_error(p) ||
@@ -409,7 +409,7 @@ static bool write_csv(const char *file, const trials *t, const table *made,
     return out != NULL && plot_run_csv_end(out, file, true, "price", t->image[0]->name);
 }
 
-/* The cheapest row that keeps the error, in words. */
+/* Prints the cheapest row that keeps the error. */
 static int say_cheapest(FILE *out, const pricing *p, const table *made, const table_words *words) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
@@ -620,7 +620,7 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
     return true;
 }
 
-/* --error in the unit of the trial's errors. */
+/* The value of --error in the unit of the trial's errors. */
 static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
 
 static void show_counting(void *context, int counted) {
@@ -628,7 +628,7 @@ static void show_counting(void *context, int counted) {
     fprintf(stderr, "\rcounting on the board: %d so far ", counted);
 }
 
-/* A run with contacts, without a predicted cost. */
+/* Says that a run with contacts has no predicted cost. */
 static int says_contacts(const pricing *p, const char *missing) {
     fprintf(stderr,
             "whirl choose: error: the cost of contacts must be counted: %s\n"

@@ -8,7 +8,7 @@
 #include "pricing_scene.h"
 #include "target.h"
 
-/* Which of the two takes an option. */
+/* The commands that accept an option. */
 enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
 
 /* X(id, commands, word, its value or NULL, text). */
@@ -91,15 +91,15 @@ struct pricing {
     grid grid;
     pricing_scene *scene;
     const cost_board *board;
-    const char *quantity; /* of --of, or of --error X=0.1mm; NULL: the worst */
-    char *named;          /* the second of these */
+    const char *quantity; /* the name in --of, or in --error X=0.1mm; NULL: the worst component */
+    char *named;          /* the name in --error, owned */
     bool asks_error;
     double error_si; /* the limit of --error */
     double until_s;  /* the horizon, or the scene's end */
-    double step_s;   /* the scene's own */
+    double step_s;   /* the scene's own step */
     double effort;   /* operations */
     bool method[WH_METHODS];
-    char *words;  /* its changes, as typed */
+    char *words;  /* changes of the scene, as typed */
     char *target; /* as typed */
     trials trial;
     bool has_trial;
@@ -108,13 +108,13 @@ struct pricing {
 /* Reads the options and the scene. Returns an exit code, with errors reported; pricing_close() in any case. */
 int pricing_open(pricing *p, const pricing_options *o);
 void pricing_close(pricing *p);
-/* The board of --board, which has prices; NULL is reported. */
+/* The board of --board, which must have prices; NULL, reported, if there is no such board. */
 const cost_board *pricing_board(const char *command, const char *value);
 /* A positive quantity of the command line, in SI; false: reported. Its dimension is that of the quantity `name`, or, if
  * that is NULL, `wanted`. */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
-/* Computes the references at records of this spacing up to the horizon: an exit code. */
+/* Computes the references at records of this spacing up to the horizon. Returns an exit status. */
 int pricing_begin(pricing *p, whole_ratio spacing);
 /* Least records of `whirl price` to the horizon; the most are two and a half times as many. */
 #define PRICING_RECORDS 1000.0

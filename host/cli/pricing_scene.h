@@ -1,4 +1,4 @@
-/* pricing_scene.h: a scene and its varied places as a source of images to try settings on (host/study/trial.h). */
+/* pricing_scene.h: a scene and its varied places as a source of images for trials of settings (host/study/trial.h). */
 #ifndef CLI_PRICING_SCENE_H
 #define CLI_PRICING_SCENE_H
 
@@ -6,11 +6,11 @@
 #include "host/study/grid.h"
 #include "host/study/trial.h"
 
-/* Equations and images that were made before: those of one place and setting share their lists. */
+/* An image that was already made. Images of the same place and setting share its lists. */
 typedef struct pricing_made {
     int point;
     image_settings settings;
-    image *image; /* NULL: the scene does not take them */
+    image *image; /* NULL: the scene refuses the settings */
     bool lent;
 } pricing_made;
 
@@ -20,8 +20,8 @@ typedef struct pricing_scene {
     const overrides *changes; /* the command line's, except the varied ones */
     const grid *grid;         /* the varied values; may have no axes */
     diags *errors;
-    instance **instance;   /* [points] of: */
-    equations **equations; /* [points] NULL: not yet */
+    instance **instance;   /* [points] instances of the equations */
+    equations **equations; /* [points] NULL: not yet derived */
     pricing_made *made;    /* [made_count] */
     int made_count;
     bool has_own; /* the last point is the scene's own place, which is no point of the grid */
@@ -29,14 +29,14 @@ typedef struct pricing_scene {
     trial_source source;
 } pricing_scene;
 
-/* Places of all that varies: more are refused. */
+/* Most places of all varied values together, and places of one range. */
 enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
                                  const grid *g, diags *errors);
-/* The scene's own values, if they are no point of the grid, become a point. Call it before any image is made. */
+/* If the scene's own values are not a point of the grid, they become an additional point. Call it before making any image. */
 void pricing_scene_add_own(pricing_scene *p, const instance *own);
-/* An image that was made with these settings, and is not the scene's to free. NULL is fine. */
+/* Lend an image that was made with these settings; the caller still frees it. NULL is fine. */
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 

@@ -19,7 +19,7 @@ static const engine_kind *number_of(const rating_wish *w) {
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
 }
 
-/* The line ends with the command that shows the rows, if there is one. */
+/* Prints why there are no rows, and the command that shows them, if there is one. */
 static void say_none(FILE *out, const rating_wish *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
     if (command != NULL) {
@@ -37,7 +37,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
     fputc('\n', out);
 }
 
-/* The reason why a scene has no rows, whichever result its run has; NULL: it has rows. */
+/* The reason why a scene has no rows, independent of its run; NULL: it may have rows. */
 static const char *refused(const rating_wish *w) {
     diags *unsaid = diags_new();
     const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
@@ -112,7 +112,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
 /* Steps as fractions and multiples of a record's interval, all decimals; a decade has five. */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* For all tries together; comparing with the reference takes the same time again. */
+/* Operations of all tried runs together. The comparison with the reference takes the same time again. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
 /* Pace `i`, from long to short steps. */
@@ -136,8 +136,8 @@ static double operations_for(trials *t, const setting *s, deviation_pace pace, d
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
 }
 
-/* The first pace that satisfies the error, its number; *longest: it is the first one tried. -1, reported, if there is
- * no such pace. */
+/* The number of the first pace that satisfies the error; -1, reported, if there is none. *longest: it is the first tried
+ * pace. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = -1.0;
@@ -217,8 +217,8 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     return warned;
 }
 
-/* Of the next few paces after number `at` that satisfy the error, the first without a warning; else the pace does not
- * change. True if it changes. */
+/* Among the next few paces after number `at`, finds the first that satisfies the error without a warning. True if there
+ * is one; else the pace does not change. */
 static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
                           trial_result *r) {
     enum { MORE = 6 };

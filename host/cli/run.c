@@ -185,7 +185,7 @@ static bool model_would_be_lost(const source_model *from, const simulation_setti
            source_would_be_lost(from, "--plot", s->plot, "");
 }
 
-/* --every in seconds; 0 without it, below 0 if it is not a time. */
+/* The value of --every in seconds; 0 without it, below 0 if it is not a time. */
 static double read_every_s(const run_options *o, const mechanism *of) {
     double spacing_s = 0.0;
     if (o->every != NULL) {
@@ -225,7 +225,7 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-/* A minute or more, which is said where no progress shows. */
+/* This many steps take a minute or more. Without a progress display a message says so. */
 #define STEPS_MANY 100000000U
 
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,

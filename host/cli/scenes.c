@@ -24,7 +24,8 @@
 /* The common part of the commands of the project's own build: files in a folder, and lines of
  * hashes. */
 
-/* Called while the equations are still there (NULL: not wanted), and of the image alone. They return an exit code. */
+/* Called for a scene: the first before the equations are freed (NULL: no call), the second with the image. They return an exit
+ * status. */
 typedef int equations_visitor(void *context, const char *file, const loaded *made);
 typedef int image_visitor(void *context, const char *file, const image *im);
 
@@ -52,7 +53,7 @@ static int each_scene_of(source_model *from, const visit *v) {
         if (one == EXIT_DONE && v->equations != NULL) {
             one = v->equations(v->context, file, &each);
         }
-        if (one == EXIT_DONE) { /* the image stays */
+        if (one == EXIT_DONE) { /* made[] keeps the image */
             made[k] = each.image;
             each.image = NULL;
         }
@@ -107,7 +108,7 @@ typedef struct emission {
     const char *folder;
     FILE *declarations;
     FILE *index;
-    bool all_forms; /* text, LaTeX, Octave and the runs' hashes too */
+    bool all_forms; /* also write text, LaTeX, Octave and the runs' hashes */
 } emission;
 
 /* Writes the scene's run as a line with the hash of its last state: "WHAT NAME steps N hash 0x... ok". Returns the
@@ -124,7 +125,7 @@ static uint64_t scenes_write_hash(FILE *out, const char *what, const engine_kind
     return events;
 }
 
-/* Of a file's scene, the forms that are printed from the equations, and Octave's. */
+/* Writes the forms of a file's scene that need the equations, and Octave's. */
 static int emit_equations(void *context, const char *file, const loaded *made) {
     const emission *to = context;
     FILE *out = scenes_open(to->folder, made->image->name, ".txt");
@@ -140,7 +141,7 @@ static int emit_equations(void *context, const char *file, const loaded *made) {
     return EXIT_DONE;
 }
 
-/* The hashes of the runs of a file's scene. */
+/* Writes the hashes of the runs of a file's scene. */
 static int emit_hashes(const emission *to, const image *im) {
     FILE *out = scenes_open(to->folder, im->name, ".hash");
     if (out == NULL) {
@@ -240,17 +241,16 @@ enum { WORDS = 40 };
 
 typedef struct settings_emission {
     const char *folder;
-    uint64_t steps; /* at most so many */
-    int every;      /* one of so many settings of a scene is written, */
-    int seen; /* counted through all scenes, so that each gets others; also every one with a new
-               * word */
+    uint64_t steps; /* most steps of a run */
+    int every;      /* one setting in so many is written, and every one with a new word */
+    int seen;       /* settings counted through all scenes, so that each scene gets others */
     const char *word[AXES][WORDS];
     FILE *hashes[KINDS];
     FILE *settings; /* NAME SCENE OPTIONS OF `whirl run` without float and double..., and the events
                    * of the run in float */
 } settings_emission;
 
-/* Is one of its words new on its axis? */
+/* Has the setting a word that is new on its axis? */
 static bool has_new_word(settings_emission *to, const setting *s) {
     bool has = false;
     for (int axis = 0; axis < AXES; axis++) {
@@ -267,7 +267,7 @@ static bool has_new_word(settings_emission *to, const setting *s) {
     return has;
 }
 
-/* A scene's C or its header; the plan is NULL except for fixed point. False: reported. */
+/* Writes a scene's C or header; the plan is NULL except for fixed point. False: reported. */
 static bool write_code(const settings_emission *to, const image *im, const fixed_plan *plan,
                        const char *file, bool header) {
     FILE *out = scenes_open(to->folder, im->name, header ? ".h" : ".c");
@@ -288,7 +288,7 @@ static bool write_both(const settings_emission *to, const image *im, const fixed
     return write_code(to, im, plan, file, false) && write_code(to, im, plan, file, true);
 }
 
-/* The same in fixed point, if it has such a step: few settings have one, so all are written. */
+/* The same in fixed point, if the scene has such a step. Few settings have one, so all are written. */
 static bool write_fixed(const settings_emission *to, image *im, const setting *s, int number,
                         const char *file, const char *target) {
     char options[SETTING_TEXT];

@@ -24,10 +24,10 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Of a map: its axes; the most pairs; */
+/* Limits of a map: the number of axes, and the most pairs of values. */
 enum { AXES = 2 };
 #define PAIRS_MOST 250000
-/* operations that it may evaluate without --effort; */
+/* Operations of a map without --effort. */
 #define EFFORT 1.5e11
 /* Operations of checks, balance and comparison per step, approximately, besides the step's lists. */
 #define OPERATIONS_A_STEP 200.0
@@ -106,7 +106,7 @@ typedef struct sweep_options {
     int over_count;
     const char **measure; /* [word count] */
     int measure_count;
-    /* As they were typed; NULL: not given. */
+    /* Options as typed; NULL: not given. */
     const char *from, *csv, *jobs_text, *shard_text, *plot;
     shard part;
     int jobs;
@@ -435,8 +435,8 @@ static int map_scene(const sweep_options *o, source_model *from, const mechanism
 
 /* --- the commands ------------------------------------------------------------------------------*/
 
-/* Refuses to overwrite a file of the model, by the rows or by their companion file (host/study/session.h). For a map this is
- * tested before the work. */
+/* Refuses to overwrite the model's file with the rows or with FILE.sweep (host/study/session.h). For a map also tests, before
+ * the work, if the file can be written. */
 static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
     if (source_would_be_lost(from, "--csv", o->csv, "") ||
         source_would_be_lost(from, maps ? "--plot" : "--csv", maps ? o->plot : o->csv,

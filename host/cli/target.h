@@ -9,21 +9,21 @@
  */
 typedef bool target_take(int count, char **words, int *at, void *options, bool *bad);
 
-/* One of a command's own options, in a table. What follows its word goes to */
+/* One of a command's own options, in a table. Exactly one of text, number, strict and flag is set. */
 typedef struct own_option {
     const char *word;
-    const char **text; /* here; */
-    int *count;        /* of a repeatable one, all of it to text[]; */
-    double *number;    /* or here, as a number between two bounds, both allowed, */
+    const char **text; /* gets the value as typed */
+    int *count;        /* of a repeatable option: the number of its values in text[] */
+    double *number;    /* gets the value as a number from `least` to `most` */
     double least, most;
-    bool whole; /* and a whole one; */
+    bool whole; /* the number must be whole */
     const char *hint;
-    double *strict; /* or as options_strict() takes it. */
-    bool *flag;     /* Nothing follows: it is set; */
-    bool is_bare;   /* or text gets the word. */
+    double *strict; /* gets the value of options_strict() */
+    bool *flag;     /* is set by an option without a value */
+    bool is_bare;   /* an option without a value: text gets its word */
 } own_option;
 
-/* Rows: a number, and those that several commands have. */
+/* Rows for numbers, and for options of several commands. */
 #define OWN_NUMBER(name, to, from, up_to, such_as) \
     { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as }
 #define OWN_WHOLE(name, to, from, up_to, such_as) \
@@ -38,15 +38,15 @@ enum { OWN_OPTIONS_MOST = 24 };
 
 typedef struct target_reader {
     const char *command;
-    unsigned groups;         /* of the common options that it takes */
-    const own_option *table; /* its own options, one without a word at the end; or NULL */
-    target_take *take;       /* of those that are in no table; or NULL */
-    const char *const *own;  /* their words, NULL at the end */
-    const char *one;         /* what there is one of at a time; NULL: a scene */
-    bool derives;            /* what is no scene will do, too: another word for a second one */
+    unsigned groups;         /* the accepted groups of common options */
+    const own_option *table; /* own options, ended by one without a word; or NULL */
+    target_take *take;       /* reads own options that are not in the table; or NULL */
+    const char *const *own;  /* the words of those options, NULL at the end */
+    const char *one;         /* name of a target in the message about a second one; NULL: "scene" */
+    bool derives;            /* a target may also be a mechanism, which changes that message */
 } target_reader;
 
-/* Take all options, of both kinds, and the only other word: *target, or NULL. False after an error, reported. */
+/* Take all common and own options. *target is the only other word, or NULL. False after an error, reported. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  void *options, const char **target);
 

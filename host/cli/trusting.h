@@ -9,13 +9,14 @@
 
 /* The data that load() must store for trusting_plain(). */
 load_keep trusting_keep(const image_settings *settings);
-/* The image of step_doubling_plain(), to be freed. NULL: it is the image itself. */
+/* The finer run's image (step_doubling_plain()), to be freed. NULL: the finer run uses the run's image. */
 image *trusting_plain(const loaded *made);
-/* The scene's step in fixed point, which the image then has: takes as long as a run if ranges are undeclared. Returns an exit
- * code; *plan is to be freed. */
+/* Adds the scene's step in fixed point to the image. Takes as long as a run if ranges are undeclared. Returns an exit status;
+ * *plan is to be freed. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
-/* Of an effort that is too much: how long it takes, and the end of its hint, with the --effort that would do. */
+/* For an effort above the limit: effort_minutes() estimates its time, and effort_say() prints the end of the hint, with an
+ * --effort that suffices. */
 double effort_minutes(double operations);
 void effort_say(double operations);
 

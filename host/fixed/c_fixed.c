@@ -11,10 +11,10 @@
 /* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written out, so that
  * a compiler folds them. */
 
-/* A list of more operations than this is called at each stage and not inlined there. */
+/* A list with more operations than this is called at each stage and not inlined. */
 enum { INLINED_MOST = 80 };
 
-/* A number as C has it: INT32_C(-5) is no constant of its own. */
+/* A number in C. INT32_C() accepts no sign, so -5 becomes -INT32_C(5). */
 static void c_fixed_number(FILE *out, int32_t number) {
     fprintf(out, number < 0 ? "(-INT32_C(%" PRIu32 "))" : "INT32_C(%" PRIu32 ")",
             number < 0 ? 0U - (uint32_t)number : (uint32_t)number);
@@ -78,7 +78,7 @@ static void quotient(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
     fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n", o->spread > 0 ? 'u' : 'd',
             i, o->negated ? "0U - " : "", o->b.op, o->zeros);
-    if (o->spread == 1) { /* no or one shift */
+    if (o->spread == 1) { /* the sign bit decides between no shift and one */
         fprintf(out, "    const int z%d = (int)(~u%d >> 31);\n", i, i);
     } else if (o->spread > 1) {
         fprintf(out, "    const int z%d = wh_fixed_zeros(u%d);\n", i, i);
@@ -130,7 +130,7 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
         break;
     case FIXED_SIGN: fprintf(out, "wh_fixed_sign(x%d, %d)", o->a.op, o->bits); break;
     case FIXED_PHASE:
-    case FIXED_QUOTIENT: break; /* not in one expression */
+    case FIXED_QUOTIENT: break; /* takes several statements */
     }
 }
 

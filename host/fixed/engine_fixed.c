@@ -19,8 +19,8 @@ typedef struct fixed_loss fixed_loss;
 enum { ALL_MOST = 3 * IMAGE_COMPONENTS_MAX };
 
 typedef struct component_loss {
-    double asked; /* of the step in progress */
-    double lost;  /* since the start */
+    double asked; /* exact increment in the step in progress */
+    double lost;  /* sum of the lost increments since the start */
     double most;
     double low, high; /* range without round-off */
 } component_loss;
@@ -85,7 +85,7 @@ static void slopes(const fixed_loss *l, const double *at, double *slope) {
     evaluator_run(l->step, 0.0, at, at + angles, at + moved, l->input, slope + moved);
 }
 
-/* Around each step. A step with clamped values does not count, because clamping is reported separately. */
+/* Called before each step. A step with clamped values does not count, because clamping is reported separately. */
 static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
     static const double part[] = {0.0, 0.5, 0.5, 1.0};
     static const double weight[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
@@ -135,8 +135,8 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
     }
 }
 
-/* Of component i, angles first: the largest size of that sum since the start, and the span that the component would have
- * covered with it; SI. */
+/* For component i, angles first: the largest size of its lost sum since the start, and the span that it would have covered without
+ * the loss; SI. */
 static double fixed_loss_off(const fixed_loss *l, int i, double *span) {
     *span = l->component[i].high - l->component[i].low;
     return l->component[i].most;
@@ -246,8 +246,8 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-/* The increment of a place at stage s, before rounding. Stages are not clamped to ranges: the list has room for all stages
- * of steps from within them (fixed_plan.c). */
+/* The increment of a place at a stage, before rounding. Stages are not clamped to the ranges: the list has room for all stages of
+ * steps that begin within the ranges (fixed_plan.c). */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1
                ? k->half_rate[i]

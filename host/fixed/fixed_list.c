@@ -15,14 +15,14 @@ static enclosure twice(enclosure seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {
         return (enclosure){-1.0, 1.0};
     }
-    if (seen.low == 0.0 || seen.high == 0.0) { /* begun at rest: either way */
+    if (seen.low == 0.0 || seen.high == 0.0) { /* it began at zero, and may move either way */
         return (enclosure){-2.0 * enclosure_size(seen), 2.0 * enclosure_size(seen)};
     }
     return (enclosure){seen.low < 0.0 ? 2.0 * seen.low : 0.5 * seen.low,
                        seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
-/* Often enough to be seen, rarely enough to cost little. */
+/* Shows the progress, often enough to be seen and rarely enough to cost little. */
 static void show(uint64_t step, uint64_t steps) {
     if ((step & 0x3fffU) == 0x3fffU) {
         fprintf(stderr, "\rranges, from a run in double: %5.1f %%",
@@ -97,11 +97,9 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
     return good;
 }
 
-/* === the list ================================================================================= */
-
 /* === binary points and shifts ================================================================= */
 
-/* Points beyond these are for numbers that no mechanism has. */
+/* Limits of the binary point. Values beyond them occur in no mechanism. */
 enum { BITS_LEAST = -60, BITS_MOST = 90 };
 #define ROUNDED (1.0 - 0x1p-40)
 
@@ -114,7 +112,7 @@ int fixed_point_of(double size, int digits) {
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
-/* Its largest integer, as a double. */
+/* The operation's largest integer, as a double. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int least(int a, int b) { return a < b ? a : b; }
@@ -122,13 +120,13 @@ static int most(int a, int b) { return a > b ? a : b; }
 
 /* --- points ------------------------------------------------------------------------------------------*/
 
-/* The largest product of the operands has room, too, so that shifts to the left suffice. */
+/* Bits of a product. The largest product of the operands also has room, so that left shifts suffice. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* At most the digits of the finer part. Constants and compared values must have room. */
+/* Bits of a sum: at most those of the finer operand. Constants and compared values must have room. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -148,7 +146,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     switch (o->code) {
     case FIXED_LINEAR:
     case FIXED_RATE:
-    case FIXED_INPUT: return; /* theirs */
+    case FIXED_INPUT: return; /* the caller has set the bits of leaves */
     case FIXED_PHASE: o->bits = 0; return;
     case FIXED_SINE:
     case FIXED_COSINE: o->bits = 30; return;
@@ -170,7 +168,8 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     }
 }
 
-/* Digits that user o can use of operation i. If a sum has fewer digits after the point, its products have no more. */
+/* Raises wanted[i] to the digits of operation i that its user `o` can use. A product in a sum needs no more digits after the point
+ * than the sum. */
 static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -179,7 +178,7 @@ static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Products and quotients round only once: directly to the digits of their sums. */
+/* Lets products and quotients round only once, directly to the digits of their sums. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -213,10 +212,10 @@ static int32_t whole(double value, int bits) {
     return (int32_t)number_nearest(number_scaled(value, bits));
 }
 
-/* Of a denominator: more than rounding changes it. */
+/* Relative margin of a denominator, larger than its round-off. */
 #define MARGIN 1e-6
 
-/* An operand that is added: a constant at the result's point, else rounded to it. */
+/* Aligns an operand of a sum to the result's point: a constant is converted, a value is rounded. */
 static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     const fixed_op *from = &l->op[operand->op];
     if (from->code == FIXED_CONSTANT) {
@@ -227,15 +226,15 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     }
 }
 
-/* Shifts to the left of a number of this many units that keep it within 31 digits. */
+/* The most left shifts of a number of this many units that keep it within 31 digits. */
 static int left_of(double size) {
     int exponent;
     (void)number_split(size + 1.0, &exponent);
     return 31 - exponent;
 }
 
-/* Shifts of a product to `bits`. The factors have `a_bits` and `b_bits` after the point and room for a_left and b_left
- * more. False: there is no room. */
+/* Chooses the shifts of a product with `bits` after the point. The factors have `a_bits` and `b_bits` after the point, and room for
+ * a_left and b_left left shifts. False: there is no room. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     const int by = a_bits + b_bits - o->bits - 32;
     const int short_of = by >= 1 ? 0 : 1 - by;
@@ -342,7 +341,7 @@ static bool is_result(const fixed_list *l, int i) {
     return false;
 }
 
-/* Are there as many zeros in front of |b| as the quotient takes there to be? */
+/* Has |b| as many leading zeros as the quotient assumes? */
 static bool has_zeros(const fixed_op *o, const fixed_op *b) {
     const enclosure size = enclosure_call(FN_ABS, b->range, enclosure_of(0.0));
     int smallest;
@@ -369,7 +368,7 @@ bool fixed_fits(const fixed_list *l) {
     return true;
 }
 
-/* Sums have room for one more than products. */
+/* Digits of an operation: a sum has room for one more than a product. */
 static int digits_of(const fixed_list *l, int i) {
     const bool sums = l->op[i].code == FIXED_SUM || l->op[i].code == FIXED_DIFFERENCE;
     return is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
@@ -397,8 +396,8 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 }
 
 /* === ranges of values ========================================================================= */
-/* Interval arithmetic, cell by cell of the turn angles. A whole turn at once
- * would know no denominator from zero. */
+/* Interval arithmetic, cell by cell of the turn angles. Over a whole turn at once every denominator might be
+ * zero. */
 
 /* Cells a turn, and of all turn angles together. */
 enum {
@@ -418,11 +417,11 @@ typedef struct hull {
     fixed_list *list;
     const fixed_leaves *leaves;
     bool bits_known;
-    enclosure *now;   /* [count] in this cell */
+    enclosure *now;   /* [count] ranges in this cell */
     enclosure *angle; /* [angles] */
     int *cell;        /* [angles] */
     bool *cut;        /* [angles] does any phase depend on it? */
-    int cells;        /* a turn */
+    int cells;        /* cells a turn */
     bool at_middles;  /* leaves are at the middle of their ranges */
     bool divides_zero;
     bool unbounded;
@@ -444,7 +443,7 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* Of all angles in a. Tighter than enclosure_sine() of a whole cell; SINE_OFF covers rounding. */
+/* The sines of all angles in a. Tighter than enclosure_sine() of a whole cell; SINE_OFF covers round-off. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);
@@ -491,7 +490,7 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* Half a unit of the result, plus that of shifted operands, with a margin. */
+/* Round-off of an operation: half a unit of the result, plus that of shifted operands, with a margin. */
 static double rounding_of(const hull *h, const fixed_op *o) {
     const bool rounds = o->code > FIXED_PHASE;
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
@@ -519,7 +518,7 @@ static void enclose(hull *h, bool first) {
     }
 }
 
-/* The next cell; false when all were. */
+/* Goes to the next cell; false after the last. */
 static bool next(hull *h) {
     for (int k = 0; k < h->list->angles; k++) {
         if (h->cut[k]) {
@@ -562,7 +561,8 @@ static bool enclose_all(hull *h) {
     return !h->divides_zero;
 }
 
-/* Is it zero somewhere in the turn, wherever in their ranges the others are? Then no range keeps it from that. */
+/* Is the denominator zero somewhere in the turn even with all other leaves at the middle of their ranges? Then smaller ranges do
+ * not help. */
 static bool divides_zero_anyway(hull *h) {
     h->at_middles = true;
     return !enclose_all(h);
@@ -679,7 +679,7 @@ static bool is_power(double value) {
 }
 
 static int enter_product(fixed_list *l, int a, int b) {
-    if (is_constant(l, b)) { /* in front */
+    if (is_constant(l, b)) { /* the constant becomes the first operand */
         const int swap = a;
         a = b;
         b = swap;
@@ -745,7 +745,7 @@ static fixed_op copy_of(const op_list *t, const op *o, const int *number) {
     return made;
 }
 
-/* Operation i times `scale`, joined to the operation's constant factor if it has one. */
+/* Enters operation i times `scale`. If the operation has a constant factor, the two are joined. */
 static int enter_scaled(fixed_list *l, int i, double scale) {
     const fixed_op *o = &l->op[i];
     double factor = scale;

@@ -12,9 +12,10 @@
 
 /* === the ranges that components and inputs of a scene keep to ================================= */
 
-/* range[reals + inputs] of components, then inputs, as declared. An undeclared range comes from a reference run of the scene
- * (double, its method). It reaches twice as far from zero as the run; or half as near, if the run stays on one side of zero;
- * -1 to 1 if it stays zero. False: that run failed (reported), or was interrupted. `progress`: shown on standard error. */
+/* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a reference run of the
+ * scene in double with the scene's method. It reaches twice as far from zero as the run. If the run stays on one side of zero, the
+ * near end is half as far from zero as the run; if it stays zero, the range is -1 to 1. False: that run failed (reported), or was
+ * interrupted. `progress`: show it on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
 /* Binary digits of a value. Values fill at most 2^29, so that twice their round-off fits. Results fill 2^28, since a
@@ -52,8 +53,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: `zeros` is the least number of leading zeros of |b|, and `spread` the most further ones,
-     * `more`. They also shift a; if a has no room for that, `by` is less. */
+    /* FIXED_QUOTIENT: |b| has at least `zeros` leading zeros, and at most `spread` further ones (`more` in the formula). The
+     * further zeros also shift a; if a has no room for that, `by` is less (`follows`). */
     int zeros;
     int spread;
     bool follows;
@@ -62,7 +63,7 @@ typedef struct fixed_op {
     double offset_rad;
     uint32_t offset;
     double value;    /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
-    enclosure range; /* of the values that it can have */
+    enclosure range; /* of its possible values */
     int bits;        /* after the binary point */
     bool used;
 } fixed_op;
@@ -75,7 +76,7 @@ typedef struct fixed_list {
     int angles;
 } fixed_list;
 
-/* The list with its results times scale[results], or NULL: something has no fixed form (reported). */
+/* The list with its results times scale[results]; NULL, reported, if an operation has no fixed form. */
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
 void fixed_list_free(fixed_list *list);
 
@@ -89,16 +90,17 @@ typedef struct fixed_leaves {
 /* The largest size of a value. Products of two such values are finite, so that all intervals are finite. */
 #define FIXED_SIZE_MOST 0x1p80
 
-/* Encloses all values: op[].range. Turn angles are cut into cells. `bits_known`: includes the rounding to op[].bits. Returns
- * the cells a turn, or a code: a denominator may be zero (reported), a value exceeds FIXED_SIZE_MOST, or it was stopped. */
+/* Encloses all values in op[].range, cell by cell of the turn angles. `bits_known`: includes the rounding to op[].bits. Returns
+ * the number of cells a turn, or a code: a denominator may be zero (reported), a value exceeds FIXED_SIZE_MOST, or the user
+ * interrupted. */
 enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
 
-/* Choose op[].bits, shifts and numbers. bits of leaves are given by op[].bits. False: a value has no room (reported). */
+/* Choose op[].bits, shifts and numbers; the caller has set op[].bits of the leaves. False: a value has no room (reported). */
 bool fixed_bits(fixed_list *list, const image *im, diags *errors);
 
-/* With the ranges of fixed_hull(), rounding in them: does everything fit? */
+/* Does everything fit, after fixed_hull() with bits_known? */
 bool fixed_fits(const fixed_list *list);
 
 /* Digits after the point with which `size` fills at most `digits` binary digits; the largest for

@@ -22,7 +22,7 @@ static bool has_noise(const image *im) {
 static const char refused_part[] =
     "--number float; or put it into an effect, and leave that out: --without EFFECT";
 
-/* Contacts, ledger, noise, other methods and settings: false, reported. */
+/* False, reported, for contacts, a ledger, noise, and other methods and settings. */
 static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (has_noise(im)) {
@@ -76,7 +76,7 @@ static bool starts_inside(const image *im, const enclosure *range, diags *errors
     return good;
 }
 
-/* Ranges that are no larger than anything may be. */
+/* Are all ranges within the largest size of a value? */
 static bool ranges_are_bounded(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -89,7 +89,7 @@ static bool ranges_are_bounded(const image *im, const enclosure *range, diags *e
     return good;
 }
 
-/* Ranges of the reals and inputs: larger than anything may be, or a start outside its own: false, reported. */
+/* False, reported, if a range of a real or an input is too large, or a start is outside its range. */
 static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
 }
@@ -177,7 +177,7 @@ static const fixed_op *result_of(const fixed_plan *p, int i) {
     return &p->list->op[p->list->result[i]];
 }
 
-/* The component of the reals that the results of the list move: all but first-order angles. */
+/* The real component that result i of the list moves. There is none for a first-order angle. */
 static int kept_at(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return p->second ? (p->coordinates - angles) + i : i - angles;
@@ -193,7 +193,7 @@ static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     return m->to_kept >= 1 && make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept);
 }
 
-/* A second-order coordinate by its rate and acceleration. */
+/* Sets the mover of a second-order coordinate, which its rate and acceleration move. */
 static bool move_place(fixed_plan *p, int i) {
     const image *im = p->image;
     fixed_mover *m = &p->mover[i];
@@ -268,7 +268,7 @@ static fixed_leaves leaves_of(const fixed_plan *p) {
     return (fixed_leaves){p->stage, p->stage + linears, p->stage + im->reals};
 }
 
-/* The most that a whole step adds to a component of the reals, by the list's results. */
+/* The most that a whole step adds to a real component, from the ranges of the list's results. */
 static double most_added(const fixed_plan *p, int at) {
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : im->reals;
@@ -283,8 +283,8 @@ static double most_added(const fixed_plan *p, int at) {
            (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
 }
 
-/* Stages leave the ranges by their increments, which depend on the stages. Iterates from zero until they are enclosed.
- * False: they never were. */
+/* Stages exceed the ranges by their increments, which depend on the stages. Iterates from zero until the stages are enclosed.
+ * False: no iteration encloses them. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -331,7 +331,7 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Points for all values: those of the state follow from the list's results, and theirs from the
+/* Chooses the binary points of all values. Those of the state follow from the list's results, whose points follow from the
  * ranges. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
@@ -403,7 +403,7 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* At first: room for the stages. */
+/* The first format of a component, with room for the stages. */
 static wh_fixed_format first_format(enclosure range, enclosure stage) {
     const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
     const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);
@@ -426,7 +426,7 @@ static bool make(fixed_plan *p, bool progress, diags *errors) {
     if (!enclose(p, errors)) {
         return false;
     }
-    for (int i = 0; i < im->reals; i++) { /* which may leave them by far */
+    for (int i = 0; i < im->reals; i++) {
         p->format[i] = first_format(p->range[i], p->stage[i]);
     }
     return make_all_fit(p, errors);

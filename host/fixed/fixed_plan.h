@@ -9,11 +9,11 @@
 
 /* === statements that fixed point refuses, each at its place =================================== */
 
-/* Code takes inputs that no run has tested. So each input without a declared range is reported, with the range of a
- * run; false: there is one. */
+/* Generated code may get inputs that no run has tested. So each input without a declared range is reported, with the range of
+ * a run. False: there is such an input. */
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);
 
-/* x 2^shift number 2^-(32 + by), rounded: times a constant, to another binary point. */
+/* Multiplication by a constant, with a change of the binary point: x 2^shift number 2^-(32 + by), rounded. */
 typedef struct fixed_gain {
     int32_t number;
     int shift;
@@ -31,7 +31,7 @@ typedef struct fixed_gain {
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;
-    int guard; /* second order; and the next: of v, A and A1 + A2 + A3 */
+    int guard; /* this and the following, for second order only: gains of v, A and A1 + A2 + A3 */
     fixed_gain half_rate;
     fixed_gain half_accel; /* number and by of wh_fixed_mul_short() */
     fixed_gain third_accel;
@@ -40,14 +40,14 @@ typedef struct fixed_mover {
 typedef struct fixed_plan {
     const image *image;
     wh_fixed_format *format; /* [reals + inputs] as the scene has them */
-    enclosure *range;        /* [reals + inputs] at the ends of steps, and */
-    enclosure *stage;        /* [reals + inputs] at their stages */
-    bool *declared;          /* [reals + inputs]: else from a reference run */
+    enclosure *range;        /* [reals + inputs] at the ends of steps */
+    enclosure *stage;        /* [reals + inputs] at the stages of steps */
+    bool *declared; /* [reals + inputs] the range is declared; else it is from a reference run */
     bool second;
     int coordinates;    /* or components */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
-    int cells; /* of a turn, with which no denominator was zero */
+    int cells; /* cells a turn with which no denominator was zero */
     int64_t *start_angle;
     int32_t *start_real;
     int32_t *start_input;
@@ -58,8 +58,8 @@ typedef struct fixed_plan {
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Ranges that turn angles do not use, and undeclared ones, a line each, begun by `begin`: "the range of theta' is -40 .. 40
- * [rad/s], ...". */
+/* Prints the ranges of turn angles, which are not used, and undeclared ranges: a line each, beginning with `begin`, such as "the
+ * range of theta' is -40 .. 40 [rad/s], ...". */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

@@ -21,8 +21,8 @@ enum { IMAGE_WAYS = 6 };
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
-/* The source of a stage's sines of turn angles: looked up once a step and then turned (core/step/stage_turn.h), if possible,
- * or looked up at each stage (core/step.h). */
+/* The source of a stage's sines of turn angles. They are looked up once a step and then turned (core/step/stage_turn.h), if
+ * possible; or they are looked up at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -298,11 +298,11 @@ typedef struct image {
     int reals;        /* components stored as reals */
     int inputs;       /* the mechanism's own and those of the active effects */
     int own_outputs;  /* the mechanism's */
-    int outputs;      /* those, then value and rate of each recovered coordinate */
+    int outputs;      /* own_outputs, plus value and rate of each recovered coordinate */
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* the mechanism's own and those of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* If folding lost digits: variants with other ways of folding (host/number/folding.h), for their lists. */
+    /* If folding lost digits: variants with other ways of folding (host/number/folding.h). Only their lists are used. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
     bool unbounded;         /* in a variant, a number of the file is not finite */
@@ -354,7 +354,7 @@ int image_find_component(const image *im, int unknown, int primes);
 
 /* The stepper in words: the method's title, or the matrix. */
 const char *image_stepper(const image *im);
-/* The words after it: " compensated", " stabilized", both, or "". */
+/* The words after the stepper's: " compensated", " stabilized", both, or "". */
 const char *image_sums(const image *im);
 
 /* The displayed number of an SI value, and whether both are equal. */
@@ -365,7 +365,7 @@ bool image_shows_si(const image_unit *unit);
 void image_inputs(const image *im, double *input);
 double image_start(const image *im, int i);
 
-/* Does the code for a board call functions of core/function.h? */
+/* Does generated code call functions of core/function.h? */
 bool image_calls(const image *im);
 
 /* The first constant of the equations, or the first input, that float can represent only with one or two digits or as

@@ -180,7 +180,7 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* Places with multiplied raw values; those of the same value share a factor. */
+/* Places with multiplied raw values. Places of the same value share a factor. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* an earlier column of the same value, or itself */
@@ -344,7 +344,7 @@ static bool op_list_is_raw(const op *o) {
     return o->code == OP_SIGN || o->code == OP_POW;
 }
 
-/* A constant. If only double's round-off separates it from a float, that float. */
+/* Enters a constant. If it differs from a float only by double's round-off, the float is entered. */
 static int constant(op_list *t, double value) {
     const double nearest = (double)(float)value;
     return op_list_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
@@ -601,8 +601,8 @@ double op_list_bias(const op_list *t, const op_list *like) {
 /* === the numbers that leave float its constants =============================================== */
 
 enum {
-    LONGEST = 250, /* operations of an examined list */
-    FIVES = 6,     /* most of each prime */
+    LONGEST = 250, /* most operations of an examined list */
+    FIVES = 6,     /* largest exponent of each prime */
     THREES = 3,
     SEVENS = 1,
     REALS = 512,      /* tried numbers between one and two, */

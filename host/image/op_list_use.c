@@ -262,10 +262,10 @@ typedef struct schedule {
     const op_list_needs *needs;
     int *waits; /* [ops]: dependencies not yet computed */
     int *uses;  /* [ops]: remaining users, a result included */
-    int *ends;  /* [ops]: number of lives it ends */
-    int *until; /* [ops]: its last user */
+    int *ends;  /* [ops]: number of values whose last use it is */
+    int *until; /* [ops]: last user of its value */
     int *ready; /* operations without pending dependencies, unordered */
-    int count;  /* of them */
+    int count;  /* number of ready operations */
     bool *done; /* [ops] */
 } schedule;
 
@@ -406,7 +406,7 @@ static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int
     for (int at = 0; at < count; at++) {
         put_next(&p, sequence[at]);
     }
-    for (int i = 0; i < t->count; i++) { /* only results, or unused */
+    for (int i = 0; i < t->count; i++) { /* given operations that are only results, or unused */
         put_next(&p, i);
     }
     op_list_renumber(t, p.order, p.number);

@@ -4,7 +4,7 @@
 
 #include "host/lang/statements.h"
 
-/* NULL: unknown, or not an output (reported). */
+/* The output of this name; NULL, reported, if the name is unknown or no output. */
 static const symbol *find_output(parser *in, const token *name) {
     char words[80];
     char hint[120] = "";

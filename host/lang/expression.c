@@ -269,7 +269,7 @@ static const expr *expr_name(parser *in, const token *name) {
         }
         report_unknown(in, name);
         if (in->builder != NULL && !in->all_effects) {
-            /* Report once: the name is added as an unknown one. */
+            /* The name is added as an unknown one, so that it is reported only once. */
             found = names_add(in->builder->names, name->text, name->length);
             found->is_placeholder = true;
             found->symbol.kind = SYM_LET;
@@ -278,7 +278,7 @@ static const expr *expr_name(parser *in, const token *name) {
         return unknown_value(made);
     }
     if (found->is_placeholder) {
-        if (found->symbol.kind == SYM_INPUT) { /* named as a rate only */
+        if (found->symbol.kind == SYM_INPUT) { /* only a `rate` has named it */
             report_unknown(in, name);
             found->symbol.kind = SYM_LET;
         }

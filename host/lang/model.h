@@ -80,7 +80,7 @@ struct expr {
     int height;          /* 1 for a leaf; a let or output counts with its expression */
     int order;           /* most primes on any coordinate or state, through lets too */
     unsigned uses;       /* USES_ bits of its dependencies, through lets too */
-    const symbol *angle; /* a name of it that is an angle not declared in SI, or NULL */
+    const symbol *angle; /* a symbol in it that is an angle not declared in SI, or NULL */
 };
 
 enum {

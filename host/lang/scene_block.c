@@ -6,7 +6,7 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* NAME of a symbol of the mechanism; *found is NULL if it is unknown (reported). */
+/* Takes the name of a symbol of the mechanism; *found is NULL if it is unknown (reported). */
 static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
                               named **found);
 /* ITEM {, ITEM}: a line may end after a comma. */

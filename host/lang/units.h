@@ -100,7 +100,7 @@ typedef struct unit_error {
  * right. Returns false and fills `error` if the text is no unit. */
 bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error);
 
-/* Is the unit an SI unit, up to the rounding of its factors? Then messages need not name it. True also for {0}, no
+/* Is the unit an SI unit, up to the rounding of its factors? Then messages need not name it. Also true for {0}, which means no
  * unit. */
 bool unit_is_si(unit_scale u);
 

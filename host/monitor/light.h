@@ -19,8 +19,8 @@ extern const char *const light_names[LIGHT_FIELDS];
 typedef struct light {
     char text[LIGHT_ROOM];  /* the record as the board wrote it, a line feed after each line */
     size_t length;          /* its length */
-    char lines[LIGHT_ROOM]; /* and split into words: */
-    const char *value[LIGHT_FIELDS]; /* of light_names[] */
+    char lines[LIGHT_ROOM]; /* the record split into words */
+    const char *value[LIGHT_FIELDS]; /* the value of each field of light_names[] */
     uint32_t crc;
 } light;
 

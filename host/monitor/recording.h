@@ -74,12 +74,12 @@ typedef struct recording {
     bool timed;
     uint32_t ticks;  /* ticks of the last frame, */
     int64_t time_us; /* and its time since the first frame */
-    bool expects;    /* a sample at: */
+    bool expects;    /* the next sample is expected at expected_us */
     int64_t expected_us;
     int signal[2 * SCHEMA_FIELDS]; /* of the run's fields */
     int pulse[2];
-    bool ends;    /* the rig reports the ends of pulses, */
-    bool high[2]; /* and this pulse has not ended yet */
+    bool ends;    /* the rig reports the ends of pulses */
+    bool high[2]; /* this pulse has not ended yet */
     int trip;
     double *row; /* plotted rows of `columns` values, thinned out above the limit */
     int64_t rows;
@@ -98,7 +98,7 @@ void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plot
 /* The rig has restarted: its clock and counts are unrelated to earlier ones. */
 void recording_anew(recording *r);
 
-/* Samples were requested again, perhaps at another rate. The gap before the next ones is no loss. */
+/* Samples were requested again, perhaps at another rate. The gap before the next sample is not a loss. */
 void recording_asked(recording *r);
 
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);

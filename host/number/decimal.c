@@ -39,7 +39,7 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
 
 enum {
     /* A midpoint of two doubles has at most 768 significant digits (next to 2^-1074 and 2^-1022). So a longer number is
-     * on the same side of it as its first DIGITS_MAX, plus one more digit unless the rest are zeros. */
+     * on the same side of every midpoint as its first DIGITS_MAX digits, with one more digit if the rest is not zero. */
     DIGITS_MAX = 780,
     /* The place of the first digit: 10^-324 and above is not below half of 2^-1074, 10^309 is infinity. */
     PLACE_LEAST = -324,

@@ -6,9 +6,9 @@
 
 enum { HEX_SIZE = 32 };
 
-/* As C reads it: 0x1.8p+1, -0x1p-3, 0x0p+0; no digits that are zeros at the end. Numbers below 2^-1022 keep that
- * exponent, 0x0.8p-1022: printf's %a does so with some C libraries and not with others. "inf", "-inf" and "nan"
- * are no C. Returns `text`. */
+/* Writes a number as C reads it, without trailing zeros: 0x1.8p+1, -0x1p-3, 0x0p+0. Numbers below 2^-1022 keep that
+ * exponent, 0x0.8p-1022; C libraries differ in this for printf's %a. "inf", "-inf" and "nan" are not C. Returns
+ * `text`. */
 char *hex_write(double value, char text[static HEX_SIZE]);
 
 /* The number at the start of `text`, [+-] digits [. digits] [e [+-] digits] with a digit before the e, as the nearest

@@ -144,7 +144,7 @@ enclosure enclosure_cosine(enclosure a) {
 
 /* --- roots, exponentials, powers -----------------------------------------------------------------------*/
 
-/* Its square is exact: a whole number stays one. */
+/* Is `root` the exact root of `of`? Then a whole number stays whole. */
 static bool is_whole_root(double root, double of) {
     return root <= 0x1p26 && number_nearest(root) == root && root * root == of;
 }
@@ -166,7 +166,7 @@ static enclosure exponential(double x) {
     int halvings = 0;
     while (number_scaled(size, -halvings) > 0.25) {
         if (++halvings > 11) {
-            return none(); /* beyond 512 */
+            return none(); /* the argument exceeds 512 */
         }
     }
     const enclosure y = enclosure_of(number_scaled(x, -halvings));
@@ -243,7 +243,7 @@ enclosure enclosure_power(enclosure a, enclosure exponent) {
 
 /* --- the language's functions ---------------------------------------------------------------------------*/
 
-/* Of a function that rises, or falls, within these ends. The values are right to 0.6 units of the last place. */
+/* Encloses a function that is monotonic between `least` and `most`. Its values are accurate to 0.6 units of the last place. */
 static enclosure steady(function_id function, enclosure a, double least, double most) {
     const double low = enclosure_lesser(enclosure_larger(a.low, least), most);
     const double high = enclosure_larger(enclosure_lesser(a.high, most), least);

@@ -93,7 +93,7 @@ static inline enclosure enclosure_times(enclosure a, double x) {
     return (enclosure){enclosure_below(x < 0.0 ? q : p), enclosure_above(x < 0.0 ? p : q)};
 }
 
-/* The least that holds both. */
+/* The least enclosure that contains both. */
 static inline enclosure enclosure_hull(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? b : a;
@@ -108,7 +108,7 @@ enclosure enclosure_about(double value, int more);
 /* A double near the middle, and an upper bound on its distance to either end. */
 double enclosure_middle(enclosure a);
 double enclosure_radius(enclosure a);
-/* Not less than the size of any number in it. */
+/* An upper bound on the size of all numbers in a. */
 double enclosure_size(enclosure a);
 /* Is a between the ends of b, and touches neither? */
 bool enclosure_inside(enclosure a, enclosure b);

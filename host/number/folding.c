@@ -13,7 +13,7 @@
 /* Round-off of a few operations: 0.1 + 0.2 - 0.3. */
 #define GHOST (16.0 * UNIT)
 
-/* A residue larger than this in SI units may be a whole spring. */
+/* A residue larger than this, in SI units, may be a real quantity, such as a soft spring. */
 #define REST_COUNTS 1e-12
 
 static folding plain; /* the default */
@@ -41,8 +41,8 @@ static uint64_t mixed(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/* Number of doubles by which a result of these operands is moved, up or down. Some ways derive it from the digits alone,
- * independent of signs, powers of two and order. */
+/* The number of doubles by which a result of these operands is moved, up or down. Some ways derive it only from the operands'
+ * digits, independent of their signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -63,8 +63,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Moved to the other side of the `exact` value, one double beyond its neighbour, because several round-offs may have put a
- * number as far off. Unchanged if it is exact. */
+/* The nearest double, moved to the other side of the exact value, one double beyond the neighbour there: several round-offs may add
+ * up to as much. Unchanged if the nearest double is exact. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -74,7 +74,7 @@ static double other_neighbour(twofold exact, double x, double y) {
 
 static bool is_short(double x) { return (digits_of(x) & ((UINT64_C(1) << 26) - 1)) == 0; }
 
-/* The same for a value that is known to its own digits only. */
+/* The same for a value of which only the double is known. */
 static double other_value(double value, double x) {
     return isfinite(value) ? moved(value, moved_by(value, x, (digits_of(value) >> 26 & 1U) != 0))
                            : value;
@@ -132,7 +132,8 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* A function of a residue, compared with its value at zero. */
+/* A function of a residue. If its value differs from the one at zero, no digit is correct. If that is zero, the value is a residue,
+ * too. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -141,8 +142,8 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* A function's value loses as much of x as it is insensitive to it: 1e-9 rad in its cosine. Not if the slope is only the
- * round-off of x modulo quarter turns. */
+/* A function that hardly depends on x loses digits of x, such as cos(1e-9). This does not count if the slope is only the round-off
+ * of x modulo quarter turns. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
@@ -159,7 +160,8 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* Moving all results the other way would let products and quotients undo the move of the sums in them: (K + k)/K - 1. */
+/* Does the way move products and quotients, too? If all results moved to the other side, a quotient could undo the move of a sum in
+ * it: (K + k)/K - 1. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }
@@ -196,7 +198,7 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Is the function's value exact? Roots of squares have few digits, and other functions at the begin of their series. */
+/* Is the function's value exact? It is for roots of squares, and for other functions at the first terms of their series. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

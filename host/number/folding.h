@@ -20,8 +20,8 @@
 
 #include "host/number/functions.h"
 
-/* To nearest, as on a board. Sums and functions to the other side. To nearest, without merging nearly equal numbers. Then all,
- * products and quotients too, up or down by their digits. */
+/* FOLDING_NEAREST rounds to nearest, as on a board. FOLDING_OTHER moves sums and functions to the other side. FOLDING_APART
+ * rounds to nearest, without merging nearly equal numbers. From FOLDING_SOME on, all results move up or down, by their digits. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
 /* Room for residues; further ones are not recognized. */
@@ -41,13 +41,13 @@ int folding_way(void);
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
-/* number_power() and number_call(): sines and cosines no larger than the round-off of their angle are residues. */
+/* As number_power() and number_call(). A sine or cosine no larger than the round-off of its angle is a residue. */
 double folding_power(double base, double exponent);
 double folding_call(function_id function, double x, double y);
-/* Is `left`, the difference of two numbers of this size, zero? It is up to `part` of them, because their decimals leave a
- * last digit or two; larger differences are recorded. In other ways only an exact zero is. */
+/* Does `left`, the difference of two numbers of this size, count as zero? It does up to `part` of their size, because decimals
+ * leave an error in the last digit or two; larger differences are recorded. In other ways only an exact zero counts. */
 bool folding_cancels(double left, double size, double part);
-/* Are two numbers equal, up to such a part? */
+/* Are two numbers equal, up to this part of their size? */
 bool folding_same(double x, double y, double part);
 
 #endif

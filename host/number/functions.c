@@ -101,7 +101,7 @@ double number_slope(function_id function, int which, double x, double y) {
 /* The whole part of a size below ALL_WHOLE. */
 static double whole_part(double size) { return (double)(int64_t)size; }
 
-/* With the sign of x, zeros too. NaN and infinities stay unchanged. */
+/* `size` with the sign of x, also for zeros. */
 static double like(double size, double x) { return wh_signed(size, wh_bits(x) >> 63 != 0); }
 
 double number_floor(double x) {
@@ -202,7 +202,7 @@ double number_centred(double x, double y) {
     if (!(WH_ABS(x) < WH_INFINITY) || !(by > 0.0)) {
         return WH_NAN;
     }
-    /* the rest is below twice y, so the quotient is even so far: a half of y stays, unless y is subtracted once */
+    /* the remainder by 2 y has removed an even multiple of y; a remainder of exactly y/2 then stays */
     double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
     const bool twice = by < 0x1p-1021; /* a half of y may be no number */
     if (twice ? rest + rest > by : rest > 0.5 * by) {

@@ -1,4 +1,4 @@
-/* functions.h: the program's own numerics: the language's functions (functions.h) and a few others. It
+/* functions.h: the program's own numerics: the language's functions and a few others. It
  * depends only on the core, and all of the host may use it.
  *
  * The machine's library is not used, so results have the same bits on every host. Sine, cosine, tangent,
@@ -18,10 +18,10 @@
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
  *
- *   id           FN_id of functions.h. The order enters the hashes of models and the order of expressions.
+ *   id           the name in FN_id. The order of rows enters the hashes of models and the order of expressions.
  *   word         its name in the language and in text, in Octave, and after wh_ in C
  *   arguments    1: x, 2: x and y, in the order in which they are written
- *   dimensions   TAKES_... of functions.h: dimensions of the arguments and the result
+ *   dimensions   the name in TAKES_...: dimensions of the arguments and the result
  *   range        EVERYWHERE: real for all real numbers. SOMEWHERE: NaN elsewhere, where Octave's result is complex.
  *   latex        the text before the parenthesis
  *   value        FUNCTION_CORE(...): a function of core/function.h, in both numbers, on every board.
@@ -81,7 +81,7 @@ typedef enum function_id { FUNCTION_ROWS(FUNCTION_ID) } function_id;
 #undef FUNCTION_ID
 
 #define FUNCTION_ONE(...) +1
-enum { FUNCTIONS = 0 FUNCTION_ROWS(FUNCTION_ONE) }; /* how many there are, from FN_SIN on */
+enum { FUNCTIONS = 0 FUNCTION_ROWS(FUNCTION_ONE) }; /* number of functions */
 #undef FUNCTION_ONE
 
 #define FUNCTION_NONE ((function_id)FUNCTIONS) /* no function */
@@ -105,9 +105,9 @@ bool function_is_real(function_id function); /* real for all real arguments */
 /* The function with that name, in *function; false: unknown. */
 bool function_find(const char *text, size_t length, function_id *function);
 
-/* The function at x, or at (x, y). NaN goes through, by min() and max(), too. */
+/* The function at x, or at (x, y). With a NaN argument the result is NaN, also for min() and max(). */
 double number_call(function_id function, double x, double y);
-/* Its slope by x (which = 0) or y (1) there. min() and max() of two that are equal: one half of each. */
+/* The function's slope by x (which = 0) or y (1). At equal arguments min() and max() have the slope 1/2 by each. */
 double number_slope(function_id function, int which, double x, double y);
 
 double number_sine(double rad);

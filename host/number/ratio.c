@@ -59,7 +59,7 @@ uint128 uint128_right(uint128 a, int bits) {
                      : (uint128){0, a.high >> (bits - 64)};
 }
 
-/* Bit by bit, as on paper. */
+/* Long division, bit by bit. */
 uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
     uint128 left = {0, 0};
     uint128 quotient = {0, 0};
@@ -199,7 +199,7 @@ bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count) {
     return !uint128_below(uint128_left(uint128_of(1), 63), nearest);
 }
 
-/* As ratio_count() of a time that was read or computed in double. */
+/* As ratio_count(), for a time that was read or computed in double. */
 static bool nearest_count(double time_s, whole_ratio step, uint64_t *count) {
     if (time_s < RATIO_LEAST) {
         *count = 0;

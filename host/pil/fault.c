@@ -227,8 +227,8 @@ static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_re
 static const struct {
     fault_kind kind;
     const char *input;
-    bool times;   /* its value is multiplied by the size; else replaced by it, */
-    double value; /* or this, if not 0 */
+    bool times;   /* the input's value is multiplied by the size; else it is replaced */
+    double value; /* the replacing value; 0: the size */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
     {FAULT_CELL_GAIN, "cell_gain", true, 0.0},
@@ -246,7 +246,7 @@ static const struct {
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0] };
 
-/* --- before it begins ----------------------------------------------------------------------------------------*/
+/* --- before a fault begins -----------------------------------------------------------------------------------*/
 
 static int input_of(const image *im, const char *name) {
     for (int i = 0; i < im->inputs; i++) {
@@ -357,7 +357,7 @@ static double due_ticks(const fault_plan *plan, const fault_case *f) {
     return (f->begin_s + f->after_s) * plan->ticks_per_s;
 }
 
-/* After a reset, delayed readings are lost, outputs are 0, and the request for it is done. */
+/* After a reset, delayed readings are lost, outputs are 0, and the request for the reset is finished. */
 static void see_reset(fault_plan *plan) {
     const double then_ticks = plan->plant->reset.last_ticks;
     plan->last = (wh_orders){.outputs = plan->last.outputs};

@@ -139,7 +139,7 @@ typedef struct fault_case {
     double healthy; /* the input's normal value, or a sensor's requested one */
     bool reached;   /* the note has reached its value, */
     bool active;
-    bool happened; /* was active at least once */
+    bool happened; /* the fault was active at least once */
     double begin_s;
     uint64_t draws;
     uint32_t left; /* pulses */
@@ -157,8 +157,8 @@ typedef struct fault_plan {
     /* While it runs: */
     plant *plant;
     double ticks_per_s;
-    wh_orders last;  /* that were not lost */
-    unsigned resets; /* of the plant so far */
+    wh_orders last;  /* the last orders that were not lost */
+    unsigned resets; /* resets of the plant so far */
 } fault_plan;
 
 /* Add the faults in `text`, separated by commas. False, reported. */

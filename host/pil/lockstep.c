@@ -76,7 +76,7 @@ static bool say(talk *t, const wh_frame *frame) {
     case GUEST_ENDED:
     case GUEST_SILENT: break;
     }
-    t->report->end = when_ended(); /* its end has the details */
+    t->report->end = when_ended(); /* the guest's exit status gives the details */
     return false;
 }
 
@@ -90,7 +90,7 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* Ask for its next message: its hello, or the answer to its end. */
+/* Ask the firmware for its next message: its hello, or the answer after its end. */
 static guest_heard ask(talk *t) {
     uint8_t coded[WH_FRAME_BYTES(0)];
     const wh_frame frame = {.kind = WH_FRAME_ASK};
@@ -176,7 +176,7 @@ uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count) {
 
 /* --- beginning and end ------------------------------------------------------------------------------------------*/
 
-/* It ended before its first message. If the image could not be run, the child has reported that. */
+/* Report that the firmware ended before its first message. If the image could not be run, the child has reported that. */
 static void say_no_hello(talk *t) {
     const guest_end_status end = guest_end(&t->guest);
     t->report->end = LOCKSTEP_BAD;
@@ -192,7 +192,7 @@ static void say_no_hello(talk *t) {
     }
 }
 
-/* Into the caller's texts and signals. */
+/* Reads a hello into the caller's texts and signals. */
 static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh_signal *signal,
                              uint8_t *words, unsigned room) {
     if (frame->kind != WH_FRAME_HELLO || frame->length > room) {
@@ -350,7 +350,7 @@ void talk_end(talk *t) {
 
 /* === turns ==================================================================================== */
 
-/* A firmware may catch up on missed periods: so many exchanges at the same time. */
+/* Most exchanges at the same time. A firmware that catches up on missed periods may have several. */
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
@@ -497,7 +497,7 @@ static bool are_numbers(loop *l, const wh_orders *orders) {
     return true;
 }
 
-/* If computing takes no time, only this check ends the loop. */
+/* Does the plant's time advance? If computing takes no time, only this check ends the loop. */
 static bool time_goes_on(loop *l, double before_ticks) {
     l->standing = plant_now(&l->plant) > before_ticks ? 0 : l->standing + 1;
     if (l->standing < STANDING_MOST) {

@@ -106,7 +106,7 @@ static void rename_signal(const char *renames, const char *name, char *other) {
     }
 }
 
-/* The values of its end counts must be in the range of a sample. */
+/* Are the values of the smallest and largest count within the range of a sample? */
 static bool fits_counts(const wh_signal *s) {
     return (double)s->low / (double)s->per_count >= (double)INT32_MIN &&
            (double)s->high / (double)s->per_count <= (double)INT32_MAX;

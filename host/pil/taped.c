@@ -107,7 +107,7 @@ static void taped_close(taped *t) {
     }
 }
 
-/* Signals of the kind: its channels. */
+/* The number of channels of a kind of signal. */
 static unsigned taped_channels(const taped *t, wh_signal_kind kind) {
     unsigned count = 0;
     for (unsigned i = 0; i < t->hello.signals; i++) {
@@ -132,7 +132,7 @@ static bool has_channels(const taped *t, const taped_turn *turn) {
     return good;
 }
 
-/* The frame is a hello: the firmware was restarted. The next one has the reason. */
+/* Takes a hello in the middle of a tape: the firmware was restarted. The next frame has the reason. */
 static bool take_reset(taped *t, wh_frame *frame, taped_turn *turn) {
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
@@ -206,7 +206,7 @@ typedef struct rows {
     uint32_t ticks;
     uint64_t heard;              /* ticks since the plant's time 0 */
     bool cut;                    /* a row has reported the cut */
-    bool told;                   /* outputs and notes have rows, with these values: */
+    bool told;                   /* outputs and notes have rows, with the values in value[] */
     float value[WH_SIGNALS_MAX]; /* by channel, the notes after the outputs */
 } rows;
 

@@ -207,7 +207,7 @@ static bool has_power_before(function_id f) {
     return found;
 }
 
-/* One symbol, which needs no parentheses in LaTeX. */
+/* Is p one symbol? In LaTeX it needs no parentheses. */
 static bool is_symbol(const poly *p) {
     return p != NULL && p->count == 1 && p->terms[0].coefficient == 1.0 &&
            p->terms[0].mono->trig == TRIG_NONE && p->terms[0].mono->count == 1 &&
@@ -254,7 +254,7 @@ void show_grouped(const show *s, const poly *p) {
     show_close(s);
 }
 
-/* A name, a whole number or one call: it takes an exponent without parentheses. */
+/* Is p a name, a whole number or one call? It needs no parentheses before an exponent. */
 static bool is_primary(const poly *p) {
     double value;
     if (poly_is_number(p, &value)) {
@@ -607,7 +607,7 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
-/* Powers of symbols above the fraction bar, which can be split repeatedly. */
+/* Has p only powers of symbols above the fraction bar? Such a sum can be split repeatedly. */
 static bool has_symbols_only(const poly *p) {
     bool only = true;
     for (int i = 0; i < p->count; i++) {

@@ -71,7 +71,7 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
 
 /* --- start ------------------------------------------------------------------------------------------------*/
 
-/* Move the pipes out of the way of any numbers, then to their places. Other descriptors close by themselves. */
+/* Moves the pipes to their numbers DOWN and UP, by way of high numbers that are free. All other descriptors close on exec. */
 static bool place_line(int down, int up) {
     const int high_down = fcntl(down, F_DUPFD_CLOEXEC, ABOVE);
     const int high_up = fcntl(up, F_DUPFD_CLOEXEC, ABOVE);
@@ -80,8 +80,8 @@ static bool place_line(int down, int up) {
            dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
 }
 
-/* A process group of its own: Ctrl-C reaches only this process, which ends the guest in order. The guest does not
- * outlive it. */
+/* Puts the guest into a process group of its own, so that Ctrl-C reaches only Whirl, which then ends the guest. If Whirl
+ * dies, the guest ends, too. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
@@ -91,7 +91,7 @@ static bool tie_to(pid_t parent) {
     return setpgid(0, 0) == 0 && getppid() == parent;
 }
 
-/* Its console is our standard output. */
+/* If wished, silences the guest's console, which is Whirl's standard output. */
 static bool mute(bool wished) {
     const int nowhere = wished ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
     return !wished || (nowhere >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0);
@@ -234,7 +234,7 @@ static void close_line(int *descriptor) {
     }
 }
 
-/* False if it still runs after the patience. */
+/* Waits for the guest's end. False if it still runs after the longest wait. */
 static bool wait_for_end(const guest *g, int *status) {
     const double end_s = system_now_s() + g->wish.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};

@@ -29,8 +29,8 @@ typedef struct answer {
 
 typedef struct worker {
     pid_t pid;
-    int results; /* read end; -1 when it has ended */
-    char *bytes; /* read, not yet taken */
+    int results; /* read end of the worker's pipe; -1 after the worker has ended */
+    char *bytes; /* received, but not yet evaluated */
     size_t length;
     size_t room;
 } worker;
@@ -50,7 +50,7 @@ typedef struct pool {
     slot *slots; /* [window], by point % window */
     uint64_t window;
     uint64_t sent;
-    uint64_t delivered; /* all below this */
+    uint64_t delivered; /* all points below this are delivered */
 } pool;
 
 /* --- in a worker -------------------------------------------------------------------------------*/
