@@ -19,7 +19,7 @@ typedef struct wh_probes {
     wh_real square; /* 1 + 2 r */
     wh_real one;
     wh_real quarter_unit; /* a quarter of one's last place */
-    wh_real half_unit;    /* half of it, plus the least possible */
+    wh_real half_unit;    /* half of one's last place, plus the least possible */
     wh_real least;        /* the smallest normal number */
     wh_real half;
     wh_real two;
@@ -33,23 +33,23 @@ typedef struct wh_probes {
 #define wh_probe WH_NAME(wh_probe)
 extern const wh_probes wh_probe;
 
-/* Results computed from them. */
+/* Results computed from the probes. */
 typedef enum wh_probed {
     WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
-    WH_PROBED_ROUNDING,  /* not one's last place if a sum is rounded otherwise, or twice */
+    WH_PROBED_ROUNDING,  /* differs from one's last place if a sum is rounded otherwise, or twice */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
     WH_PROBED_FIVE, /* three thirds, rounded differently if division is a product with a reciprocal */
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD,   /* the same, with a divisor known to the compiler */
+    WH_PROBED_THIRD,   /* as WH_PROBED_FIVE, with a divisor known to the compiler */
     WH_PROBED_ZERO,    /* has a sign if zeros do not keep theirs */
     WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
     WH_PROBED_LITERAL, /* seventy, unless a tenth used as divisor was cut to float */
     WH_PROBED_COUNT
 } wh_probed;
 
-/* For wh_scene.arithmetic. */
+/* Computes the results; for wh_scene.arithmetic. */
 static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     const volatile wh_probes *probe = &wh_probe;
     const wh_real squared = probe->factor;
@@ -72,8 +72,8 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
-/* The first result of compute() that differs from its reference, or WH_PROBED_COUNT. With wh_arithmetic it checks the
- * file that calls it. */
+/* The first result of compute() that differs from its reference, or WH_PROBED_COUNT. Called with wh_arithmetic, it
+ * checks the file that calls it. */
 #define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
 

@@ -19,7 +19,7 @@
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
 
 #define WH_FLASH
-/* A number of a WH_FLASH table; on AVR in the lowest 64 kB, where linkers put such tables. */
+/* Reads a number of a WH_FLASH table. On an AVR the table must be in the lowest 64 kB, where linkers put such tables. */
 WH_INLINE wh_real wh_flash_real(const wh_real *from) { return *from; }
 
 #elif defined(__clang__)
@@ -61,7 +61,7 @@ WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #endif
 }
 
-/* Section for a list of strings: together with them. */
+/* Section that keeps a list of strings together with the other strings. */
 #if defined(WH_WORDS_FROM)
 #define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
 #else

@@ -22,12 +22,14 @@
 extern "C" {
 #endif
 
-/* Sine and cosine of a phase together; a caller that drops one pays for one. At most 1 in size, and exact at quarter
- * turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make sine-exhaustive` measures it). Double: 1.4e-16
- * for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. docs/dev/numerics.md has the method and its cost. */
+/* Sine and cosine of a phase together; if the caller drops one, the compiler drops its cost. Both are at most 1 in size,
+ * and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make sine-exhaustive` measures
+ * it). Double: 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. docs/dev/numerics.md has the
+ * method and its cost. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* The same as sums of two parts each. A term that is added before the parts are summed is not rounded twice. */
+/* Sine and cosine as sums of two parts each, so that a term can be added before the parts are summed: the sum is rounded
+ * only once. */
 typedef struct wh_sine_parts {
     wh_real sine;
     wh_real cosine;
@@ -46,15 +48,15 @@ typedef struct wh_wave {
  * |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
-/* Set sine and cosine to NaN if rad is NaN or too large for a phase, so that the step is refused as in double. A float
- * phase cannot represent NaN. */
+/* Set sine and cosine to NaN if rad is NaN or too large for a phase, so that the float build refuses the step as the
+ * double build does. A float phase cannot represent NaN. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
-/* Sectors of a turn, as a power of two, and sectors of a quarter turn. */
+/* Sectors of a turn (as a power of two) and of a quarter turn. */
 #define WH_SINE_BITS 7
 #define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
 
-/* Sine of the sectors' middles, for a turn and a quarter: the cosine is WH_SINE_QUARTER entries later. */
+/* Sine of the middle of each sector, for a turn and a quarter: the cosine is WH_SINE_QUARTER entries later. */
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
@@ -73,7 +75,7 @@ WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_les
 #if WH_DOUBLE
 
 WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
-    /* Above it the products below are not exact. NaN fails the comparison, too. */
+    /* Above 5e8 the products below are not exact. NaN fails the comparison, too. */
     const double angle = WH_ABS(phase) <= 5e8 ? phase : __builtin_nan("");
 
     /* Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits of the sum. */
@@ -113,8 +115,8 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const unsigned rest_bits = 32U - WH_SINE_BITS;
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
-    /* The remaining angle, times 2^7. With the sector shifted out its sign is right, and its 25 significant bits
-     * convert exactly. The constants include the scale, 2^39 a turn. */
+    /* The angle from the sector's middle, times 2^7. Shifting the sector number out leaves the right sign and 25
+     * significant bits, which convert exactly. The constants include the scale, 2^39 per turn. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
     /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The numbers are 0x1.921fb6p-37, -0x1.4ab89ep-112 and
@@ -125,16 +127,16 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* wh_angle_from_rad(), inline because a phase needs only its low half: the compiler drops the other. There are 2^32/(2
- * pi) phase units in a radian: 683565276 - 1819212470/2^32 for the whole radians, 1367130551/2^33 * 2^31 for the
- * fraction. Integers are exact; products would round. */
+/* wh_angle_from_rad(). Inline, because a phase needs only the low half: the compiler drops the rest. A radian has
+ * 2^32/(2 pi) phase units: 683565276 - 1819212470/2^32 for the whole radians, 1367130551/2^33 * 2^31 for the fraction.
+ * Integers are exact; products would round. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
     const int32_t whole = (int32_t)in_range;
     const int32_t fraction = (int32_t)((in_range - (float)whole) * 2147483648.0f);
     const int64_t small = whole * -INT64_C(1819212470) + fraction * INT64_C(1367130551);
-    /* gcc and clang define >> of a negative number: it keeps the sign. */
+    /* gcc and clang define >> of a negative number: the sign stays */
     return whole * INT64_C(683565276) + ((small + (INT64_C(1) << 31)) >> 32);
 }
 

@@ -15,15 +15,15 @@ typedef double wh_phase;  /* radians */
 typedef double wh_factor; /* factor of wh_phase_times() */
 #define WH_PHASE_PER_RAD 1.0
 #define WH_PHASE_PER_RAD_REST 0.0
-/* Limit on a step's change of an angle: beyond it, the direction is lost. */
+/* Limit on the change of an angle in one step: beyond it the direction is ambiguous. */
 #define WH_PHASE_STEP_MAX 3.141592653589793
 
 WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
 
 #else
 
-/* 2^32 a turn: turns in the high half, phase in the low half. The count of turns wraps at 2^31 (50 days of half a turn
- * a millisecond, twelve years at 330 rpm); the phase, and so sine and cosine, stay right. */
+/* 2^32 per turn: whole turns in the high half, the phase in the low half. The count of turns wraps at 2^31 (after 50
+ * days of half a turn per millisecond, or twelve years at 330 rpm). The phase stays right, and so do sine and cosine. */
 typedef int64_t wh_angle;
 typedef uint32_t wh_phase; /* 2^32 a turn */
 typedef struct wh_factor { /* whole + part/2^64, modulo 2^32 */
@@ -31,18 +31,18 @@ typedef struct wh_factor { /* whole + part/2^64, modulo 2^32 */
     uint32_t whole;
 } wh_factor;
 #define WH_PHASE_PER_RAD 683565275.576431632f /* 2^32 / (2 pi) */
-#define WH_PHASE_PER_RAD_REST 27.576431632f   /* and its error as a float */
+#define WH_PHASE_PER_RAD_REST 27.576431632f   /* the error of WH_PHASE_PER_RAD as a float */
 #define WH_PHASE_STEP_MAX 2147483520.0f       /* largest float below half a turn */
 
 WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angle; }
 
 #endif
 
-/* For a processor with one instruction that rounds a float to the nearest int32_t, ties to even: result = rounded
- * steps. Those of x86 and of Arm's VFP use the mode that arithmetic.h probes. */
+/* For a processor with an instruction that rounds a float to the nearest int32_t, ties to even: `result` becomes the
+ * rounded steps. The instructions of x86 and Arm's VFP use the rounding mode that arithmetic.h probes. */
 #if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
 #define WH_ROUND(result, steps) \
-    float whole; /* the integer's bits, in the register of the result */ \
+    float whole; /* the integer's bits, because the result is in a float register */ \
     __asm__("vcvtr.s32.f32 %0, %1" : "=t"(whole) : "t"(steps)); \
     __builtin_memcpy(&(result), &whole, sizeof(result))
 #elif defined(__GNUC__) && defined(__SSE2__)
@@ -60,7 +60,7 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_TURN(rad, units) (units)
 #endif
 
-/* A constant factor for generated code: `real` for the double build, the others for the float build. */
+/* A constant factor for generated code: `real` for the double build, `whole` and `part` for the float build. */
 #if WH_DOUBLE
 #define WH_FACTOR(real, whole, part) (real)
 #else
@@ -72,8 +72,8 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 #endif
 
 #if !WH_DOUBLE
-/* The nearest whole number of |steps| < 2^31, ties to even. If steps often end in one half, rounding ties away from
- * zero would drift by a quarter of a unit a step. */
+/* The whole number nearest to `steps`, |steps| < 2^31, ties to even. If steps often end in one half, rounding ties away
+ * from zero would drift by a quarter of a unit per step. */
 WH_INLINE int32_t wh_whole(float steps) {
 #ifdef WH_ROUND
     int32_t result;
@@ -83,7 +83,7 @@ WH_INLINE int32_t wh_whole(float steps) {
     uint32_t bits;
     __builtin_memcpy(&bits, &steps, sizeof bits);
     const uint32_t digits = (bits & 0x7fffffU) | 0x800000U;
-    const int below = 150 - (int)((bits >> 23) & 0xffU); /* digits after the point */
+    const int below = 150 - (int)((bits >> 23) & 0xffU); /* binary digits after the point */
     uint32_t size = 0;
     if (below <= 0) {
         size = digits << -below;
@@ -95,15 +95,15 @@ WH_INLINE int32_t wh_whole(float steps) {
 #endif
 }
 
-/* The same of steps/2, from the whole part of steps: 1, -1 and larger sizes are rounded away from zero. */
+/* The whole number nearest to steps/2, from the whole part of `steps`. Ties are rounded away from zero. */
 WH_INLINE int32_t wh_half_whole(float steps) {
     const int32_t whole = (int32_t)steps;
     return (whole - (~whole >> 31)) >> 1; /* gcc and clang define >> of a negative number */
 }
 #endif
 
-/* *moved = `phase` moved by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the nearest. False,
- * with *moved unchanged, for half a turn or more, or NaN: the step must be refused. */
+/* *moved = `phase` moved by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the nearest unit.
+ * Returns false, with *moved unchanged, for half a turn or more, or NaN: the step must be refused. */
 WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -116,7 +116,7 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     return true;
 }
 
-/* The same by half of `steps`: the middle of a step that moves by `steps`. */
+/* wh_phase_move() by half of `steps`: the middle of a step that moves by `steps`. */
 WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -129,7 +129,7 @@ WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved
     return true;
 }
 
-/* The angle of this phase that is less than half a turn from `angle`: for a stage of a step. */
+/* The angle with this phase that is less than half a turn from `angle`: for a stage of a step. */
 WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
 #if WH_DOUBLE
     (void)angle;

@@ -1,11 +1,11 @@
-/* two_part.h: constants as sums of two reals, for more precision than one has. With compensated sums in float, a step of a
- * millisecond as one real would be too long by 4.7e-8 of itself, in every step. Part of step.h. */
+/* two_part.h: constants as sums of two reals, which are more precise than one real. With compensated sums in float, a
+ * step of a millisecond stored as one real would be too long by 4.7e-8 of itself, in every step. Part of step.h. */
 #ifndef WH_TWO_PART_H
 #define WH_TWO_PART_H
 
 #include "turn.h"
 
-/* high + low, low below half a unit in the last place of high. A length of time, or a constant derived from one. */
+/* high + low, with low below half a unit in the last place of high: a length of time, or a constant derived from it. */
 typedef struct wh_two_part {
     wh_real high;
     wh_real low;
@@ -18,8 +18,8 @@ typedef struct wh_two_part {
 #define WH_TWO_PART(high, low) ((wh_two_part){WH_R(high), WH_R(low)})
 #endif
 
-/* The round-off of a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of Floating-Point Arithmetic,
- * section 4.4). */
+/* The round-off of the product a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of Floating-Point
+ * Arithmetic, section 4.4). */
 WH_INLINE wh_real wh_product_rest(wh_real a, wh_real b) {
     const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);
     const wh_real product = a * b;

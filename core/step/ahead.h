@@ -11,22 +11,22 @@
 #include "../scene.h"
 #include "unroll.h"
 
-/* Constants should be loaded before the loop, as many as fit into registers: up to 5 % of the instructions of a small
- * scene. In a small scene gcse needs more of them than it saves; in a larger one it saves. */
+/* ira-loop-pressure makes gcc load as many constants before the loop as fit into registers: it saves up to 5 % of a small
+ * scene's instructions. In a small scene gcse needs more registers for constants than it saves; in a larger scene it pays. */
 #if defined(WH_AHEAD) && WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* With one coordinate, expressions moved to their use stall the operation that waits for them: up to 4 % of the cycles
- * of a Cortex-M4F. */
+/* With one coordinate, tree-ter moves expressions to the operation that uses them, which then waits: up to 4 % of the
+ * cycles of a Cortex-M4F. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif
 #endif
 
-/* scene->advance() by `steps` > 0, counted in state->steps. Variables are copied to memory that no pointer of the
- * caller refers to. Returns as wh_scene_steps(). */
+/* Does `steps` > 0 calls of scene->advance(), counted in state->steps. The variables are copied to local memory, which
+ * no pointer of the caller refers to, so compilers keep them in registers. Returns as wh_scene_steps() does. */
 WH_INLINE wh_status wh_steps_ahead(const wh_scene *of,
                                    wh_status (*one)(const wh_scene *of, wh_state *state),
                                    unsigned angles, unsigned reals, bool compensated,

@@ -1,6 +1,6 @@
 /* driven.h: inputs with a rate (`input L rate Lv`). Inside a step they move as coordinates without forces. Part of
- * generated scenes that have one. The caller sets value and rate between steps, or the rate alone. A step starts from
- * both and updates both; a refused step leaves the state as it was. */
+ * generated scenes that have such inputs. Between steps the caller sets value and rate, or the rate alone. A step starts
+ * from both and updates both; a refused step leaves the state as it was. */
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 
@@ -19,7 +19,7 @@
 #define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
-/* Inputs, and the indices in state->real[] that they drive. */
+/* The indices of an input and its rate, and the indices in state->real[] that they drive. */
 typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;
@@ -27,14 +27,15 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* What a refused step restores: the components, the levels at the start and, behind them, the corrections. */
+/* The values that a refused step restores: the driven components, the ledger's levels at the start, and the corrections
+ * stored after them. */
 typedef struct wh_driven_kept {
     wh_real real[2 * WH_COORDS];
     wh_real books[2 * WH_ACCOUNTS_MAX];
     bool booked;
 } wh_driven_kept;
 
-/* The state was corrected, and the levels were `before`: the change is stored as a correction. */
+/* Stores the change of the levels since `before` as a correction: the state was corrected, not moved. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
                                      const wh_real *before) {
     wh_real *start = state->ledger + 2U * form->entries;
@@ -50,8 +51,8 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
     }
 }
 
-/* Before a step: copy the inputs to the components. With a ledger (`form`, or NULL), the change of the accounts is a
- * correction, as in wh_scene_set_real(). */
+/* Before a step: copy the inputs to the components. With a ledger (`form` is not NULL), the change of the accounts
+ * counts as a correction, as in wh_scene_set_real(). */
 WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
                                wh_driven_kept *kept, wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -78,7 +79,7 @@ WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_
     }
 }
 
-/* After a completed step: copy the components to the inputs. After a refused one: restore components and ledger.
+/* After a completed step: copy the components to the inputs. After a refused step: restore components and ledger.
  * Returns the step's status. */
 WH_INLINE wh_status wh_driven_end(const wh_driven *drive, unsigned count,
                                   const wh_ledger_form *form, const wh_driven_kept *kept,

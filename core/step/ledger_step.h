@@ -13,15 +13,15 @@
 
 /* The ledger's part of a step in progress. */
 typedef struct wh_ledger_work {
-    wh_real attempt[WH_LEDGER_MAX]; /* of the present try */
-    wh_real step[WH_LEDGER_MAX];    /* of the whole step so far */
+    wh_real attempt[WH_LEDGER_MAX]; /* entries of the present try */
+    wh_real step[WH_LEDGER_MAX];    /* entries of the whole step so far */
     wh_real span;                   /* length of the present try, s; zero: no try */
-    const wh_angle *angle;          /* begin of the try */
+    const wh_angle *angle;          /* angles at the begin of the try */
     unsigned stage;
 } wh_ledger_work;
 
-/* Weight of stage `stage` in the method's quadrature. Compared one by one, so that no table remains if the stage is not
- * constant. */
+/* Weight of stage `stage` in the method's quadrature. The stages are compared one by one, so that no table remains if
+ * the stage is not constant. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
@@ -34,7 +34,7 @@ WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     return rates / by->parts;
 }
 
-/* Begin a try at `angle`, [form->angles], which must not change before the last stage. */
+/* Begin a try at `angle` [form->angles]. The angles must not change before the last stage. */
 WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle, wh_ledger_work *w,
                                wh_real span) {
     for (unsigned i = 0; i < form->entries; i++) {
@@ -45,7 +45,7 @@ WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle
     w->stage = 0;
 }
 
-/* The try becomes part of the run: its entries count. */
+/* The try becomes part of the run: add its entries to the step's. */
 WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] += w->attempt[i];
@@ -76,7 +76,7 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Before a step: the entries of inputs that changed since the last step, one after another. */
+/* Before a step: enter the effects of the inputs that changed since the last step, one input after another. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);
@@ -100,7 +100,7 @@ static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *st
     }
 }
 
-/* Before a step: the accounts' levels at the start of the run. */
+/* Before a step: in the first step, store the accounts' levels at the start of the run. */
 WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] = WH_R(0.0);
@@ -113,7 +113,7 @@ WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_le
     }
 }
 
-/* After a step: its entries join the totals. If the scene asks for it, the step gives back the energy drift. */
+/* After a step: add its entries to the totals. If the scene asks for stabilization, give back part of the energy drift. */
 WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work *w,
                                 wh_state *state) {
     wh_real *total = state->ledger;
@@ -138,7 +138,7 @@ typedef struct wh_ledger_model {
     wh_ledger_work *work;
 } wh_ledger_model;
 
-/* The accelerations, with a stage of the ledger. A wh_accel_fn. */
+/* The accelerations; also enters the stage in the ledger. A wh_accel_fn. */
 WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_real *linear,
                                const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_ledger_model *m = of;
@@ -146,7 +146,7 @@ WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_r
     (void)wh_ledger_stage(m->form, m->method, phase, linear, rate, input, m->work);
 }
 
-/* wh_step_second() with books. */
+/* wh_step_second() with a ledger. */
 WH_INLINE wh_status wh_step_ledger(const wh_ledger_form *form, const void *model,
                                    wh_accel_fn *accel, wh_method method, bool compensated,
                                    wh_two_part h, wh_state *state) {

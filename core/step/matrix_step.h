@@ -16,8 +16,8 @@
 #include "ahead.h"
 #include "step_end.h"
 
-/* As wh_all_believable(). Without floating-point hardware, it compares sizes by their bits: on an ATmega328P a tenth of
- * the cost of three sums and a comparison. */
+/* As wh_all_believable(). Without floating-point hardware it compares magnitudes by their bits: on an ATmega328P that
+ * takes a tenth of the time of three sums and a comparison. */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
     /* the upper byte of 2^39: smaller numbers cannot sum up to WH_ABSURD */
@@ -39,7 +39,7 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Accept the list's results for a scene without turn angles and low parts, or refuse the step. */
+/* Accept the list's results, or refuse the step, for a scene without turn angles and low parts. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -51,9 +51,9 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
     return WH_OK;
 }
 
-/* value + increment + *carry; *carry becomes the round-off of both sums. Most of *carry is whole units of the
- * increment's last place. The constants' rounding adds less than half of one, which wh_sum() would lose in every step:
- * 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8. */
+/* Returns value + increment + *carry; *carry becomes the round-off of both sums. Most of *carry is whole units of the
+ * increment's last place. The error of the rounded constants adds less than half a unit, which wh_sum() would lose in
+ * every step: 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;

@@ -9,7 +9,7 @@
 
 #include "../state.h"
 
-/* Limit on linear positions and rates: the step is refused beyond it. */
+/* Limit on linear positions and rates: a step that exceeds it is refused. */
 #define WH_ABSURD WH_R(1e15)
 
 /* True for finite numbers within the limit; false for NaN. */
@@ -21,8 +21,8 @@ WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     return WH_E_DIVERGED;
 }
 
-/* wh_refuse_first() of step_end.h as a call, for 2 to 4, and 5 to 8, numbers in registers; the last number fills unused
- * places. So scene.c has the comparisons once, instead of each step. */
+/* wh_refuse_first() of step_end.h as functions with the numbers in registers: four for n = 2 to 4, eight for n = 5 to 8.
+ * The caller fills unused arguments with the last number. scene.c has their code once, so no step repeats it. */
 #define wh_refuse_four WH_NAME(wh_refuse_four)
 #define wh_refuse_eight WH_NAME(wh_refuse_eight)
 wh_status wh_refuse_four(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,

@@ -34,10 +34,10 @@
 #define WH_STABILIZE_SHARE WH_R(0.0009765625)
 #define WH_STABILIZE_MOST WH_R(9.5367431640625e-7)
 
-/* After a step and its entries. `level` [form->accounts] is working space. */
+/* Called after a step whose entries are complete. `level` [form->accounts] is working space. */
 WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real *level) {
     wh_real *most = wh_ledger_most(form, state);
-    if (state->steps == 0) { /* the books begin */
+    if (state->steps == 0) { /* the first step starts the ledger */
         *most = WH_R(0.0);
         return;
     }

@@ -20,8 +20,8 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* All stages but the first: stage(s); for each. Unrolled by hand if the compiler has no pragma for it: otherwise the
- * program would look up and multiply shares as it runs. */
+/* Calls stage(s); for all stages except the first. If the compiler has no pragma for it, the loop is unrolled by hand:
+ * otherwise the program would look up and multiply shares at run time. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
@@ -51,7 +51,6 @@ _Static_assert(WH_STAGES_MAX <= 6, "a stage each below");
     } while (false)
 #endif
 
-/* to[n] from from[n]. */
 WH_INLINE void wh_copy(const wh_real *from, unsigned n, wh_real *to) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -59,7 +58,7 @@ WH_INLINE void wh_copy(const wh_real *from, unsigned n, wh_real *to) {
     }
 }
 
-/* The stages' results: the first's, and the others'. */
+/* The results of the stages: of the first one, and of the later ones. */
 typedef struct wh_given {
     const wh_real *first;
     wh_real (*next)[WH_COORDS];
@@ -80,18 +79,19 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     return sum;
 }
 
-/* Does the row give its stages' positions apart from their rates? */
+/* Does the method give the positions of its stages separately from the rates? */
 WH_INLINE bool wh_stage_reaches(const wh_tableau *by) { return by->places != NULL; }
 
-/* Is its first stage away from the begin? */
+/* Is the method's first stage away from the step's begin? */
 WH_INLINE bool wh_begins_away(const wh_tableau *by) {
     return by->places != NULL && by->places->node[0] != WH_R(0.0);
 }
 
-/* Are all its stages at the begin? */
+/* Are all stages of the method at the step's begin? */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* Distance of component i, of rate `rate`, from the begin at such a stage. */
+/* Distance of component i from the step's begin at a stage that is away from it. `rate` is the component's rate at the
+ * begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -99,14 +99,14 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
-/* Have a stage and the one before it equal weights at the step's end? Such stages are added first: a sum instead of two
- * products, which may serve positions and rates. Without positions, the rates decide. */
+/* Do a stage and the one before it have equal weights at the step's end? Such stages are added first: one sum replaces
+ * two products and may serve positions and rates. Without positions, the weights of the rates decide. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
     return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }
 
-/* Store result `now` of stage `stage` in given[], and in the sums of stages with equal weights. */
+/* Store the result `now` of stage `stage` in given[] and in the sums of stages with equal weights. */
 WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_positions, unsigned n,
                               const wh_real *first, const wh_real *now, wh_real (*given)[WH_COORDS],
                               wh_real (*alike)[WH_COORDS]) {
@@ -119,7 +119,7 @@ WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_pos
     }
 }
 
-/* sum += share * more; the first one sets the sum. */
+/* *sum += share * more; the first call sets the sum. */
 WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
     if (share != WH_R(0.0)) {
         *sum = *any ? *sum + share * more : share * more;

@@ -32,8 +32,8 @@
 #include "../number/sincos_small.h"
 #include "../step.h"
 
-/* gcc would compute the operands of some branches before the branch: 1 % more instructions on a Cortex-M4F, and up to 3
- * % more cycles. In double, on a PC, this saves instructions. */
+/* Without this, gcc would compute the operands of some branches before the branch: 1 % more instructions on a
+ * Cortex-M4F, and up to 3 % more cycles. In double, on a PC, it would save instructions. */
 #if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
 #pragma GCC optimize("no-tree-pre")
 #endif
@@ -52,23 +52,25 @@
 #endif
 #endif
 
-/* Checking before the first accelerations leaves few registers to save over the call that the check may lead to. But
- * the turning's variables must then survive the accelerations, and the 16 registers of a PC are too few for that: 3 %
- * more instructions. */
+/* Where to check the size of the rotation. A check before the first accelerations leaves few registers to save over the
+ * call that may follow. But then the rotation's variables must survive the accelerations, and the 16 registers of a PC
+ * are too few for that: 3 % more instructions. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
-/* As wh_accel_fn and wh_slope_fn, with the waves' pairs instead of the angles' phases. */
+/* As wh_accel_fn and wh_slope_fn, with the sine-cosine pairs of the waves instead of the angles' phases. */
 typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
                                 const wh_real *rate, const wh_real *input, wh_real *accel);
 typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
                                 const wh_real *input, wh_real *slope);
 
-/* The waves: angles whose sine and cosine a list takes. Each is a turn angle, or a sum of whole multiples of some. */
+/* The waves: the angles whose sine and cosine a list takes. A wave is a turn angle, or a sum of whole multiples of turn
+ * angles. */
 typedef struct wh_waves {
     const void *model;
-    /* parts[count] at the angles' phases */
+    /* sine and cosine of the waves, parts[count], at these phases of the angles */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* the waves' rates times `scale`, result[count], from the angles' rates; or of other linear quantities */
+    /* the waves' rates times `scale`, result[count], from the angles' rates; or another quantity that is linear in the
+     * angles */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
@@ -79,16 +81,17 @@ WH_INLINE bool wh_method_turns(wh_method method) {
     return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
 }
 
-/* A step's pairs in progress. */
+/* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    wh_sine_parts parts[WH_WAVES]; /* and their increments, if turning is precise */
-    wh_wave at[WH_WAVES];          /* by the rates at the begin alone */
-    wh_wave way[WH_WAVES];         /* increment of the next rotation, or of the last */
+    wh_sine_parts parts[WH_WAVES]; /* pairs at the begin, and their increments if turning is
+                                    * precise */
+    wh_wave at[WH_WAVES];          /* pairs rotated by the rates at the begin alone */
+    wh_wave way[WH_WAVES];         /* increment of the next rotation, or of the last one */
     wh_real bend[WH_WAVES];        /* 2 (cos d - 1) */
-    unsigned turns;                /* done */
+    unsigned turns;                /* number of rotations done */
 } wh_turning;
 
-/* Look up at the step's begin. */
+/* Look up the pairs at the step's begin. */
 WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
                                   wh_phase *told, wh_turning *t) {
     wh_phase phase[WH_COORDS];
@@ -108,8 +111,8 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* turn[n] by d[n], which are not small together. Several rotations need a stack frame anyway, and at the begin a call
- * spills few registers. */
+/* The rotations turn[n] by the angles d[n], which are not small together. It is a function call: several rotations need
+ * a stack frame anyway, and at the begin a call spills few registers. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -118,7 +121,7 @@ WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     }
 }
 
-/* The first rotation's increments, for these rates of the angles: turn[waves->count]. */
+/* The first rotation's increments at these rates of the angles: turn[waves->count]. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES];
@@ -143,7 +146,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     }
 }
 
-/* Begin to turn by them from the pairs in turning->at. */
+/* Begin to rotate by turn[], from the pairs in turning->at. */
 WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise,
                                 wh_turning *t) {
     WH_UNROLL
@@ -156,7 +159,8 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Rotate further, to this total. Precise: increments are summed separately, so that each pair is rounded once. */
+/* Rotate on until `turns` rotations are done. If `precise`, increments are summed separately, so that each pair is
+ * rounded only once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES; k++) {
@@ -195,8 +199,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* The angles' leans at a stage, times h / parts, from the gains of their rates by earlier stages, gained[j][angle] by
- * stage j + 1. False if the stage does not lean. */
+/* The leans of the angles at a stage, times parts / h. gained[j][angle] is the change of the angle's rate at stage j + 1
+ * since the begin. Returns false if the stage does not lean. */
 WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                 unsigned angles, wh_real *lean) {
     bool leans = false;
@@ -215,7 +219,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
     return leans;
 }
 
-/* The pair with this lean. */
+/* The pair `at`, leaning by a small angle. */
 WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
@@ -230,7 +234,7 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
     return leant;
 }
 
-/* The pair rotated by any lean. */
+/* The pair `at`, rotated by a lean of any size. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_wave turn =
         WH_ABS(lean) <= WH_SINCOS_SMALL ? wh_sincos_small(lean) : wh_sincos_far(lean, true);
@@ -247,7 +251,7 @@ WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, boo
     return leant;
 }
 
-/* pair[] at stage `stage`, gained[] as above. `far`: leans may be large. */
+/* The pairs at stage `stage`; gained[] as for wh_turning_leans(). `far`: leans may be large. */
 WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], bool far, wh_turning *t,
                                 wh_wave *pair) {
@@ -268,7 +272,7 @@ WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* The same for a row that gives its stages' positions. */
+/* wh_turning_stage() for a method that gives the positions of its stages. */
 WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_given accels, wh_turning *t, wh_wave *pair) {
     const wh_shares *of = &to->by->places->reach[stage];
@@ -287,7 +291,7 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* The angles' phases at a stage, for the ledger: as wh_stage_angle(). */
+/* The phases of the angles at a stage, for the ledger: as wh_stage_angle() gives them. */
 WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_real *rate,
                                wh_given rates, wh_given accels, wh_phase *told) {
     const wh_shares *of = &to->by->stage[stage];
@@ -303,7 +307,8 @@ WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_r
     }
 }
 
-/* Arguments and results of a list. A struct of its own: all other variables stay in registers if the list is called. */
+/* Arguments and results of a list of operations. They are a struct of their own, so that all other variables stay in
+ * registers if the list is called. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
     wh_real at[WH_COORDS];    /* linear positions, or reals, */
@@ -311,7 +316,7 @@ typedef struct wh_turned_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;
 
-/* The pairs at a step's begin. */
+/* Takes the pairs at a step's begin. */
 WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
@@ -326,7 +331,8 @@ typedef struct wh_turned_second {
     const wh_real *input;
     wh_turning t;
     wh_real a1[WH_COORDS];                /* accelerations of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* gains of the rates by all later stages */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* change of the rates at the later stages since the
+                                           * begin */
     wh_real rates[WH_STAGES][WH_COORDS];
     wh_real accels[WH_STAGES][WH_COORDS];
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
@@ -371,7 +377,8 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* A step of to->h = h.high. `told` [to->angles] gets the angles' phases before each call of accel(), or is NULL. */
+/* A step of to->h = h.high. Before each call of accel(), told[to->angles] gets the phases of the angles, unless `told`
+ * is NULL. */
 WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *accel,
                                         const wh_waves *waves, const wh_stepping *to, wh_two_part h,
                                         wh_phase *told, wh_state *state) {
@@ -403,7 +410,7 @@ WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *a
     return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);
 }
 
-/* As wh_step_second(), turning. The method must turn. */
+/* As wh_step_second(), with rotated sines, for a method that has .turns. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_method method, bool compensated,
                                    unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -415,7 +422,8 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
 typedef struct wh_turned_first {
     wh_turning t;
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* of later stages less the first's, for angles */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* for angles: derivatives of later stages minus the
+                                           * first stage's */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_turned_first;
@@ -446,7 +454,7 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
     }
 }
 
-/* As wh_step_first(), turning. The method must turn. Returns as wh_turn_second(). */
+/* As wh_step_first(), with rotated sines, for a method that has .turns. Returns as wh_turn_second() does. */
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_two_part h, wh_state *state) {

@@ -13,9 +13,9 @@
 #include "refuse.h"
 #include "stage_sums.h"
 
-/* Move *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to the nearest: truncation would
- * slow every angle down by half a unit a step. Compensated: *carry is added and becomes the round-off. It is added
- * separately, because a large step would absorb it. */
+/* Move *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size. The move is rounded to the nearest:
+ * truncation would slow every angle down by half a unit per step. If compensated, *carry is added and becomes the
+ * round-off. *carry is added separately, because a large step would absorb it. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -25,20 +25,20 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
         const float left = (steps - (float)whole) + *carry;
         const int32_t more = wh_whole(left);
         *carry = left - (float)more;
-        whole += more; /* no overflow: large `steps` are whole */
+        whole += more; /* no overflow: if `steps` is large, it is whole and `more` is 0 */
     }
     /* turns beyond 2^31 wrap as the phase does, without undefined behaviour */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
 #endif
 }
 
-/* A definition of this macro receives the round-off of the step of turn angle i, h long, in units: the interpreter
- * (host/engine/loss.inc) defines it. Elsewhere it costs nothing. */
+/* This macro receives the round-off of turn angle i in a step of length h, in phase units. The interpreter defines it
+ * (host/engine/loss.inc). Elsewhere it is empty. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* Are value[n] within a mechanism's limit? One check for all: the sum of their sizes is not below any of them. */
+/* Are all value[n] within WH_ABSURD? One check for all: the sum of their magnitudes is at least as large as each of them. */
 WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -48,8 +48,8 @@ WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     return n == 0 || all < WH_ABSURD;
 }
 
-/* Refuse the step because value[n], the components from `first` on, are not all believable. The fault is the first one
- * that exceeds the limit by itself, otherwise the last. */
+/* Refuse the step because value[n], the components from `first` on, are not all believable. The fault is the first
+ * component that exceeds the limit by itself, otherwise the last one. */
 WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     WH_UNROLL
@@ -61,7 +61,7 @@ WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned f
     return wh_refuse(state, first + n - 1);
 }
 
-/* wh_refuse_first(), with the least flash. */
+/* wh_refuse_first() in the form that takes the least flash. */
 WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     if (WH_REALS_IN_REGISTERS && n > 1 && n <= 4) {
@@ -84,7 +84,7 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
         } \
     } while (false)
 
-/* A step's results until the whole step is known to be sound. */
+/* The results of a step, until it is known that none is out of bounds. */
 typedef struct wh_trial {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
@@ -137,9 +137,9 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
     }
 }
 
-/* trial->angle[] of this step, h long: the state's angles, each moved by move[] times rad_a_move. Compensated:
- * trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a turn or more, or
- * by NaN; or `angles`. That is rare, so one check of the sum of sizes comes first. */
+/* Computes trial->angle[] of a step of length h: the state's angles, each moved by move[] times rad_a_move. If
+ * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a turn
+ * or more, or by NaN; or `angles`. Such moves are rare, so one check of the sum of sizes comes first. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -173,10 +173,10 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
     return angles;
 }
 
-/* value + by factor, as wh_sum(); product is by.high factor, `h` the step. The part by.low adds less than half a unit
- * in the product's last place: a sum with the product would lose it in every step. So the round-off follows from the
- * product alone, and the carry, which is small, takes the part of low. Not if the step has no low, as the steps
- * of contacts: their carry must stay zero if nothing moves. */
+/* Returns value + by * factor, as wh_sum() does. `product` is by.high * factor, `h` the step. The part by.low * factor
+ * is less than half a unit in the product's last place: a sum with the product would lose it in every step. So the
+ * round-off is computed from the product alone, and the carry, which is small, takes the part of by.low. A step without
+ * a low part (as in scenes with contacts) skips this: its carry must stay zero if nothing moves. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -192,20 +192,20 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* The error of h^2 over the row's parts, in s^2, from two roundings and the stages. A sum of accelerations that moves
- * positions is multiplied by it once more. Stages use h.high, because rounding would lose its low there. So they fall
- * short by a part e of their distance. This changes the rates as if h/2 e times the forces' change were missing. The
- * energy changes by as much in every step, always with the same sign: 5e-13 of a pendulum's in a millisecond. If the
- * positions also lack the part e of h^2/2 times the accelerations, both errors are the derivative of a small quantity.
- * The energy then stays constant if the mass matrix is constant, and most of the error vanishes if it is not
- * (docs/dev/numerics.md). A row with one stage, at the step's begin, has no such stages. */
+/* The error of h^2 divided by the row's parts, in s^2, from two roundings and the stages. It multiplies the sum of
+ * accelerations that moves positions. Stages use h.high, because rounding would lose h.low there. So they fall short by
+ * a share e of their distance. This changes the rates as if h/2 e times the forces' change were missing. The energy
+ * changes by as much in every step, always with the same sign: 5e-13 of a pendulum's energy in a step of a millisecond.
+ * If the positions also lack the share e of h^2/2 times the accelerations, both errors together are the derivative of a
+ * small quantity. The energy then stays constant if the mass matrix is constant, and otherwise most of the error
+ * vanishes (docs/dev/numerics.md). A method with one stage, at the step's begin, has no such stages. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* The same for angles, in phase units times s^2. Stages that turn sines (stage_turn.h) use h.high alone. Others use its
- * product with WH_PHASE_PER_RAD, rounded, or multiply by one after the other. */
+/* wh_square_short() for angles, in phase units times s^2. Stages that rotate sines (stage_turn.h) use h.high alone.
+ * Others use the rounded product of h.high and WH_PHASE_PER_RAD, or multiply by both in turn. */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -217,11 +217,11 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
         return WH_PHASE_PER_RAD * wh_square_short(by, h, part) +
                h.high * part.high * WH_PHASE_PER_RAD_REST;
     }
-    return phases.high * part.low + part.high * phases.low; /* wh_stage_angle() */
+    return phases.high * part.low + part.high * phases.low; /* as wh_stage_angle() rounds */
 }
 
-/* Add the positions' error of this step to their carries; pulled[] are the sums of accelerations that move them. Not if
- * the step has no low, as in wh_sum_product(); but a turn has one. */
+/* Add this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
+ * positions. A step without a low part skips this, as in wh_sum_product(), except for angles. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {
@@ -235,8 +235,8 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
     }
 }
 
-/* The end of a step of q'' = f: the stages' results, a1 and the sums of stages with equal weights, move the state.
- * `turned`: they turned sines. Returns as wh_step_second(). */
+/* The end of a step of q'' = f: a1 (the result of the first stage), the results of the later stages and the sums of
+ * stages with equal weights move the state. `turned`: the stages rotated sines. Returns as wh_step_second() does. */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
                                   unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -244,9 +244,9 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     const unsigned linears = n - angles;
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
-    wh_real move[WH_COORDS];   /* mean rate that moves the position over this step */
-    wh_real gain[WH_COORDS];   /* sum of the accelerations over its parts */
-    wh_real kick[WH_COORDS];   /* change of the rate over this step */
+    wh_real move[WH_COORDS];   /* mean rate that moves the position in this step */
+    wh_real gain[WH_COORDS];   /* sum of the accelerations, divided by its parts */
+    wh_real kick[WH_COORDS];   /* change of the rate in this step */
     wh_real pulled[WH_COORDS]; /* sum of the accelerations that moves the position */
     wh_trial trial;
 
@@ -291,7 +291,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     return wh_accept(&trial, angles, linears + n, compensated, state);
 }
 
-/* The same for a step of x' = f. */
+/* As wh_second_end(), for a step of x' = f. */
 WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
                                  unsigned reals, wh_two_part h, wh_state *state) {

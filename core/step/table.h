@@ -23,7 +23,7 @@
 
 #include <stddef.h>
 
-/* Cells a turn are powers of two: bits from WH_TABLE_BITS_LEAST to WH_TABLE_BITS_MOST. */
+/* Binary logarithm of the number of cells per turn: least and largest. */
 #define WH_TABLE_BITS_LEAST 3U
 #define WH_TABLE_BITS_MOST 16U
 
@@ -45,11 +45,11 @@
 #error "core/step/table.h: WH_TABLE_FOLD is for float"
 #endif
 
-/* Cells of such tables. */
+/* Number of cells of a table that is even or odd. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
-/* The coefficient of y, y^2 and y^3 in a table. Float stores y as 2^32 times a cell, with all digits of the phase; the
- * table's coefficients contain the scale at no cost. */
+/* Coefficients of y, y^2 and y^3 in a table. In float, y is 2^32 times its value in cells, so that it has all digits of
+ * the phase. The table's coefficients contain the scale at no cost. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -60,14 +60,14 @@
 #define WH_TABLE_D(x) ((x)*0x1p-96f)
 #endif
 
-/* The cell of `phase`, of 2^bits cells: cells[number * width]; *y is the distance from its middle. Float: any phase.
- * Double: |phase| <= 5e8 rad; beyond it, or for NaN, *y is NaN. */
+/* Returns the cell of `phase` among 2^bits cells: cells[number * width]. *y gets the distance from the cell's middle.
+ * Float: any phase. Double: |phase| <= 5e8 rad; for larger phases and NaN, *y is NaN. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y);
 
 #if WH_DOUBLE
 
-/* x to the nearest whole number, |x| < 2^51, and its low 32 bits. */
+/* Returns x rounded to the nearest whole number, |x| < 2^51, and its low 32 bits in *low. */
 WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     const double sum = x + 6755399441055744.0; /* 1.5 * 2^52 */
     uint64_t of_sum;
@@ -76,13 +76,13 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     return sum - 6755399441055744.0;
 }
 
-/* As wh_sincos_parts() finds its sector: up to 128 cells a turn with pi/64 in three parts, whose products are exact.
- * More cells are parts of those. */
+/* The method is that of wh_sincos_parts(): with up to 128 cells per turn, pi/64 has three parts whose products are
+ * exact. More cells are parts of those. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;
     const unsigned finer = bits - coarse;
-    const double size = (double)(1U << (7U - coarse)); /* of a coarse cell, in pi/64 */
+    const double size = (double)(1U << (7U - coarse)); /* size of a coarse cell, in pi/64 */
     const double angle = WH_ABS(phase) <= 5e8 ? phase : __builtin_nan("");
     uint32_t number;
     uint32_t part;
@@ -102,19 +102,19 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
                                        wh_phase phase, wh_real *y) {
     const unsigned rest_bits = 32U - bits;
     const uint32_t number = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
-    /* With the cell shifted out, the sign of the distance from its middle is right. */
+    /* Shifting the cell number out leaves the distance from the cell's middle, with the right sign. */
     *y = (float)(int32_t)(phase << bits);
     return cells + (size_t)number * width;
 }
 
 #endif
 
-/* The same for tables that are even or odd. *back: the phase was beyond half a turn and was mirrored, and the value of
- * an odd function needs wh_table_back(). */
+/* wh_table_cell() for tables that are even or odd. *back: the phase was beyond half a turn and was mirrored; the value
+ * of an odd function then needs wh_table_back(). */
 WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y, bool *back) {
 #if WH_TABLE_FOLD
-    /* One's complement, not minus: a phase between two cells is in the same one as without folding. */
+    /* One's complement, not minus: a phase on the border of two cells then falls into the same cell as without folding. */
     const bool beyond = (int32_t)phase < 0;
     const wh_real *row = wh_table_cell(cells, bits, width, beyond ? ~phase : phase, y);
     const wh_real way = (wh_real)(int32_t)(phase << bits);
@@ -127,7 +127,7 @@ WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsi
 #endif
 }
 
-/* -value; but zero stays zero, as in the tables, which have no negative zero. */
+/* Returns -value if `back`. Zero stays positive zero, because the tables have no negative zero. */
 WH_INLINE wh_real wh_table_back(wh_real value, bool back) {
 #if WH_TABLE_FOLD
     uint32_t bits;
@@ -140,7 +140,7 @@ WH_INLINE wh_real wh_table_back(wh_real value, bool back) {
     return value;
 }
 
-/* The function whose numbers begin at `of`, y from the cell's middle. */
+/* The value of the function whose coefficients begin at `of`, at the distance y from the cell's middle. */
 WH_INLINE wh_real wh_table_linear(const wh_real *of, wh_real y) {
     return wh_flash_real(&of[0]) + y * wh_flash_real(&of[1]);
 }
