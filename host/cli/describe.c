@@ -27,7 +27,7 @@ static const command_usage accel_usage = {
         "\n"
         "Coordinates, rates, inputs and parameters may be set, each once. A value is SI, or has a unit:\n"
         "\"theta'=330 [rpm]\". A bare number is refused if the declared unit is not SI. Without a value, a\n"
-        "state is 0, and an input or parameter has its declared value. A scene brings its effects and their\n"
+        "state is 0, and an input or parameter has its declared value. A scene includes its effects and their\n"
         "parameters.\n",
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
