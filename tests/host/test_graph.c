@@ -27,7 +27,7 @@ static void draw(void) {
     drawn_graph_nodes(&drawn, g_graph, made_graph);
 }
 
-/* A node's value at x, with variables from `first` on zero. */
+/* A node's value at x, where variables from number `first` on are zero. */
 static long double worth(int which, int first) {
     static long double value[NODES_MOST];
     long double at[DRAWN_VARIABLES];
@@ -127,7 +127,7 @@ TEST(graph, without) {
     TEST_ASSERT_TRUE(reached > 100);
 }
 
-/* Repetition makes no node; all are found again, in any number. */
+/* An expression that repeats earlier ones makes no node: each earlier node is found again, however many there are. */
 TEST(graph, one_node) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         int again[DRAWN_STEPS];
@@ -160,7 +160,7 @@ TEST(graph, one_node) {
         TEST_ASSERT_EQUAL_INT(whole[i], graph_whole(g_graph, i - 1000));
     }
     TEST_ASSERT_EQUAL_INT(2000, g_graph->count);
-    /* ends that differ in one place only are two nodes */
+    /* numbers with enclosures that differ in one end are two nodes */
     const int wide = graph_number(g_graph, (enclosure){1.0, 2.0});
     TEST_ASSERT_TRUE(wide != graph_number(g_graph, (enclosure){1.0, 3.0}) &&
                      wide != graph_number(g_graph, (enclosure){0.5, 2.0}) &&
@@ -250,8 +250,8 @@ TEST(graph, simple) {
     }
 }
 
-/* Integer exponents up to 64 become products, by repeated halving; others do not, nor does an exponent that may not be
- * an integer. */
+/* Integer exponents up to 64 become products, by repeated halving. Other exponents stay powers, and so does one whose
+ * enclosure contains more than an integer. */
 TEST(graph, whole_powers) {
     for (int exponent = -70; exponent <= 70; exponent++) {
         g_graph = graph_new();
@@ -417,7 +417,7 @@ typedef struct reading {
 
 static reading r;
 
-/* Of states a (second order) and b (first order): a, a', b; then the highest, a'' and b'. */
+/* States are a (second order) and b (first order): a, a', b. The highest derivatives a'' and b' follow. */
 static void open_text(const char *text) {
     r = (reading){.errors = diags_new()};
     r.model = model_parse("x.whirl", text, strlen(text), r.errors);
@@ -490,7 +490,7 @@ static const char *name_of(int i, char name[24]) {
 
 enum { FORMULAS = 21 };
 
-/* Formula `which` of u and v, and its value. Only numbers may be arguments of functions with corners. */
+/* Formula `which` of u and v, and its value. Functions with corners get only numbers as arguments. */
 static long double write_formula(int which, const char *u, const char *v, long double x,
                                  long double y, char *text) {
     const char *form = NULL;
@@ -596,7 +596,7 @@ TEST(reader, worth_reader) {
     TEST_ASSERT_TRUE(numbers > 50);
 }
 
-/* Nodes of the derivatives are the given variables. */
+/* The derivatives' nodes are the given variables. */
 TEST(reader, variables) {
     static const char *const words[] = {"a", "a'", "b", "a''", "b'"};
     for (int i = 0; i < MOVING; i++) {
@@ -657,7 +657,7 @@ TEST(reader, corners) {
 
 /* --- refusals ------------------------------------------------------------------------------------------------- */
 
-/* Reported once: the function's name, in line 6 at this column. */
+/* The function must be reported once: by name, in line 6 at this column. */
 static void expect_refused(const char *formula, const char *name) {
     char text[500];
     char wanted[200];
@@ -693,7 +693,8 @@ TEST(reader, refused) {
             char formula[200];
             snprintf(formula, sizeof formula, inside[k], refused[i][0]);
             const bool is_other = strstr(formula, refused[i][1]) != strstr(formula, refused[i][0]);
-            if (!is_other) { /* otherwise the place belongs to another of the same name */
+            if (!is_other) {
+                /* otherwise the place could be that of another function of the same name */
                 expect_refused(formula, refused[i][1]);
             }
         }
@@ -747,7 +748,7 @@ static void draw_taylor(drawn_motion *m) {
                            .nodes = m->graph->count};
 }
 
-/* All steps' series along the motion from there, with a tiny imaginary part of state `moved`, if any. */
+/* The series of all steps along the motion from this state, with a tiny imaginary part of state `moved`, if any. */
 static void along(const double *from, int moved, int order, series *of) {
     series at[DRAWN_VARIABLES] = {{{0.0L}}};
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
@@ -767,7 +768,7 @@ static void expect_held(const char *what, enclosure a, long double wanted, long 
         (long double)a.low <= wanted + slack && wanted - slack <= (long double)a.high, what);
 }
 
-/* Size of a step's coefficient k and the earlier ones. */
+/* Largest size of a step's coefficients up to k. */
 static long double size_of(const series *s, int k) {
     long double size = 1.0L;
     for (int i = 0; i <= k; i++) {
@@ -916,7 +917,7 @@ TEST(taylor, closed_forms) {
     graph_free(c.graph);
 }
 
-/* A non-number is reported, even if it is unused. */
+/* A non-number is reported, even if nothing uses it. */
 TEST(taylor, no_number) {
     closed c = {.graph = graph_new()};
     (void)graph_variable(c.graph, 0);
@@ -931,7 +932,7 @@ TEST(taylor, no_number) {
     graph_free(c.graph);
 }
 
-/* The cost grows with the square of the order and with the slopes: the counted products of a node. */
+/* The cost of a node grows with the square of the order and with the number of slopes. Here its products are counted. */
 TEST(taylor, products) {
     closed c = {.graph = graph_new()};
     const int a = graph_variable(c.graph, 0);

@@ -22,7 +22,7 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
 #define P0 15.0
 #define LIFTS_N 10.0 /* half the beam's weight; both blocks' static friction */
 
-/* Motion since the moment at which P0 sin(rate t) is LIFTS_N, under `factor` times the force minus `against`. */
+/* Motion since the moment at which P0 sin(rate t) is LIFTS_N. The force has the factor `factor`, less the constant `against`. */
 static double moved_m(double rate, double t, double factor, double against) {
     const double t0 = asin(LIFTS_N / P0) / rate;
     const double s = t - t0;
@@ -36,7 +36,7 @@ typedef struct breaking {
     double at_rest_m; /* largest motion before that */
 } breaking;
 
-/* Until 0.3 s after that moment; both coordinates move together. The force's phase advances by `rate`, rad/s. */
+/* Runs until 0.3 s after that moment, while both coordinates move together. The force's phase advances by `rate`, rad/s. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
                          double factor, double against, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";
@@ -101,7 +101,7 @@ TEST(hard_contacts, two_blocks_break_loose_together) {
 #define KINETIC 0.4
 #define PHASE_RATE 10.0
 
-/* Velocity and place after `s` more seconds from phase p of forward sliding, pressed or not. */
+/* Velocity and place `s` seconds after phase p of forward sliding, with or without the pressing force. */
 static void slide(double p, double s, int pressed, double *v, double *x) {
     const double w = PHASE_RATE;
     const double k = pressed ? KINETIC * LOAD_N : 0.0;
@@ -110,8 +110,8 @@ static void slide(double p, double s, int pressed, double *v, double *x) {
     *v += PULL_N * s - k / w * (sin(p + w * s) - sin(p));
 }
 
-/* The first moment within `span` at which a pressed slide comes to rest, or -1: v is least when the friction equals the
- * pull again. */
+/* The first moment within `span` at which a pressed slide comes to rest, or -1. v has its minimum when the friction equals
+ * the pull again. */
 static double stops_after(double p, double span, double v) {
     double low = 0.0;
     double high = -1.0;
@@ -344,7 +344,7 @@ TEST(hard_origin, past_the_origin_of_polar_coordinates) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* The method in a hint, or the run's own. */
+/* The method that a hint names, or else the run's own. */
 static wh_method method_named(const char *hint, wh_method own) {
     const char *at = strstr(hint, "--method ");
     for (int m = 0; at != NULL && m < WH_METHODS; m++) {
@@ -356,8 +356,8 @@ static wh_method method_named(const char *hint, wh_method own) {
     return own;
 }
 
-/* Crude methods have larger errors and would need extremely small steps: the proposed remedy must be possible, and is
- * applied. (A former version proposed `--step 0ns`.) */
+/* Crude methods have larger errors and would need extremely small steps. The proposed remedy must be a possible one; the test
+ * applies it. (A former version proposed `--step 0ns`.) */
 TEST(hard_origin, past_the_origin_by_crude_methods) {
     static const wh_method crude[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_NYSTROEM3};
     dice d = dice_of("crude", 15006);
@@ -385,7 +385,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
         }
         const double step_s = strstr(hint, "--step ") != NULL ? said_named_step_s(hint) : 1e-3;
         const wh_method method = method_named(hint, own);
-        /* at 1 m/s the turn takes d/u: a hundredth of that or less is more than it needs */
+        /* at 1 m/s the turn takes d/u; the proposed step must not be far shorter than that needs */
         TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s <= 1e-3, about);
         const double now_m = passage_by(method, d_m, step_s, &engine_double, false);
         snprintf(about + strlen(about), 40, " -> %.3g m", now_m);
@@ -399,8 +399,8 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
     TEST_ASSERT_TRUE(others > 0 && cures > 0);
 }
 
-/* Straight through: without rotation, r changes its sign undisturbed. If a stage meets the origin itself, theta'' is
- * not a number, and the run ends with a message. */
+/* Without rotation the flight goes straight through the origin: r changes its sign undisturbed. If a stage meets the origin
+ * itself, theta'' is not a number, and the run ends with a message. */
 TEST(hard_origin, through_the_origin) {
     static const char *const steps[] = {"1ms", "0.7ms", "0.3ms", "2ms"};
     unsigned through = 0;
@@ -420,7 +420,7 @@ TEST(hard_origin, through_the_origin) {
 
 /* --- in space ------------------------------------------------------------------------------------------------- */
 
-/* A flight without forces past the origin: away is the nearest point, of length d, and way the direction. */
+/* A flight without forces past the origin: `away` is the nearest point, at distance d, and `way` the direction of flight. */
 typedef struct flight {
     double at[3], rate[3]; /* at its start; 1 m/s */
     char text[400];        /* its scene */

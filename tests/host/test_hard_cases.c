@@ -136,7 +136,7 @@ TEST(hard_cases, hops_on_a_moving_floor_end) {
     motion_close(&m);
 }
 
-/* It leaves a ball when it falls faster than that: cos(w t) = -g/(A w^2). */
+/* The table leaves a ball behind when it falls faster than the ball: cos(w t) = -g/(A w^2). */
 TEST(hard_cases, a_table_falls_away) {
     for (int k = 0; k < 5; k++) {
         const double A = 0.02 + 0.01 * k;
@@ -167,7 +167,7 @@ TEST(hard_cases, fast_rotation) {
         motion_open_file(&m, HARD "rotor.whirl", "", "rotor_fast",
                          (stepping){.kind = &engine_float, .method = WH_RK4, .start = start});
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 100000));
-        /* a step's part of a turn is rounded to 2^-32; its rate and length are floats */
+        /* the turn of a step is rounded to 2^-32 turns; the rate and the step are floats */
         const double turned = rate * 100.0;
         TEST_ASSERT_DOUBLE_WITHIN(turned * 1.3e-7 + 1e-4, turned, motion_value(&m, "th"));
         motion_close(&m);
@@ -241,7 +241,7 @@ TEST(hard_edges, a_floor_stiffer_than_the_step_bears) {
     TEST_ASSERT_TRUE(gone > cases / 10 && sound > cases / 10);
 }
 
-/* The stop has no stiffness: the height after 2 s of bounces, at any step. */
+/* With `stop` in place of a stiff spring: the height after 2 s of bounces is right at any step. */
 TEST(hard_edges, a_stop_has_no_stiffness) {
     static const double steps[] = {1e-2, 5e-3, 1e-3, 1e-4};
     const double G = 9.81;
@@ -265,7 +265,7 @@ TEST(hard_edges, a_stop_has_no_stiffness) {
 
 /* --- inputs that jump ------------------------------------------------------------------------------------------- */
 
-/* x'' + w^2 x = u over t, u constant. */
+/* Advances x'' + w^2 x = u over the time t, for constant u. */
 static void exactly(double w, double u, double t, double *x, double *v) {
     const double y = *x - u / (w * w);
     const double x1 = y * cos(w * t) + *v / w * sin(w * t);
@@ -405,7 +405,7 @@ static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     return went;
 }
 
-/* Its cube underflows in float long before the distance does: the report names underflow. */
+/* In float the cube of the distance underflows long before the distance does: the report names underflow. */
 TEST(hard_edges, products_that_fall_below_float) {
     double wanted[10];
     unsigned off_course = 0;
@@ -492,8 +492,9 @@ static double unequal_off_m(double mass, const engine_kind *kind) {
     return off;
 }
 
-/* Up to 1e8 no effect. In a sum M + m the last place of m is 2^-53 m, relative to M as large as the mass ratio. That is
- * the error of a phase of 50 rad, up to a ratio of 1e13. Beyond that, the matrix is refused. */
+/* Up to a mass ratio of 1e8 there is no effect. The last place of M + m is 2^-53 of the larger mass, so relative to the
+ * smaller mass the error grows with the ratio. The test allows that error in a phase of 50 rad, up to a ratio of 1e13. Beyond
+ * that, the matrix is refused. */
 TEST(hard_edges, two_bodies_of_very_different_mass) {
     double worst[2] = {0.0, 0.0};
     double beyond = 0.0;

@@ -99,7 +99,7 @@ static bool warns(const char *text) {
     return what.status == said_owes(what.err) && strstr(what.err, "float has no room") != NULL;
 }
 
-/* Range of the units: powers of two up to `most`; and results of the runs. */
+/* Range of the units, powers of two up to `most`, and the results of the runs with them. */
 typedef struct reach {
     const int most;
     unsigned same; /* with identical bits */
@@ -107,7 +107,7 @@ typedef struct reach {
     double worst;  /* of the others */
 } reach;
 
-/* A linkage in random units, compared with its own run. */
+/* Runs a linkage in random units and compares it with the same linkage in SI units. */
 static void held_against(const moved *plain, const linkage *of, const engine_kind *kind, units u,
                          double most_off, reach *r) {
     const moved scaled = run_of(of, u, kind, ANGLES_TURNED);
@@ -131,7 +131,7 @@ static void held_against(const moved *plain, const linkage *of, const engine_kin
 
 enum { REACHES = 3 };
 
-/* Each linkage in units of each range: within `most_off` of itself, or refused or with a warning. */
+/* Each linkage runs in units of each range. The error is within `most_off`, or the run is refused or warns. */
 static void in_all_units(const engine_kind *kind, double most_off, reach *reached) {
     dice d = dice_of("hard_scales", 16);
     uint64_t seed = d.state;
@@ -169,7 +169,7 @@ TEST(hard_scales, units_do_not_matter_in_float) {
     TEST_ASSERT_TRUE(reached[2].none * 4 <= cases());
 }
 
-/* The same method and step without rotated sines, in long double from the energies in numbers; *least from
+/* The reference: same method and step, without rotated sines, in long double from the energies in numbers. *least: see
  * linkage_solve(). */
 static moved by_numbers(const linkage *of, double *least) {
     linkage_motion wanted;
@@ -191,7 +191,7 @@ static double largest_of(const moved *m) {
     return largest;
 }
 
-/* Changes bodies' masses, inertias and forces by up to so many decades in either direction. */
+/* Multiplies the masses, inertias and forces of bodies by random factors of up to this many decades, up or down. */
 static void make_unequal(linkage *of, double decades, dice *d) {
     of->springs = 0;
     for (int i = 0; i < of->bodies; i++) {
@@ -221,8 +221,8 @@ static double carried(const linkage *of, const moved *wanted, double share) {
  * and the run diverges. */
 #define GROWN 1e12
 
-/* Results of runs with unequal masses. The relative error of an acceleration is a unit in the last place (`last`) over
- * the remainder of the elimination. */
+/* Results of runs with unequal masses. The relative error of an acceleration is a unit in the last place (`last`), divided by
+ * the part of the pivot that remains after elimination. */
 typedef struct unequal {
     double worst; /* relative error, if elimination leaves at least a ten thousandth */
     /* Errors above those of a start with a hundred such relative errors at the end, and above a hundred of the largest. */

@@ -63,7 +63,7 @@ static const char *read_time(const char *at, double wanted_s) {
     return at;
 }
 
-/* Reads a number of so many places: at least the value, and at most two units of the last place above it. */
+/* Reads a number with this many digits. It must be at least the value, and at most two units of its last place above. */
 static const char *read_not_less(const char *at, const image_unit *unit, double si, int places) {
     const long double wanted =
         (long double)si * (long double)unit->divisor / (long double)unit->scale;
@@ -138,7 +138,8 @@ static const char *name_of(int i, char *text) {
     return text;
 }
 
-/* Among states not proved to the end: the first that was never proved, else the first that ends; -1 without any. */
+/* Among the states that are not proved to the end: the first one never proved, or else the one whose proof ends first; -1 if
+ * there is none. */
 static int first_that_is_not(void) {
     for (int i = 0; i < found.states; i++) {
         if (!found.state[i].begun) {

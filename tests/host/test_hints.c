@@ -3,7 +3,7 @@
 #include "host/lang/hints.h"
 #include "parsed.h"
 
-/* The line of the reported Q, or 0. The first Q is in line 9. */
+/* The line of the Q that is reported, or 0. The first Q is in line 9. */
 static int told(const char *forces) {
     char text[900];
     snprintf(text, sizeof text,

@@ -127,7 +127,7 @@ TEST(image, an_image_outlives_what_it_was_made_of) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene_alone) > 60);
 }
 
-/* Messages with places within a line, from lets, slopes and every part of a contact. */
+/* Undefined values in lets, slopes and every part of a contact; their places are columns within a line. */
 static const char undefined_everywhere[] =
     "mechanism m \"a\"\n"
     "    coordinate x [m] \"x\"\n"
@@ -178,7 +178,8 @@ static int check_again(const scene *s) {
         other->input[i] += 0.5;
     }
     int compared = 0;
-    if (d.image->recovered == 0) { /* otherwise the lists contain the momentum of the start */
+    if (d.image->recovered == 0) {
+        /* otherwise the lists contain the momentum, which depends on the start */
         equations *e = equations_derive(other, errors);
         image *fresh = image_make(e, other->conserve, &plainly, IMAGE_TO_RUN, errors);
         image *again = image_again(d.image, other, errors);
@@ -601,7 +602,7 @@ static void expect_all(const bool called[FUNCTIONS], const char *where) {
     TEST_ASSERT_TRUE_MESSAGE(all, message);
 }
 
-/* Drawn until each function occurred; then missing ones are named. */
+/* Mechanisms are drawn until each function has occurred. If some never occur, the failure names them. */
 TEST(generated_texts, generated_texts) {
     static char text[1 << 14];
     static const char *const coordinates[] = {"q"};

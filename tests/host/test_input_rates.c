@@ -22,7 +22,7 @@ static double course_at(const course *c, double t, int primes) {
     }
 }
 
-/* Information on a course: value and rate, value and mean rate of the coming step, or also the acceleration. */
+/* Part of the course that the scene gets: value and rate, value and mean rate of the coming step, or also the acceleration. */
 enum { RATE, MEAN_RATE, ACCELERATION, TELLINGS };
 
 /* Sets the first inputs to the course at t. */
@@ -121,7 +121,7 @@ TEST(input_rates, a_ball_on_a_shaking_table) {
         motion m;
         motion_open_text(&m, text, IN_DOUBLE);
         const double lost = asin(fmin(1.0, G / (c.size * c.rate * c.rate))) / c.rate;
-        /* in its flight, or after three quarters of a swing */
+        /* while the ball flies, or after three quarters of a swing */
         const double until = leaves ? lost + 0.25 / c.rate : 4.5 / c.rate;
         const unsigned steps = (unsigned)(until / 0.5e-3);
         for (unsigned k = 0; k < steps; k++) {
@@ -171,7 +171,7 @@ static void exact_pendulum(const course *c, double until_s, double *a, double *r
 
 enum { BY_HOLD, BY_ANGLE, BY_WAYS };
 
-/* The pendulum, by a rope as a hold or by its angle; its error after 2 s in steps of h. */
+/* The pendulum, with the rope as a hold or with the angle as coordinate. Returns the error after 2 s in steps of h. */
 static double rope_off(const course *c, int way, int telling, const engine_kind *kind, double h,
                        double *slipped) {
     static const char *const text_of[BY_WAYS] = {
@@ -229,8 +229,8 @@ static course draw_rope(dice *d) {
                     dice_between(d, -0.1, 0.2)};
 }
 
-/* With the mean rate or acceleration, the rope follows to second order in the step; with the rate at the step's begin,
- * to first. The same holds for energies with L. The hold is exact in any case. */
+/* If the input's rate is the mean rate of the step, or has an acceleration, the rope follows to second order in the step. With
+ * the rate at the step's start, it follows to first order. The same holds for energies with L. The hold is exact in any case. */
 TEST(input_rates, a_pendulum_on_a_rope_of_changing_length) {
     const unsigned cases = dice_cases(6);
     dice d = dice_of("input_rates", 4602);
@@ -286,8 +286,8 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
              i % 2 ? " with ledger" : "", dice_between(d, -0.3, 0.3));
 }
 
-/* A refused step leaves no trace: the run continues as if it had not been requested, also with inputs other than the
- * last good ones. */
+/* After a refused step the run continues as if the step had not been requested, also if the inputs differed from the last
+ * good ones. */
 TEST(input_rates, a_refused_step_leaves_no_trace) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
                                  1e30}; /* finite: may be held */

@@ -23,7 +23,8 @@ typedef struct log_of_rows {
     uint64_t limit; /* refuse the rows after this */
 } log_of_rows;
 
-/* The sleep falls with p % 8, so that points end out of order. A row has up to 200 kB, more than a pipe can hold. */
+/* Sleeps for less time the larger p % 8 is, so that points end out of order. A row has up to 200 kB, more than a pipe can
+ * hold. */
 static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     (void)context;
     const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
@@ -260,7 +261,7 @@ TEST(jobs, what_is_shown) {
     }
 }
 
-/* The line is not drawn twice in a row. Zero of zero points are 100 %. Without a terminal no line is drawn. */
+/* The line is not drawn again at once. Zero of zero points are 100 %. Without a terminal no line is drawn. */
 TEST(jobs, when_it_is_shown) {
     progress p = begun(1.0, 0, 0);
     progress_show(&p, 0);

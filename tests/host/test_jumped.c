@@ -47,8 +47,7 @@ static const char *const knees[] = {
 };
 enum { KNEES = sizeof knees / sizeof knees[0] };
 
-/* Least distance between zero and pole. 1 - cos(x) has no digits below 1e-7, and a pole is
- * followed for 1e2 times as far. */
+/* Least distance between zero and pole. 1 - cos(x) has no digits below 1e-7, so a pole is followed for 1e2 times as far. */
 static double apart(unsigned which, double v, double k) {
     return strstr(knees[which], "cos((") != NULL ? fmax(k, 1e-3 * v) : k;
 }
@@ -105,7 +104,7 @@ TEST(jumped, knees) {
     TEST_ASSERT_TRUE(6U * told > cases && 6U * kept > cases && 2U * cured > told);
 }
 
-/* Compared with a run of the test's own: start of the step and number of the expression. No memory leaks. */
+/* The report has the same step and expression as the test's own run. Nothing leaks. */
 TEST(jumped, when) {
     for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
         char text[JUMPS_TEXT];
@@ -191,7 +190,7 @@ TEST(jumped, forces) {
                      (cases < 24 || (4U * told > cases && 4U * kept > cases)));
 }
 
-/* An angle passes a zero of a dividing cosine or tangent without a step near it. w is its rate. */
+/* An angle passes a zero of a cosine or tangent in a denominator, and no step ends near that zero. w is the angle's rate. */
 TEST(jumped, angles) {
     static const char *const poles[] = {"1/cos(th - %.17g [rad])", "tan(th - %.17g [rad])",
                                         "1/tan(th - %.17g [rad])",
@@ -210,8 +209,8 @@ TEST(jumped, angles) {
         motion_open_text(
             &m, text,
             (stepping){.kind = c % 2 == 0 ? &engine_float : &engine_double, .method = WH_RK4});
-        TEST_ASSERT_TRUE_MESSAGE(jumps_some(&m),
-                                 text); /* alone: the search for a step that works takes long */
+        /* checks only that it jumps, because the search for a step that works takes long */
+        TEST_ASSERT_TRUE_MESSAGE(jumps_some(&m), text);
         motion_close(&m);
     }
 }

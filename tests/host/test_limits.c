@@ -106,7 +106,8 @@ TEST(limits, what_a_step_takes) {
     }
 }
 
-/* 1, 2 and 5 times powers of ten, from 5000 down over 16 decades. Each must be the nearest from below. */
+/* Nice steps are 1, 2 and 5 times powers of ten, here from 5000 down over 16 decades. Each result must be the largest nice
+ * step up to the given one. */
 TEST(limits, nice_steps) {
     dice die = dice_of("nice steps", 68);
     for (unsigned c = 0; c < dice_cases(2000); c++) {
@@ -119,7 +120,7 @@ TEST(limits, nice_steps) {
         const double next_s = nice_s * (two ? 2.5 : 2.0);
         TEST_ASSERT_TRUE(nice_s <= most_s * (1.0 + 2e-9));
         TEST_ASSERT_TRUE(next_s > most_s || next_s > 5001.0);
-        /* each maps to itself and to its successor, except in the last digit */
+        /* a nice step less round-off maps to itself; one that is 1e-7 shorter, to the next shorter one */
         TEST_ASSERT_TRUE(fabs(step_nice_s(nice_s * (1.0 - 1e-13)) / nice_s - 1.0) < 1e-12);
         TEST_ASSERT_TRUE(step_nice_s(nice_s * (1.0 - 1e-7)) < 0.6 * nice_s);
     }

@@ -11,7 +11,7 @@ typedef struct links {
     double length[LINKS_MOST]; /* m */
 } links;
 
-/* Angles from hanging straight down. Each link adds its own speed and height to those of the link above. */
+/* Angles are measured from hanging straight down. Each link adds its own speed and height to those of the link above. */
 static char *written(const links *of) {
     char *text;
     size_t size;

@@ -18,7 +18,8 @@ static void check_below(double bound, double value) {
 
 #define DEG (180.0 / 3.14159265358979323846)
 #define LEAD_RAD (1.0 / DEG)
-#define BEFORE 14U /* turns; more than the firmware waits for the speed to settle */
+/* turns before the record: more than the firmware waits for the speed to settle */
+#define BEFORE 14U
 #define TURNS 20U
 
 static bool full(void) { return few_or_all(0, 1) == 1; }
@@ -90,7 +91,7 @@ static void print_row(double rpm, const rig_noise *noise) {
     }
 }
 
-/* In float, with the tare, over the whole range of states. */
+/* The core's float model, with the tare, over the whole range of states. */
 TEST(lockin_truth, the_plant_is_the_model) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
@@ -319,8 +320,8 @@ TEST(lockin_truth, what_is_fed_does_not_show) {
     }
 }
 
-/* The angle of the compensation is wrong by a normal number; the tolerance is two standard
- * deviations. The interval covers the truth as often as promised. */
+/* The compensation's angle has a Gaussian error; the configured tolerance is two standard deviations. The interval covers the
+ * truth as often as promised. */
 TEST(lockin_truth, intervals_while_fed) {
     const rig_noise noise = {.cell_N = 1.0, .jitter_s = 60e-6};
     rotor.fed_tolerance_rad = (wh_real)0.02;

@@ -67,7 +67,7 @@ static double growth(int order, double complex z) {
     return cabs(sum);
 }
 
-/* Largest |z| in this direction without growth; 0: always grows. */
+/* Largest |z| in this direction without growth; 0 if the method grows at every |z|. */
 static double longest(int order, double complex direction) {
     double low = 0.0;
     double high = 0.0;
@@ -102,7 +102,7 @@ typedef struct tally {
     unsigned within, beyond;
 } tally;
 
-/* Scene of frequency w in `unit` 1/s at scale 1. Its limit is `z` over w times the root of the scale. */
+/* A scene of frequency w (in `unit` 1/s) at scale 1. Its longest stable step is `z`/w, times the root of the scale. */
 static void hold_to(const map_asked *a, const double *limit_s, double known_to, tally *sum) {
     drawn_map m;
     open_map(&m, a);
@@ -222,8 +222,9 @@ TEST(map, no_limit) {
     }
 }
 
-/* From 90 degrees a pendulum swings wider in each long step and goes over the top, a little below the limit of its small swings,
- * 2.83 root(l/g). No longer step is taken for stable again, up to ten times the limit, in a run of nine to 35 such steps. */
+/* From 90 degrees a long step makes a pendulum swing wider each time, until it goes over the top. That happens a little below
+ * the limit of small swings, 2.83 root(l/g). No longer step, up to ten times the limit, may be called stable again, in a run
+ * of nine to 35 steps. */
 TEST(map, pendulums_from_a_right_angle) {
     static const char text[] = "mechanism pendulum\ncoordinate a [rad]\nparameter l = 0.19 [m]\n"
                                "T = 1 [kg]*(l*a')^2/2\nV = -9.81 [N]*l*cos(a)\n"
@@ -245,8 +246,8 @@ TEST(map, pendulums_from_a_right_angle) {
     close_map(&m);
 }
 
-/* Growth by 20 is bounded, by 1e4 is not. If half the step is too long as well, the two runs grow
- * alike, and the finest run of the row decides. */
+/* A run that grows 20-fold is bounded, one that grows 1e4-fold is not. If half the step is too long as well, both runs grow
+ * alike; then the finest run of the row decides. */
 TEST(map, what_bounds_are) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {
@@ -320,7 +321,7 @@ TEST(map, where_a_tolerance_and_the_energy_end) {
     TEST_ASSERT_TRUE(seen[MAP_KEEPS] > cases && seen[MAP_OFF] > cases && seen[MAP_LOSES] > cases);
 }
 
-/* Without mass there is no acceleration, beyond the stop no start, and a step longer than the run is no step. */
+/* Pairs without a run: no mass, so no acceleration; a start beyond the stop; a step longer than the run. */
 TEST(map, pairs_without_a_run) {
     static const char ball[] =
         "mechanism ball\ncoordinate z [m]\nparameter e = 0.5\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"

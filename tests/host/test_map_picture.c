@@ -24,7 +24,7 @@ static const symbol swept[2] = {
      .index = 1,
      .dim.twelfths = {0, 12}}};
 
-/* The step first, second, or not at all; rising and falling, logarithmic, below zero, a single value. */
+/* Axes: the step is the first, the second or neither. Values rise or fall, are logarithmic, below zero, or a single one. */
 static const axis axes_of[][2] = {
     {{.name = "step", .column = "step", .from = 0.001, .to = 0.1, .count = 7, .is_log = true},
      {.name = "k", .column = "k", .symbol = &swept[0], .from = 9.0, .to = 1.0, .count = 5}},
@@ -82,7 +82,7 @@ static void made_up_map(shown *s, int n) {
 
 /* --- pictures ------------------------------------------------------------------------------------------------*/
 
-/* A script of this line as gnuplot, first in PATH. */
+/* Makes a shell script with this line the first gnuplot in PATH. */
 static char *play_gnuplot(const char *part) {
     const char *path = getenv("PATH");
     char *before = strdup(path != NULL ? path : "");

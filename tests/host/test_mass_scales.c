@@ -112,7 +112,7 @@ static double inverse_size(const long double *mass, int n) {
     return most;
 }
 
-/* Accelerations are right within the round-off of the matrix. Returns the worst ratio. */
+/* Accelerations are right within the matrix's round-off. Returns the worst error relative to that bound. */
 static double check_right(const bodies *b, uint64_t *seed) {
     long double mass[ROOM];
     long double wanted[MOST];
@@ -195,7 +195,7 @@ TEST(mass_scales, fewer_bodies_than_coordinates_are_refused) {
     }
 }
 
-/* The same through sines: a body on a turning line; its speed is a sum of two rates with one factor. */
+/* The dependent rates are in sines: a body on a turning line, whose speed is a sum of two rates with one factor. */
 TEST(mass_scales, one_speed_through_sines_is_refused) {
     uint64_t seed = 31;
     for (int i = 0; i < 60; i++) {
@@ -215,7 +215,7 @@ TEST(mass_scales, one_speed_through_sines_is_refused) {
     }
 }
 
-/* D A D and D A E of any scales have the rank of A. */
+/* For any scales D and E, D A D and D A E have the rank of A. */
 TEST(mass_scales, scales_do_not_change_the_rank) {
     uint64_t seed = 1969;
     const int all = cases(4000);

@@ -76,7 +76,7 @@ TEST(matrix, constants_are_rounded_once) {
 /* Half a unit in the last place of a double. At 0: half the smallest subnormal, which is no double. */
 static quad half_unit(double x) { return (quad)(nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2; }
 
-/* Largest error of an entry beyond `share` of its bound, in half units of the last digit. */
+/* Largest excess of an entry's error over `share` of its bound, in half units of the last digit. */
 static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
                           const quad allowed[][LINEAR_COLUMNS]) {
     double most = 0.0;
@@ -105,7 +105,7 @@ static void set_matrix(motion *m, const char *text, const engine_kind *kind, ima
         (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix});
 }
 
-/* A, B and c of the operation list. They match the test's up to the rounding of the list's few constants. */
+/* A, B and c of the operation list equal the test's own, up to the rounding of the list's few constants. */
 static void take_rates(const image *im, const char *text, linear *of) {
     static twofold rates[LINEAR_STATES * LINEAR_COLUMNS];
     TEST_ASSERT_EQUAL_INT(of->columns, affine_columns(im));
@@ -121,8 +121,8 @@ static void take_rates(const image *im, const char *text, linear *of) {
     }
 }
 
-/* Every entry is the double nearest to the list's exponential, from soft to stiff: oscillations shorter than a step,
- * dampers that stop a motion within one. */
+/* Every entry is the double nearest to the exponential of the list's matrix, from soft to stiff: oscillations shorter than a
+ * step, dampers that stop a motion within one step. */
 TEST(matrix, entries_are_the_nearest_doubles) {
     static const int stiff[] = {0, 6, 14, 20};
     uint64_t seed = 7003;
@@ -148,7 +148,7 @@ TEST(matrix, entries_are_the_nearest_doubles) {
     printf("  entries of generated matrices are off by %.4f of half a unit\n", worst);
 }
 
-/* In coupled masses the list's constants are rounded, each by half a unit. The exponential amplifies that like |A|. */
+/* With coupled masses each constant of the list is rounded by up to half a unit. The exponential amplifies that by about |A|. */
 TEST(matrix, entries_of_full_mass_matrices) {
     uint64_t seed = 7004;
     double worst = 0.0;
@@ -229,7 +229,8 @@ static double run_error(const linear *of, const char *text, motion *m, int order
     return most;
 }
 
-/* 1000 steps in both numbers, compensated or not, exact or RK4. Each error is round-off, at most `most` units. */
+/* 1000 steps in double or float, with or without compensated sums, by an exact or an RK4 matrix. The error is round-off: at
+ * most `most` units. */
 TEST(matrix, motions_are_those_of_the_exponential) {
     static const struct {
         const engine_kind *kind;
@@ -464,7 +465,7 @@ static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool 
 
 enum { MILLION = 1000000 };
 
-/* Error after a million steps of an oscillator, and the largest on the way, relative to its amplitude. */
+/* Error after a million steps of an oscillator, and the largest error at any time before, relative to the amplitude. */
 static double oscillator_off(const float x, const float v, const quad *truth, double omega) {
     return hypot((double)((quad)x - truth[0]), (double)((quad)v - truth[1]) / omega);
 }
@@ -523,7 +524,7 @@ TEST(matrix_runs, rounding_the_change_is_better) {
     }
 }
 
-/* A rotor with friction and a motor, and a free one. Neither angle appears in a force. The first has the later
+/* A rotor with friction and a motor, and a free one. No force depends on either angle. The first rotor has the later
  * coordinate. */
 static const char rotors[] =
     "mechanism rotors\ncoordinate th [rad]\ncoordinate ps [rad]\ncoordinate x [m]\n"

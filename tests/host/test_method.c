@@ -180,7 +180,7 @@ TEST(method_rows, rows_are_explicit) {
     }
 }
 
-/* positions = b A gives the same method as on x' = f(x). */
+/* If positions = b A, the method equals the one of the row applied to x' = f(x). */
 TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
@@ -326,7 +326,7 @@ static double polynomial_of_spring(wh_method method, double h) {
     return eigenvalue(matrix);
 }
 
-/* The largest stable h, in thousandths, with an allowance for float's rounding. 0: a quarter is unstable. */
+/* The largest stable h, in thousandths, with an allowance for float's rounding. 0: even a quarter is unstable. */
 static double interval(double (*growth)(wh_method method, double h), wh_method method) {
     double h = 0.25;
     if (growth(method, h) > 1.0 + 1e-5) {
@@ -380,7 +380,8 @@ static unsigned times_in(const char *text, const char *word) {
     return times;
 }
 
-/* Each method once, the default first; also only the methods for one form. The buffer's old text does not matter. */
+/* The sentence names each method once and the default first, or only the methods for one form. The buffer's old text does not
+ * matter. */
 TEST(method_rows, sentences_have_each_method_once) {
     char text[METHODS_TEXT_SIZE];
     char first[80];
@@ -436,8 +437,8 @@ static double largest(const double *from, const double *to, int begin, int end) 
     return size;
 }
 
-/* Largest component of i's kind (angles, positions or rates) before and after a step, and the change of position. The
- * scale of round-off where terms cancel. */
+/* Largest component of the same kind as i (angles, positions or rates) before and after a step, plus the change of position.
+ * If terms cancel, round-off is of this scale. */
 static double size_of(const image *im, int i, const double *from, const double *to) {
     const int count = im->angles + im->reals;
     const int rates = im->form == WH_SECOND_ORDER ? im->coordinates : im->angles;

@@ -18,7 +18,7 @@ typedef struct weights {
     long double positions[STAGES];
 } weights;
 
-/* A tree of the derivatives of f(q, q') along the motion. Its order is that of the first step term it adds to. */
+/* A tree of the derivatives of f(q, q') along the motion. Its order is that of the first power of h to which it contributes. */
 typedef struct tree {
     int order;
     bool by_rates;     /* a branch by rates */

@@ -128,7 +128,7 @@ TEST(methods, orders_are_those_of_the_names) {
                                   .compensated = compensated,
                                   .ledger = ledger};
             const int wanted = wh_methods[method].order;
-            /* a method of fifth order depends on where in a step the stop is hit: fewer halvings */
+            /* the error of a fifth-order method depends on where in a step the stop is hit, so it gets fewer halvings */
             const bool hits = strstr(f->name, "is hit") != NULL;
             const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* of a second */
             const int more = wanted < 5 ? 1 : 7 - halvings;

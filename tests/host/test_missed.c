@@ -10,7 +10,7 @@ enum { TEXT = 1500 };
 
 static char text[TEXT];
 
-/* A body of 1 kg, 1 m plus a drawn part of a step before a place. */
+/* A body of 1 kg; its path starts 1 m before a place, plus a random part of a step. */
 typedef struct flight {
     double start_m; /* on x, relative to the place */
     double v_m_s;
@@ -22,7 +22,7 @@ typedef struct flight {
     double bounce_s; /* time of another body's bounce; 0: no other body */
 } flight;
 
-/* At the origin, or up to 2 m away; alone or next to a bouncing body. */
+/* The place is at the origin or up to 2 m away; the body is alone or beside one that bounces. */
 static void flight_place(dice *d, flight *f) {
     const bool away = dice_one_of(d, 4) != 0;
     static const char names[] = "xy";
@@ -44,7 +44,7 @@ static flight flight_draw(dice *d) {
     return f;
 }
 
-/* Runs to the end. `more` are statements, y starts at `aside_m`. Returns whether there was a warning. */
+/* Runs to the end, with the statements `more`; y starts at `aside_m`. Returns whether there was a warning. */
 static bool fly(motion *m, const flight *f, const char *more, double aside_m) {
     char start[80] = "";
     const bool beside = f->bounce_s > 0.0;
@@ -88,7 +88,7 @@ static const char *const posts[] = {
 
 enum { POSTS = sizeof posts / sizeof posts[0] };
 
-/* Posts of 0.1 to 32 mm, hit at the centre, off it, or not at all; restitution 1. */
+/* Posts of 0.1 to 32 mm are hit at the centre, off the centre, or missed; restitution 1. */
 TEST(missed, posts) {
     dice d = dice_of("missed", 1);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 120));
@@ -125,7 +125,7 @@ TEST(missed, posts) {
     TEST_ASSERT_TRUE(thin * 3 > cases);
 }
 
-/* Is the energy balance violated (host/check/energy_residual.h)? For a hill far from both ends. */
+/* Is the energy balance violated (host/check/energy_residual.h)? For a hill that is far from start and end. */
 static bool is_unbalanced(const motion *m, const flight *f) {
     const double vx = motion_value(m, "x'");
     const double vy = motion_value(m, "y'");
@@ -152,7 +152,7 @@ static const char *const flats[] = {
 
 enum { FLATS = sizeof flats / sizeof flats[0] };
 
-/* Latches, walls, and a hill higher than the body's energy: hit, or a warning. */
+/* Latches, walls and a hill higher than the body's energy are hit, or there is a warning. */
 TEST(missed, flat_ones) {
     dice d = dice_of("missed", 2);
     const unsigned cases = dice_cases(few_or_all(112, 224));
@@ -217,7 +217,7 @@ TEST(missed, ways_out) {
     TEST_ASSERT_TRUE(ways[0] * 6 > cases && ways[1] > 0);
 }
 
-/* A hill after a pole (the tip of a weak force's cone) on the path: a warning about either. */
+/* On the path there is a pole (the tip of a weak force's cone) and then a hill. There is a warning about one of them. */
 TEST(missed, hills_behind_a_tip) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);
@@ -303,7 +303,7 @@ TEST(missed, narrow_limits_and_crossings) {
 typedef struct pass {
     double aside_m;    /* of the first body, which flies along x */
     double u_m, w_m_s; /* the second body: its start on x, and its rate */
-    double disk_m;     /* its radius on a disk, or 0: it moves along x, at y = 0 */
+    double disk_m;     /* its radius on a disk; 0: it moves along x, at y = 0 */
     double turn_rad, turn_rad_s;
 } pass;
 
@@ -320,8 +320,8 @@ static double pass_least_m(const flight *f, const pass *p) {
     return least_m;
 }
 
-/* Moving posts, on the other body or a turning disk; pairs of them; and latches between two circles. Each is hit as
- * on straight lines, or there is a warning. */
+/* Posts on the other body or on a turning disk, pairs of them, and latches between two circles. All move. Each is hit as the
+ * reference says, or there is a warning. */
 TEST(missed, moving_ones) {
     dice d = dice_of("missed", 4);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 120));

@@ -39,7 +39,7 @@ typedef struct told {
     int64_t pulse_us[PULSES_MOST];
     unsigned pulse_of[PULSES_MOST];
     int pulse_long[PULSES_MOST]; /* us; 0: unknown */
-    bool tells_ends;             /* of pulses; 100 us until the first end arrives */
+    bool tells_ends;             /* length of pulses; 100 us until the first end arrives */
     bool has_ended;
     int64_t free_from_us[2]; /* end of the last pulse */
     int64_t trip_us;
@@ -173,7 +173,7 @@ static void lose(unsigned channel) {
     }
 }
 
-/* Between the samples, so that the order is clear. */
+/* A pulse lies between two samples, so that the order is clear. */
 static int64_t about_now_us(void) { return t.time_us + 1 + (int64_t)dice_one_of(&die, 900); }
 
 static void send_run(void) {
@@ -326,8 +326,8 @@ static void send_strange(void) {
     t.counts.strange--;
 }
 
-/* The rig restarts: another clock, counts from zero, the first sample at the expected time. Shown by its line or by a
- * sequence number that decreases. */
+/* The rig restarts with another clock and counts from zero; its first sample comes at the expected time. A line of the rig or
+ * a sequence number that decreases shows it. */
 static void begin_anew(void) {
     if (!t.begun || !t.run_came) {
         return;

@@ -46,7 +46,7 @@ TEST(near_zero, slopes_of_kept_powers_stay_powers) {
     algebra_free(a);
 }
 
-/* Roundings of one evaluation, half a unit each: constants, distance, powers and the sum of the factors. */
+/* Number of roundings in an evaluation, half a unit each: of constants, the distance, powers and the sum of the factors. */
 #define ROUNDINGS 16.0
 
 static double worst_float;
@@ -58,7 +58,7 @@ static void show_worst(const char *what) {
     worst_float = worst_double = 0.0;
 }
 
-/* Relative error of an output at the start, against a closed form at the start rounded to float. */
+/* Relative error of an output at the start. The closed form uses the start rounded to float. */
 static double error_of(const motion *m, const char *output, double want) {
     const double error = fabs(motion_value(m, output) / want - 1.0);
     double *worst = m->kind == &engine_float ? &worst_float : &worst_double;
@@ -110,7 +110,7 @@ TEST(near_zero, stiffening_springs_near_their_rest) {
     show_worst("springs");
 }
 
-/* The same for a sine to the sixth, with rounding of the argument (twice) and of the sine. */
+/* As before, for a sine to the sixth; the argument is rounded twice and the sine once. */
 #define WAVE_ROUNDINGS 48.0
 
 /* Two arms on one shaft; the inertia has a pole of order four or six when they lie along it. */
@@ -139,7 +139,7 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
     const double tilt = n * pow(w, 2 * n - 1) * slope * 4.0;
     const double spin = 1e-9 / (0.3 * pow(w, 2 * n)) - 2.0 * n * slope / w * 0.01 * 2.0;
     TEST_ASSERT_TRUE(error_of(&m, "tilt", tilt) <= WAVE_ROUNDINGS * half + sine);
-    /* the two parts of spin cancel by little here */
+    /* the two parts of spin cancel little here */
     TEST_ASSERT_TRUE(error_of(&m, "spin", spin) <= 2.0 * (WAVE_ROUNDINGS * half + sine));
     motion_close(&m);
 }
@@ -256,7 +256,8 @@ static void hold(const char *number) {
 TEST(tiny_sizes, in_float) { hold("float"); }
 TEST(tiny_sizes, in_double) { hold("double"); }
 
-/* A start is checked by its form. Nested parts number two to the depth, here 40 to 90: visiting each would never end. */
+/* A start is checked by its form. With nested parts, 40 to 90 deep, the number of visits would be two to the depth if each
+ * part were visited again. */
 TEST(tiny_sizes, starts_of_parts_of_parts) {
     static const char *const ways[] = {"%s%u = p%u*p%u\n", "%s%u = p%u/p%u\n",
                                        "%s%u = -p%u*p%u^2\n", "%s%u = p%u^2/-p%u\n"};

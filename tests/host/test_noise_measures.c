@@ -138,7 +138,7 @@ static void compare(const made_up *m, const mechanism *of, const scene *in, cons
     free(recorded);
 }
 
-/* The spread of a record with the effect less one without proves that there is noise. */
+/* The standard deviation of a record with the effect, compared with that of a record without it, proves that there is noise. */
 static void expect_noise(const made_up *m, const mechanism *of, const scene *in) {
     scene bare = *in;
     mechanism quiet = *of;

@@ -104,7 +104,7 @@ static void around_middle(uint64_t lower_bits) {
     agrees(beside);
     last -= text[last] == '.' ? 1 : 0;
     snprintf(beside, sizeof beside, "%s", text);
-    beside[last]++; /* a 5 after the point follows an even digit */
+    beside[last]++; /* a tie: 5 follows an even digit */
     agrees(beside);
     beside[last] = (char)(text[last] - 1);
     if (text[last] > '0') {

@@ -276,7 +276,7 @@ TEST(octave, files_with_names_compute_the_same) {
 
 enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
 
-/* A wider tolerance tells nothing; such a value does not count as compared. */
+/* Beyond this tolerance a comparison says nothing, so the value does not count as compared. */
 #define TELLING 1e-6
 
 /* errors of second order */

@@ -195,7 +195,7 @@ TEST(order, squares_are_summed_as_they_come) {
 }
 
 /* === pieces =================================================================================== */
-/* A sum split for lowering: half angles are restored where that saves a term. The value does not change. */
+/* A sum is split before it is lowered: half angles are restored if that saves a term. The value does not change. */
 
 enum { VARIABLES = 2 };
 
@@ -298,7 +298,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
         poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, two, 4.0)), four);
     piece pieces[8];
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, row, pieces));
-    /* with a small term more at the pole nothing cancels below it */
+    /* one more small term remains at the pole, so nothing cancels below it */
     const poly *more = poly_add(a, row, poly_number(a, 1e-12));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, more, pieces));
     /* 3 - 4 cos a + cos 2a = 8 sin(a/2)^4, but a turn angle has no half */
@@ -312,7 +312,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
     for (int i = 0; i < 3; i++) {
         TEST_ASSERT_TRUE(pieces[i].sines + pieces[i].cosines <= 1);
     }
-    /* the products would be large and cancel elsewhere, or be more */
+    /* the products would cancel elsewhere, or there would be more of them */
     const poly *tall = poly_sub(a, poly_cos(a, poly_scale(a, u, 16.0)), one);
     const poly *few = poly_add(a, tall, poly_scale(a, poly_sub(a, two, one), 1e-3));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, few, pieces));

@@ -193,7 +193,7 @@ static int compare(const void *a, const void *b) {
     return strcmp(*left, *right);
 }
 
-/* The sorted lines, without those that differ each time. */
+/* The sorted lines of the output, without lines that differ from run to run. */
 static unsigned lines_of(char *text, const char *line[LINES_MOST]) {
     unsigned count = 0;
     char *rest = NULL;

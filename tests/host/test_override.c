@@ -133,7 +133,7 @@ static void test_wrong_overrides(void) {
     expect_refused(&(overrides){.until = "soon"}, "error: unknown name 'soon'");
 }
 
-/* A time shorter than a step must give neither no step nor one too many; only `until 0` has none. */
+/* An end before the end of the first step is refused; only `until 0` may have no step. */
 static void test_until_holds_a_step(void) {
     parse(sample);
     expect_refused(&(overrides){.until = "1s", .step = "3s"},

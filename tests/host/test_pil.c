@@ -67,8 +67,8 @@ TEST(campaign, draws) {
     }
 }
 
-/* Runs with close set-points share nothing else. Of pairs within 0.02 rad/s, about a twentieth have the same fault at
- * times within a twentieth. */
+/* Runs with close set-points have nothing else in common. Of pairs within 0.02 rad/s, about a twentieth have the same fault
+ * at times within a twentieth of each other. */
 TEST(campaign, draws_are_independent) {
     enum { RUNS = 4000 };
     static double target[RUNS];
@@ -95,7 +95,7 @@ TEST(campaign, draws_are_independent) {
     TEST_ASSERT_TRUE(close > pairs / 40 && close < pairs / 10);
 }
 
-/* Refused: an emulator's counts and an operator's dials. */
+/* Faults that need an emulator's instruction counts or an operator's dials are drawn only for firmware that has them. */
 TEST(campaign, what_there_is_to_draw) {
     const char *const words[] = {NULL, "jam", "slow", "feed-part", "two faults", "nothing"};
     static const bool has[3][6] = {{true, true, false, false, true, false},
@@ -147,7 +147,7 @@ typedef struct rig {
     bool refuses_rate;
     int heard;     /* questions */
     char half[16]; /* of a partly typed line */
-    char junk[16]; /* the end of a frame, before its first answer */
+    char junk[16]; /* the end of a frame that came before the rig's first answer */
 } rig;
 
 static void say(rig *r, const char *line) {
@@ -328,7 +328,7 @@ static const wh_hello hello = {.program = "bench",
                                .signal = signals,
                                .signals = sizeof signals / sizeof signals[0]};
 
-/* Pulses and samples of a second, and the plant's inputs at each reading. */
+/* Pulses and samples within a second, and the plant's inputs at each reading. */
 typedef struct heard {
     wh_edge edge[EVENTS_MAX];
     double edge_s[EVENTS_MAX]; /* as reported */
@@ -344,7 +344,7 @@ typedef struct heard {
 static heard well;
 static heard ill;
 
-/* The note `state` goes from 0 to 1 with the hundredth orders, to 2 with the two hundredth, and so on. */
+/* The note `state` becomes 1 with the 100th orders, 2 with the 200th, and so on. */
 static void run_with(const char *words, heard *h) {
     motion bench;
     plant on;
@@ -402,7 +402,7 @@ static int edges_of(const heard *h, int channel) {
     return count;
 }
 
-/* Healthy: two turns, four alternating pulses. */
+/* A healthy rotor makes two turns, which are four alternating pulses. */
 TEST(fault, edges) {
     run_with(NULL, &well);
     TEST_ASSERT_EQUAL_INT(4, well.edges);
@@ -507,7 +507,7 @@ static void expect_raws(const char *words, double least, double most, double wit
     TEST_ASSERT_EQUAL_INT32_MESSAGE(1257, other->raw, words);
 }
 
-/* Healthy: 40 N and 10 N to either side. */
+/* A healthy cell shows 40 N, plus or minus 10 N. */
 TEST(fault, samples) {
     const wh_sample *s;
     expect_raws(NULL, 3000, 5000, 1);
@@ -587,7 +587,7 @@ TEST(fault, inputs) {
         snprintf(words, sizeof words, "%s@state=2~101ms+0.201", rows[i].words);
         run_with(words, &ill);
         for (int read = 1; read <= READS; read++) {
-            /* the two hundredth orders go at 0.398 s: from the reading at 0.500 s to that at 0.702 s */
+            /* the 200th orders are sent at 0.398 s; the fault acts from the reading at 0.500 s to that at 0.702 s */
             const double at_s = read * 2e-3;
             const bool broken = at_s > 0.499 && at_s < 0.701;
             for (int in = 0; in < INPUTS; in++) {
@@ -619,7 +619,7 @@ TEST(fault, orders) {
                      ill.orders[300].watchdog_ticks == 77 && ill.orders[450].watchdog_ticks == 0);
 }
 
-/* Orders lost on the line leave the outputs unchanged; the next request keeps its time. */
+/* If orders are lost on the line, the outputs keep their values. The next request comes at its usual time. */
 TEST(fault, line) {
     int lost = 0;
     run_with("orders-lost=0.5", &ill);
@@ -633,7 +633,7 @@ TEST(fault, line) {
     }
     TEST_ASSERT_INT_WITHIN(60, READS / 2, lost);
     run_with("orders-lost=1",
-             &ill); /* lost from the first on: the outputs exist and were never set */
+             &ill); /* all orders are lost, so the outputs exist but were never set */
     for (int i = 1; i <= READS; i++) {
         TEST_ASSERT_EQUAL_UINT(2, ill.orders[i].outputs);
         TEST_ASSERT_TRUE(ill.orders[i].output[0] == 0.0f && ill.orders[i].output[1] == 0.0f);

@@ -74,7 +74,7 @@ static int edges_until(double until_s, double *at_s, int most) {
     return count;
 }
 
-/* Once a turn the angle enters the range, at the lower end going up, at the upper end going down. */
+/* Once a turn the angle enters the range: at the lower end if it increases, at the upper end if it decreases. */
 TEST(plant, edges_of_an_angle) {
     uint64_t seed = 1;
     for (int round = 0; round < 60; round++) {
@@ -145,7 +145,7 @@ TEST(plant, jitter) {
         sum += off;
         squares += off * off;
     }
-    /* of 159: the mean within four of its own deviations, the deviation within three and a half */
+    /* of 159 edges: mean within four standard errors, standard deviation within three and a half */
     TEST_ASSERT_TRUE(fabs(sum / count) < 4.0 * 20e-6 / sqrt(count));
     TEST_ASSERT_TRUE(fabs(sqrt(squares / count) / 20e-6 - 1.0) < 0.2);
 }
@@ -193,7 +193,7 @@ TEST(plant, samples) {
     }
 }
 
-/* Counts at both ends of a range must fit 32 bits. An accepted range reaches both ends exactly. */
+/* Counts at both ends of a range must fit 32 bits. Samples of an accepted range reach both ends exactly. */
 TEST(plant, ranges) {
     const plant_wish wish = {.seed = 1};
     uint64_t seed = 3;
@@ -238,7 +238,7 @@ TEST(plant, ranges) {
     TEST_ASSERT_TRUE(taken > 20 && taken < 80);
 }
 
-/* Beyond a reading's capacity the newest are lost and counted. */
+/* If there are more edges than a reading can hold, the newest are lost and counted. */
 TEST(plant, too_many) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
@@ -269,7 +269,7 @@ static void add_push(void) {
         .kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "N", .low = -2.0F, .high = 2.0F});
 }
 
-/* A delayed push of 1 N leaves 1 kg slower by the delay: whole steps, or up to the next step. */
+/* A push of 1 N that arrives late leaves 1 kg slower by the delay, which lasts whole steps or up to the next step. */
 TEST(plant, late_orders) {
     for (int late = 0; late <= 1000; late += 125) {
         const plant_wish wish = {.seed = 1};
@@ -316,7 +316,7 @@ TEST(plant, held_orders) {
     }
 }
 
-/* Alive only at 0: after 10 ms and a step the push ends for good, and the report says so. */
+/* The watchdog is kicked only at time 0. After 10 ms and a step the push ends for good, and the report says so. */
 TEST(plant, watchdog) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;

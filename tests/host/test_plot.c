@@ -88,7 +88,7 @@ static void mix(dice *d, char *text, size_t size) {
     strcat(text, "z");
 }
 
-/* As in XML, with a blank for a control character. */
+/* Text as in XML, with a blank in place of a control character. */
 static void escaped(const char *text, char *to) {
     for (; *text != '\0'; text++) {
         const unsigned char code = (unsigned char)*text;
@@ -103,7 +103,7 @@ static void escaped(const char *text, char *to) {
     *to = '\0';
 }
 
-/* The picture after its alternative text, without tags and without the split of "]]>". */
+/* The picture after its alternative text, without tags; the split of "]]>" is undone. */
 static char *shown(void) {
     FILE *in = fopen(PICTURE, "rb");
     TEST_ASSERT_NOT_NULL(in);
@@ -275,7 +275,7 @@ TEST(envelope, short_runs_are_kept_number_by_number) {
     }
 }
 
-/* Steps per bucket: the least power of two for which all fit. */
+/* Steps per bucket: the least power of two for which all steps fit. */
 static unsigned size_of(unsigned steps) {
     unsigned size = 1;
     while ((uint64_t)size * DECIMATION_ROOM < steps) {

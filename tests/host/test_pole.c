@@ -16,7 +16,7 @@ typedef struct drawn {
     int zeros;
     double side;
     double beside; /* added constant */
-    bool touches;  /* the function that marks the place is even and not written as a square */
+    bool touches;  /* the function that is zero at the pole is even, and not written as a square */
     int asked;     /* points evaluated */
 } drawn;
 
@@ -51,7 +51,7 @@ TEST(pole, powers) {
         const bool near = dice_one_of(&die, 2) == 0;
         const bool upon = !near && dice_one_of(&die, 2) == 0;
         d.zeros = (int)dice_one_of(&die, 3);
-        d.beside = near ? 0.0 : d.beside; /* next to which such a pole loses its digits */
+        d.beside = near ? 0.0 : d.beside; /* size next to which such a pole loses its digits */
         d.zero = upon   ? d.place
                  : near ? d.place + exp(dice_between(&die, -18.0, -2.0))
                         : dice_between(&die, -3.0, -1.0);
@@ -183,7 +183,7 @@ TEST(pole, what_rounding_leaves) {
     }
 }
 
-/* Touches zero at x = 0 with s = a + x; the value has a limit or a weak pole there. */
+/* A function of s = a + x that touches zero at x = 0; the value has a limit or a weak pole there. */
 static void at_touched(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double s = d->place + (share - d->zero) * d->order;
@@ -206,7 +206,7 @@ TEST(pole, what_has_no_digits) {
     }
 }
 
-/* Approaches zero and turns: y^2 + x^2, and 1 + y^2 - cos(x), which has less left above its round-off. */
+/* A function approaches zero and turns away: y^2 + x^2, or 1 + y^2 - cos(x), which has fewer digits left. */
 static void at_standing(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = (share - d->place) * d->order;

@@ -68,7 +68,7 @@ TEST(price, polynomials_take_two_operations_a_power) {
     }
 }
 
-/* By squaring: binary digits plus ones of the exponent, less two. */
+/* A power takes few products by squaring: binary digits plus ones of the exponent, less two. */
 TEST(price, powers_take_few_products) {
     for (int exponent = 2; exponent <= 64; exponent++) {
         int products = -2;
@@ -102,7 +102,7 @@ TEST(price, equal_coefficients_are_taken_out) {
     }
 }
 
-/* Nested as written: x0 (2 x1 + x2 (3 x3 + x4 (5 x5 + 7 x6))), and with another x0 in each part. */
+/* The sum x0 (2 x1 + x2 (3 x3 + x4 (5 x5 + 7 x6))) is nested again as written. Also with another x0 in each part. */
 TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*(2*x1 + 3*x2)"), 4, 0, "one factor");
     expect(price_of("x0*(2*x1 + x2*(3*x3 + 5*x4))"), 7, 0, "a factor inside");
@@ -146,7 +146,7 @@ TEST(price, sines_of_multiples_follow_from_one) {
     expect(price_of("3*cos(a - b) + 5*sin(a) + cos(b)"), 11, 2, "a difference of angles");
 }
 
-/* Powers of sines stay powers where their sums would lose digits and cost more. */
+/* Powers of sines stay powers if their expansion into sums would lose digits and cost more. */
 TEST(price, powers_of_sines_are_put_back) {
     for (int n = 1; n <= 7; n++) {
         char what[60];
@@ -192,7 +192,8 @@ static int price_of_system(int n) {
     return operations;
 }
 
-/* Up to three by Cramer's rule. Each further one by elimination: divide a column, subtract its row, substitute back. */
+/* Up to three equations are solved by Cramer's rule. Each further one costs an elimination: divide a column, subtract its
+ * row, substitute back. */
 TEST(price, equations_are_eliminated_one_by_one) {
     int last = 0; /* of three: four determinants with shared parts */
     for (int n = 1; n <= 6; n++) {
@@ -260,9 +261,9 @@ TEST(price, decimals_cost_nothing) {
 }
 
 /* === price control ============================================================================ */
-/* y' = linear y + square y^2, over two spans: its solution, and how many steps of `columns` rules are tried for it. They grow by
- * at most 3, shrink by at most 5, aim at 0.9 of the tolerance, and leave no remainder shorter than half a step. At a pole none is
- * small enough. */
+/* y' = linear y + square y^2 over two spans: its solution, and the number of steps tried by `columns` rules. Steps grow by at
+ * most 3 and shrink by at most 5. They aim at 0.9 of the tolerance and leave no remainder below half a step. At a pole no
+ * step is small enough. */
 TEST(price_control, steps_of_one_equation) {
     static const struct {
         double linear, square, start;
@@ -399,7 +400,7 @@ static bool none_longer(const setting *s, double step_s) {
     return step_s <= longest_s;
 }
 
-/* Fixed point asks three times for a step a tenth as long. */
+/* A trial in fixed point asks three times for a step a tenth as long. */
 TEST(price_dearest, finer_steps_are_asked_for) {
     static const struct {
         deviation_pace from;
@@ -449,7 +450,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
     }
 }
 
-/* Finding ranges needs a run, so it is skipped if the finer step's takes too long. */
+/* To find ranges needs a run, so a finer step is skipped if its run would take too long. */
 TEST(price_dearest, no_finer_step_than_may_be_planned) {
     const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
     priced p;
@@ -463,12 +464,13 @@ TEST(price_dearest, no_finer_step_than_may_be_planned) {
     bool own;
     (void)trial_any_cost(&p.trial, &in_fixed, (deviation_pace){1, 50}, &own);
     TEST_ASSERT_FALSE(own);
-    TEST_ASSERT_EQUAL_INT(4, p.asked - asked); /* the next is asked before its cost is known */
+    /* the next finer step is requested before its cost is known */
+    TEST_ASSERT_EQUAL_INT(4, p.asked - asked);
     priced_close(&p);
 }
 
-/* A matrix whose step is too long has the price at the scene's step. Without a matrix the setting is not the scene's
- * own. */
+/* If a matrix's step is too long, it has the price at the scene's step. If there is no matrix, the setting is not one of the
+ * scene's own. */
 static bool no_long_matrix(const setting *s, double step_s) {
     return s->image.matrix == MATRIX_NONE || step_s < longest_s;
 }

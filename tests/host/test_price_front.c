@@ -25,7 +25,7 @@ static bool comes_before(const table_row *a, const table_row *b) {
              (a->result.error == b->result.error && a->pace.steps < b->pace.steps)));
 }
 
-/* Does a dominate b: no dearer, no less accurate, and, if equal, earlier? */
+/* Does a dominate b? It must be no dearer and no less accurate; of two equal rows, the earlier one dominates. */
 static bool beats(const table_row *a, const table_row *b) {
     return a->price.value <= b->price.value && a->result.error <= b->result.error &&
            (a->price.value < b->price.value || a->result.error < b->result.error ||
@@ -76,7 +76,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
         const double next = (double)p.records / (double)p.steps;
         TEST_ASSERT_TRUE(p.records == 1 || p.steps == 1);
         TEST_ASSERT_TRUE(p.records != 0 && p.steps != 0);
-        /* from 1 and 10, half; from 5, two fifths; from 2, half */
+        /* the next shorter step: half of 1, 2 and 10, two fifths of 5 */
         const double digit = length / pow(10.0, floor(log10(length * 1.000001)));
         const double part = digit > 4.0 && digit < 6.0 ? 0.4 : 0.5;
         TEST_ASSERT_TRUE(fabs(next / (length * part) - 1.0) < 1e-9);
@@ -88,7 +88,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     TEST_ASSERT_TRUE(table_pace(&w, 28, &p) && p.steps == 50000000);
 }
 
-/* With a rate: rising numbers of steps per several records, including all of 1 to 10. */
+/* With a record rate: rising numbers of steps for one or several records, including all of 1 to 10. */
 TEST(price_front, substeps_rise_as_they_are_told) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_wish w = {.rate_Hz = 7.0, .periods = periods};
@@ -241,7 +241,7 @@ TEST(price_measured, steps_are_counted_and_kept) {
             ("mps2-an386 fixed a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.005 "
              "--until 0.4\n")};
         TEST_ASSERT_EQUAL_STRING(asked[n], tree_taken("asked"));
-        /* a price that varies with the step belongs to this one only */
+        /* a price that varies with the step applies to this step only */
         const bool varies = s->number == &engine_fixed;
         int counted = 0;
         for (int i = 0; i < 2; i++) {
@@ -306,7 +306,7 @@ static void expect_most(double each_least, double each_most, double most, cost_b
     TEST_ASSERT_TRUE(f->value == (basis == COST_RANGE ? 0.0 : most));
 }
 
-/* Maximum of each column over the places, sum of their steps, and bounds if each place has one. */
+/* For the places together: the maximum of each column, the sum of their steps, and bounds if every place has one. */
 TEST(price_measured, whole_runs_are_the_most_of_all_places) {
     static const char *const files[] = {"row0", "row1", "row2"};
     static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
@@ -386,7 +386,7 @@ static void count_progress(void *context, int done, int of) {
     ++*(int *)context;
 }
 
-/* Predictions are 100, 200, ...; counted, the first costs more than all. Refused rows are removed. */
+/* The predictions are 100, 200, ...; when counted, the first costs more than all others. Refused rows are removed. */
 TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
     priced p;
     priced_open(&p, springs, 1);
@@ -444,7 +444,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
 
 /* --- choices -----------------------------------------------------------------------------------------------*/
 
-/* Prices of six settings by three steps. Counting only the answers gives the same choice as counting all, if no
+/* Six settings by three steps have prices. Counting only the chosen rows gives the same choice as counting all, if no
  * prediction is too high. */
 TEST(price_measured, choices_are_as_if_all_was_counted) {
     dice d = dice_of("price_measured choices", 23);
@@ -575,7 +575,7 @@ TEST(price_motion, decays_end_where_they_should) {
                 const double each = of.image->list[IMAGE_STEP]->count * (1.0 + columns * columns);
                 TEST_ASSERT_TRUE(took >= 2.0 * each &&
                                  fabs(took / each - floor(took / each + 0.5)) < 1e-9);
-                /* step length by the power of the order less one */
+                /* a step's length changes by the power of the order less one */
                 const double finer = pow(tolerance, -1.0 / (2.0 * columns - 1.0));
                 TEST_ASSERT_TRUE(took <= each * (4.0 + 0.25 * (0.3 + rate) * finer));
                 before = took;
@@ -586,8 +586,7 @@ TEST(price_motion, decays_end_where_they_should) {
     }
 }
 
-/* One step of y' = -y is a rational function of the step. Each further rule makes two more terms of its power series
- * right. */
+/* One step of y' = -y is a rational function of the step. Each further rule makes two more terms of its power series correct. */
 TEST(price_motion, a_step_is_of_twice_its_columns_order) {
     for (int columns = 2; columns <= 5; columns++) {
         double off[2];
@@ -633,7 +632,7 @@ TEST(price_motion, poles_and_limits_end_it) {
 
 /* --- fine steps ------------------------------------------------------------------------------------------*/
 
-/* A sixteenth of the scene's step, rounded to an even count, unless that needs too many operations. */
+/* The fine step is a sixteenth of the scene's, rounded to an even count, unless that needs too many operations. */
 TEST(price_motion, fine_steps_are_as_fine_as_they_may) {
     dice d = dice_of("price_motion steps", 92);
     derived of = derived_scene(spring, "s");
@@ -817,7 +816,7 @@ TEST(price_motion, the_step_with_most_evaluations_is_told) {
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                           (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
-    /* each of 19 records evaluates the accelerations once more, and the first the contacts: a cost, but not the steps' */
+    /* each of 19 records evaluates the accelerations once more, and the first one the contacts; the steps do not cost that */
     const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
     TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);

@@ -12,8 +12,8 @@
 
 /* === price settings =========================================================================== */
 
-/* Three numbers by every method, with sines rotated, looked up, in one of six tables, or in one of two matrices. Also
- * fixed point. */
+/* Three number formats by every method; sines are rotated, looked up or in one of six tables, or the step is one of two
+ * matrices. Also fixed point. */
 TEST(price_settings, there_are_all_and_each_once) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
@@ -140,7 +140,7 @@ TEST(price_settings, a_setting_is_its_own_where_it_is_taken) {
             const int takes = wh_methods[s.image.method].takes;
             const bool taken = takes == WH_ANY_SYSTEM ||
                                (row->second && (takes == WH_SECOND_ORDER_ONLY || !row->rates));
-            /* leapfrog's stage is not at the start and the plain method looks up: no pairs to rotate */
+            /* leapfrog has no stage at the start, and the plain method looks sines up: there are no pairs to rotate */
             const bool turns =
                 row->turns && s.image.method != WH_LEAPFROG && s.image.method != WH_RK4_PLAIN;
             const bool expected = taken && (turns || s.image.angles == ANGLES_TURNED);
@@ -261,7 +261,7 @@ TEST(price_states, fine_steps_keep_what_is_rounded_off) {
     derived_free(&d);
 }
 
-/* y' = y^2 from 1/t ends at t: the records end before. */
+/* y' = y^2 from 1/t ends at t, so the records end before t. */
 TEST(price_states, fine_steps_end_with_the_motion) {
     for (int tenths = 2; tenths <= 9; tenths++) {
         char text[300];
@@ -335,7 +335,7 @@ static const kind_row kind_rows[] = {
      REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8,
      REFERENCE_EXTRAPOLATED, 20, 20, NULL, NULL},
-    /* with a contact, and a jump that no short step passes */
+    /* a scene with a contact, and one with a jump that no short step passes */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
      "stop x >= 0 [m] restitution 0.5\n" SCENE("start x = 0.5 [m];"),
      1e7, REFERENCE_FINE_STEPS, 1, 20, "rk4 in double with compensated sums", ""},
@@ -379,7 +379,7 @@ TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
     reference_free(NULL);
 }
 
-/* Round-off bounds the slope of a root at zero by nothing; errors must still be relative to the values. */
+/* A root at zero has an unbounded slope, so its round-off has no bound. Errors must still be relative to the values. */
 TEST(price_states, a_root_at_zero_does_not_hide_errors) {
     dice d = dice_of("price_states", 451);
     for (int n = 0; n < 6; n++) {
@@ -449,7 +449,7 @@ static uint64_t drawn_up_to(dice *d, unsigned bits) {
                    ((UINT64_C(1) << (1U + dice_one_of(d, bits))) - 1U);
 }
 
-/* spacing * records / steps in lowest terms, or the nearest double if 64 bits do not suffice. */
+/* The step is spacing * records / steps in lowest terms, or the nearest double if 64 bits do not suffice. */
 TEST(price_trials, steps_are_exact) {
     dice d = dice_of("price_trials steps", 11);
     int exact = 0;
@@ -485,7 +485,7 @@ TEST(price_trials, steps_are_exact) {
     TEST_ASSERT_TRUE(exact > 300 && rounded > 30);
 }
 
-/* No shorter decimal is the same fraction. */
+/* No shorter decimal must be the same fraction. */
 TEST(price_trials, times_have_as_few_digits_as_they_can) {
     dice d = dice_of("price_trials times", 12);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {

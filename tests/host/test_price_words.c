@@ -21,7 +21,7 @@ static void begin(priced *p, const char *const *texts, int points, const char *o
 
 /* --- printed ---------------------------------------------------------------------------------------------*/
 
-/* From `from` on, without the lines that tell the digits of long double. */
+/* The output from `from` on, without lines that depend on the digits of long double. */
 static void copy_text(FILE *out, const char *name, int n, char *text, const char *from) {
     fprintf(out, "=== %s %d\n", name, n);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, from), from);
@@ -152,7 +152,7 @@ static void print_answers(FILE *out) {
     }
 }
 
-/* Which of the four rows that would fit are there. */
+/* Which of four rows, all of which meet the limits, are in the table. */
 static void print_remedies(FILE *out) {
     static const unsigned there[] = {15, 14, 13, 11, 9, 8, 0, 4};
     for (int n = 0; n < 8; n++) {

@@ -146,7 +146,7 @@ TEST(prove_drawn, drawn_arms) {
         to_the_end += end == CONTAINMENT_AT_END ? 1 : 0;
         widest = fmax(widest, b.widest);
         nearest = fmin(nearest, b.nearest);
-        /* a shorter scene: the wrong coefficient shows soon or not at all */
+        /* a shorter scene suffices: the wrong coefficient shows soon or not at all */
         char *until = strstr(d.text, "until ");
         snprintf(until, sizeof d.text - (size_t)(until - d.text), "until 0.03 [s] }\n");
         const double sign = k % 2 == 0 ? 1.0 : -1.0;

@@ -80,7 +80,7 @@ typedef struct drawn_axis {
     bool is_log;
 } drawn_axis;
 
-/* Appends its text to the grid, with 17 digits, which are exact. */
+/* Appends an axis to the grid as text, with 17 digits, which are exact. */
 static void add_axis(drawn_axis *a) {
     char text[200];
     const double sign = names[a->name].column[1] == 't' ? 1.0 : dice_one_of(&die, 2) - 0.5;
@@ -139,7 +139,7 @@ static void expect_point(const drawn_axis *axes, int count, uint64_t point, cons
     TEST_ASSERT_EQUAL_UINT64(0, rest);
 }
 
-/* A point's changes: each number to the bit, the rest as on the command line. */
+/* A point's changes: each swept number to the bit, the others as on the command line. */
 static void expect_changes(const drawn_axis *axes, int count, uint64_t point, const double *value) {
     static const char *const sets[] = {"mm=7"};
     static const char *const old[] = {"M=8", "M=9"};
@@ -588,7 +588,7 @@ static void close_folder(void) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, rmdir(folder), "something else was left there");
 }
 
-/* No file, or an empty one of any owner. */
+/* A session starts if there is no file or an empty one, whoever made it. */
 TEST(sheet, begun) {
     open_folder();
     for (int c = 0; c < 8; c++) {
@@ -603,7 +603,7 @@ TEST(sheet, begun) {
     close_folder();
 }
 
-/* Truncated anywhere, mostly near line ends. */
+/* A file is resumed after it was truncated at any byte, mostly near line ends. */
 TEST(sheet, gone_on_with) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(5, 3)); c++) {
@@ -639,7 +639,7 @@ TEST(sheet, fresh) {
     close_folder();
 }
 
-/* One changed byte in any row makes it another sweep's file. */
+/* If one byte of any row has changed, the file counts as that of another sweep. */
 TEST(sheet, rows_of_others) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
@@ -748,7 +748,7 @@ TEST(sheet, locked) {
     close_folder();
 }
 
-/* No such folder; a device that is full at the start or the end. */
+/* The file cannot be written: its folder is missing, or a device is full at the start or at the end. */
 TEST(sheet, not_written) {
     resumable_csv sh;
     open_folder();

@@ -119,7 +119,8 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
         errors_of(m, error, 2);
         TEST_ASSERT_EQUAL_INT(k < 2 ? 1 : 2, rank_of(m, error, 2, symmetric));
     }
-    for (int k = 0; k < 4; k++) { /* n times the largest error, scaled as its entry */
+    for (int k = 0; k < 4; k++) {
+        /* n times the largest error of an entry, in the units of that entry */
         const double size = k % 2 == 0 ? 1.0 : 0x1p80;
         const bool blurred = k >= 2;
         double m[4] = {2.0 * size, size, size, 2.0 * size}; /* pivots 2 and 1.5 */
@@ -132,7 +133,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
     TEST_ASSERT_EQUAL_INT(0, rank_of(none, error, 2, false));
 }
 
-/* B Bt + I has all eigenvalues above 0; reducing one row and column too much makes one negative. */
+/* All eigenvalues of B Bt + I are above 0. Reducing one row and its column too much makes one of them negative. */
 TEST(rank, what_is_positive_definite) {
     uint64_t seed = 23;
     for (int round = 0; round < 1000; round++) {
@@ -744,7 +745,7 @@ TEST(underivable, expressions_that_explode_are_refused) {
                              "T = 1 [kg*m^2]*(x'^2 + y'^2)\noutput o = a40\n");
     expect_refused(doubled, "error: the equations of 'm' grow beyond what can be handled");
     free(doubled);
-    /* each unknown less deep lets the algebra get further */
+    /* with each unknown at a smaller depth the algebra gets further */
     for (int deep = 4; deep < 12; deep++) {
         char end[96];
         snprintf(end, sizeof end, "T = 1 [kg*m^2]*(x'^2 + y'^2)*(1 + a%d^2)\n", deep);

@@ -58,7 +58,7 @@ static bool read_rows(const char *text, const char *number, told *t) {
     return true;
 }
 
-/* Largest deviation of a run: of one state, or (-1) of the worst relative to its largest value. */
+/* Largest deviation of a run: of one state or, for -1, of the worst state relative to its largest value. */
 static double error_of(const rated *r, double step_s, double spacing_s, int records,
                        const long double *row, int state) {
     char step[40];
@@ -311,7 +311,7 @@ static void test_rows_are_those_of_price(void) {
     TEST_ASSERT_TRUE(found >= cases);
 }
 
-/* Of the first coordinate, at the end of every step. */
+/* Value of the first coordinate at the end of every step. */
 static double coordinate_error(const rated *r, double step_s, double until_s) {
     const int records = (int)(until_s / step_s * (1.0 + 1e-9));
     rated of = *r;
@@ -322,7 +322,7 @@ static double coordinate_error(const rated *r, double step_s, double until_s) {
     return error;
 }
 
-/* The chosen step meets the error and twice the step does not, or the run says that longer ones are not tried. */
+/* The chosen step meets the error and twice that step does not, unless the run says that it tries no longer steps. */
 static bool check_chosen(dice *d, const rated *r) {
     static const char *const names[] = {"q0", "x", "a", "r"};
     static said what;

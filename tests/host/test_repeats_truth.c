@@ -57,14 +57,16 @@ static void draw_error(error kind) {
 }
 
 typedef struct tally {
-    unsigned off;    /* error above an uncalibrated bench's interval plus 1 % */
-    unsigned lies;   /* marked good although the error is visible */
-    unsigned hidden; /* and invisible: docs/rig.md, errors that a good result can hide */
-    unsigned seen;   /* with almost no noise the error is above 1.5 times the limit with it */
+    unsigned off;  /* error above an uncalibrated bench's interval plus 1 % */
+    unsigned lies; /* marked good although the error is visible */
+    /* such an error that no run can show (docs/rig.md, errors that a good result can hide) */
+    unsigned hidden;
+    /* with almost no noise, the error is above 1.5 times the limit that holds with noise */
+    unsigned seen;
     unsigned missed;
 } tally;
 
-/* Compared with the orbit's truth. A torque turns the rotor itself, so the truth contains it. */
+/* Errors are measured from the orbit's truth. A torque turns the rotor itself, so the truth contains its effect. */
 static void judge(const wh_measured *measured, tally *found) {
     const double amplitude_N = fabs((double)measured->amplitude_N - orbit.amplitude_N);
     const double phase_rad = fabs((double)measured->phase_rad - orbit.phase_rad);
@@ -158,7 +160,7 @@ static void check_healthy(uint64_t seed, unsigned slower) {
 
 TEST(repeats_truth, healthy_benches_are_good) { check_healthy(UINT64_C(0x5eed0a35), 1U); }
 
-/* A sample every 8 ms, as on an ATmega2560: 21 a turn at 360 rpm. */
+/* A sample every 8 ms, as on an ATmega2560, gives 21 samples a turn at 360 rpm. */
 TEST(repeats_truth, healthy_benches_with_few_samples_are_good) {
     check_healthy(UINT64_C(0x5eed0a36), 4U);
 }

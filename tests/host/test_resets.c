@@ -28,8 +28,9 @@ static const wh_hello hello = {.program = "bench",
                                .signals = sizeof signals / sizeof signals[0]};
 
 typedef struct heard {
-    double edge_s[EDGES_MAX];  /* as reported */
-    double stamp_s[EDGES_MAX]; /* and its stamp, by a timer that starts at 0 with the processor */
+    double edge_s[EDGES_MAX]; /* as reported */
+    /* its time stamp, from a timer that starts at 0 with the processor */
+    double stamp_s[EDGES_MAX];
     int edges;
     double reset_s[RESETS_MAX];
     double again_s[RESETS_MAX];
@@ -58,7 +59,7 @@ static void go_on(plant *on, double until_ticks) {
     } while (!plant_has_reached(on, until_ticks));
 }
 
-/* The i-th orders push with i. The note `state` goes from 0 to 1 with the hundredth, and so on. */
+/* The i-th orders push with force i. The note `state` becomes 1 with the 100th orders, and so on. */
 static void run_with(const char *words) {
     motion bench;
     plant on;

@@ -77,7 +77,7 @@ static double whole_error(const char *name, const char *start, double until_s, d
 
 enum { STARTS = 9 };
 
-/* The median of starts that differ by up to 4e-5 rad: chaos amplifies 2e4-fold, so a single run is luck. */
+/* The median error for starts that differ by up to 4e-5 rad. Chaos amplifies a change 2e4-fold, so a single run is luck. */
 static double middle_error(const char *name, double until_s, double step_s) {
     double error[STARTS];
     for (int i = 0; i < STARTS; i++) {
@@ -174,7 +174,7 @@ static double rms_of_float(double step_s, bool compensated) {
     return sqrt(sum / RUNS);
 }
 
-/* 64 times as many steps: a random walk goes 8 times as far. */
+/* With 64 times as many steps a random walk goes 8 times as far. */
 TEST(rounding, small_steps_cost_plain_sums_precision_only) {
     const double coarse = rms_of_float(4e-3, false);
     const double fine = rms_of_float(62.5e-6, false);

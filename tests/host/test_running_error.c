@@ -67,7 +67,7 @@ static bool takes_one(const op *o) {
            op_rows[o->code].kind == OP_IS_WAVE || op_rows[o->code].kind == OP_IS_CALL;
 }
 
-/* False: a value is undefined, large, or near a jump of its slope. */
+/* False if a value is undefined, large, or near a jump of its slope. */
 static bool compute(drawn_list *l) {
     for (int i = 0; i < l->list->count; i++) {
         const op *o = &l->list->ops[i];
@@ -86,7 +86,7 @@ static bool compute(drawn_list *l) {
     return true;
 }
 
-/* Size of the slope by the first or second operand: a difference over this part of it. */
+/* Size of the slope by the first or second operand, from a difference over this part of the operand. */
 static double slope(const drawn_list *l, const op *o, double x, double y, bool second,
                     double part) {
     const double step = part * fmax(1e-3, fabs(second ? y : x));
@@ -204,7 +204,7 @@ TEST(running_error, drawn_lists) {
             rounding_of(l.list, &at, got);
             for (int i = 0; i < 4; i++) {
                 const double error = wanted[l.list->result[i]];
-                /* else the difference reaches a sharp bend or the end of a function */
+                /* otherwise the difference would reach a sharp bend or the end of a function's range */
                 if (fabs(coarser[l.list->result[i]] - error) < 1e-4 * error) {
                     TEST_ASSERT_DOUBLE_WITHIN(1e-3 * error, error, got[i]);
                     held++;
@@ -244,7 +244,7 @@ TEST(running_error, nothing_is_off_by_nothing) {
     op_list_free(t);
 }
 
-/* z/(x*y): a product above float's largest number destroys the quotient; double holds it. */
+/* In z/(x*y) a product above float's largest number destroys the quotient. Double holds the product. */
 TEST(running_error, what_is_beyond_float) {
     dice d = dice_of("running_error", 2316);
     op_list *t = op_list_new(0, 1);
@@ -273,7 +273,7 @@ TEST(running_error, what_is_beyond_float) {
     op_list_free(t);
 }
 
-/* An infinite bound stays infinite after a division: z/(y + sqrt(x + w)) with a root at zero. */
+/* An infinite bound stays infinite after a division: z/(y + sqrt(x + w)), where x + w is zero. */
 TEST(running_error, no_bound_stays_none) {
     dice d = dice_of("running_error", 2317);
     op_list *t = op_list_new(0, 1);

@@ -265,7 +265,7 @@ TEST(show, mechanisms_are_read_back_as_printed) {
     TEST_ASSERT_TRUE(compared > wanted);
 }
 
-/* q, n, and the lets below: a0 = q to a13, g. */
+/* Names: q, n, and the lets below, a0 = q to a13, g. */
 static double q_or_n(void *context, const char *name, int length) {
     const state_values *s = context;
     const double q = s->value[0][0];
@@ -281,8 +281,8 @@ static double q_or_n(void *context, const char *name, int length) {
                           : n;
 }
 
-/* Factored, this right side would contain the expanded square of a large sum, which overflows. Once the print lacked
- * the overflowed part. */
+/* When factored, this right side would contain the expanded square of a large sum, which overflows. A former version printed
+ * it without that part. */
 TEST(show, printing_outlives_an_overflow) {
     char *source_text =
         repeated("mechanism m\ncoordinate q\nparameter n = 0.1\nlet a0 = q\n",

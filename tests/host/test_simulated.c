@@ -219,7 +219,7 @@ TEST(simulated, summary_repeats) {
     end();
 }
 
-/* The interrupt is checked before each step; the rows end there. */
+/* An interrupt is checked before each step. The rows end with the step before it. */
 TEST(simulated, interrupted) {
     char text[500];
     begin();

@@ -14,7 +14,7 @@ static rig_orbit orbit;
 typedef struct tally {
     unsigned good;
     unsigned doubted;   /* because of the swing */
-    unsigned lies;      /* marked good, with an error above the interval plus 1 % */
+    unsigned lies;      /* results marked good, with an error above the interval plus 1 % */
     unsigned prevented; /* doubted, with such an error */
     double said_rad;    /* sum of the reported loads */
     double phase_rad;   /* sum of the phase errors */

@@ -39,8 +39,8 @@ static stepping in_float(wh_method method, bool compensated, double step_s) {
 static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                             "scene s { start a = %.17g, a' = %.17g [rad/s] }\n";
 
-/* The error of the angle decides, with an allowance for round-off of rates and constants, and for a larger error
- * before the end. */
+/* The warning depends on the angle's error. Round-off of rates and constants is allowed for, and so is a larger error before
+ * the end. */
 TEST(slow_angles, slow_rates_are_told_and_others_are_not) {
     const char *wanted = getenv("WH_SLOW");
     const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;
@@ -135,7 +135,7 @@ TEST(slow_angles, of_other_motions_those_that_are_false) {
     }
 }
 
-/* In a step with events some tries are discarded; only accepted ones count. A second body crosses a point every third
+/* In a step with events some tries are discarded, and only accepted tries count. A second body crosses a point every third
  * step, which must change nothing. */
 TEST(slow_angles, steps_with_events_count_once) {
     static const char text[] = "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"

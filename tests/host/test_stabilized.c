@@ -204,7 +204,7 @@ static double way_off(const char *text, const chain *c, stepping how, double end
     return most;
 }
 
-/* In a driven and damped motion with a right energy balance, the error is about the same with and without. */
+/* The motion is driven and damped, and its energy balance is right. With and without --stabilized the error is about the same. */
 TEST(stabilized, motion_is_left_alone) {
     dice d = dice_of("stabilized motions", 20261129);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 80)), 4);
@@ -284,8 +284,8 @@ TEST(stabilized, coarse_steps_are_told) {
     }
 }
 
-/* Two masses with a slow common swing and a fast relative one, too fast for the step. Its loss is given to both, so
- * the warning must be the same as without. */
+/* Two masses with a slow common swing and a fast relative swing, too fast for the step. Stabilization gives the fast swing's
+ * loss to both, so the warning must be the same as without it. */
 TEST(stabilized, what_others_lost_is_told) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
@@ -315,7 +315,7 @@ TEST(stabilized, what_others_lost_is_told) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* Final distance of `name` from the run without, which is right there. */
+/* Distance of `name` at the end from the run without --stabilized, which is right there. */
 static double apart(const char *text, const char *name, stepping plain, double end_s) {
     double end[2];
     for (int way = 0; way < 2; way++) {
@@ -329,8 +329,8 @@ static double apart(const char *text, const char *name, stepping plain, double e
     return fabs(end[0] - end[1]);
 }
 
-/* A hidden swing, too fast even for half the step, loses energy into one whose period depends on energy. Second, a
- * light pendulum next to one so heavy that its last digits of energy matter to the light one. */
+/* First, a hidden swing, too fast even for half the step, loses energy, which another swing gets; its period depends on
+ * energy. Second, a light pendulum beside one so heavy that the last digits of its energy matter to the light one. */
 TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);

@@ -26,7 +26,7 @@ static unsigned times(const char *text, const char *what) {
     return count;
 }
 
-/* Line 2 + i has coordinate i, and line 10 + i its stop, at 0 m or at 1 m. */
+/* Coordinate i is in line 2 + i and its stop in line 10 + i, at 0 m or at 1 m. */
 TEST(starts, stops_that_are_passed) {
     dice d = dice_of("starts", 2316);
     unsigned refused = 0;
@@ -130,8 +130,8 @@ TEST(starts, kicks_know_no_rates) {
     }
 }
 
-/* Angles used in sines that start further than float counts turns: the report names each, at its declaration or
- * start, and no other. */
+/* An angle inside a sine starts further away than float can represent. The report names each such angle, at its declaration
+ * or start, and no other. */
 TEST(starts, angles_that_start_too_far) {
     dice d = dice_of("starts", 2317);
     for (unsigned n = few_or_all(60, 600); n > 0; n--) {

@@ -165,7 +165,7 @@ TEST(stepping, samples) {
     }
 }
 
-/* The period is the spring's, with any other measures; slow float angles count. */
+/* The period is that of the spring, whatever the other measures are. Slow float angles are counted. */
 TEST(stepping, period) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         double omega_radps;
@@ -212,7 +212,7 @@ TEST(stepping, period) {
 
 #define CLOCK "mechanism m\nstate x [s]\nequation x' = 1\n"
 
-/* Measures without samples cover the steps until the stop. */
+/* The run is interrupted: its measures cover the steps until then. */
 TEST(stepping, given_up) {
     derived longest =
         scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
@@ -370,7 +370,7 @@ static double wanted(int measure_stepping, double a, double v, double from_s, do
     case 3: return 2.0 * fmin(first, last);
     case 4: return first + last;
     case 5: return 0.5 * fabs(last - first);
-    /* mean of a parabola by chords: v^2 h^2/6 a step above the curve's */
+    /* the mean over chords of a parabola is v^2 h^2/6 above that of the curve */
     case 6:
         return (first * first + first * last + last * last) / 3.0 +
                (n > 0.0 ? v * v * 0.125 * 0.125 / 6.0 : 0.0);

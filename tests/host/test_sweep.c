@@ -53,7 +53,7 @@ TEST(sweep, last_axis_runs_fastest) {
     close_sample();
 }
 
-/* The limit is 1e12 points; an axis above it is not added. */
+/* A grid has at most 1e12 points. An axis that would exceed that is not added. */
 TEST(sweep, grids_have_an_end) {
     static const char *const axes[][3] = {{"m=1..2:1000000", "r=1..2:1000000", "M=1..2:2"},
                                           {"m=1..2:1000000000", "r=1..2:1000", "M=1..2:1000"},
@@ -241,7 +241,7 @@ TEST(sweep, measures_are_read) {
     }
 }
 
-/* A measure inside an expression is reported with its place; longer names with the same beginning are names. */
+/* A measure inside an expression is reported with its place. A longer name that begins like a measure is a name. */
 TEST(sweep, measures_inside_are_told) {
     static const char *const words[] = {"amplitude", "mean", "period"};
     static const char *const before[] = {"2*", "theta + ", "1/(3*", "sin(2) - ", "theta*mean_2 + "};

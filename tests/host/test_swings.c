@@ -220,7 +220,7 @@ static double run_with(const forced_case *c, const char *const *words, said *wha
     return off_by(c, what->out);
 }
 
-/* A right run without a warning, or a wrong one that is not trusted. Each suggested remedy is applied. */
+/* A run must be right without a warning, or wrong and not trusted. Each suggested remedy is applied. */
 static void hold_one(const forced_case *c, const char *number, const char *method, tally *t) {
     char text[900];
     char every[40];
@@ -279,7 +279,7 @@ TEST(forced_swing, other_methods) {
     hold("double", "nystroem5");
 }
 
-/* Whole turns a step, and slightly more or less: the difference aliases into a slow force. */
+/* The force makes whole turns a step, or slightly more or less. The difference aliases into a slow force. */
 TEST(forced_swing, nearly_whole_turns) {
     static const int turns[] = {1, 2, 3, 4, 5, 6, 8, 12, 16};
     static const char *const methods[] = {"rk4", "nystroem4", "nystroem5", "rk38", "heun"};

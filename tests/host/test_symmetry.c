@@ -17,15 +17,15 @@ enum {
 
 enum {
     GRAVITY = 1,  /* V, along y */
-    ANCHOR = 2,   /* V, of one x, about a point of the plane */
+    ANCHOR = 2,   /* a part of V that depends on one x alone and pulls it to a point of the plane */
     DRAG = 4,     /* F, of one y' */
-    DAMPER = 8,   /* F, between two x': inside */
+    DAMPER = 8,   /* F, between two x': no outside force */
     HAND = 16,    /* Q, an input along one x */
-    COUPLE = 32,  /* Q, an input that pushes two x apart: inside */
+    COUPLE = 32,  /* a part of Q: an input that pushes two x apart, which is no outside force */
     WALL = 64,    /* a stop of one y */
-    BUMPER = 128, /* a stop between two x: inside */
+    BUMPER = 128, /* a stop between two x: no outside force */
     CENTRE = 256, /* V, a spring from the origin: keeps rotations */
-    SLIDER = 512, /* T, of the sum of two x': a momentum has the rates of both */
+    SLIDER = 512, /* a part of T with the sum of two x', so that a momentum depends on both rates */
     KICK = 1024,  /* a crossing that sets one x' */
     PUT = 2048,   /* a crossing that sets one x */
     KINDS = 12,
@@ -100,7 +100,7 @@ static void write(const particles *p, char *text) {
 #undef ADD
 }
 
-/* Forces along the coordinates at a state: of V (its slope), and of all else. */
+/* Forces along the coordinates at a state: first those of V (its slopes), then all others. */
 static void slopes(const particles *p, const double *q, const double *v, double hand,
                    double *stored, double *force) {
     memset(stored, 0, N * sizeof *stored);
@@ -179,7 +179,7 @@ static int rank_by_hand(double *m, int rows, int columns) {
     return rank;
 }
 
-/* Coefficient of column k (A row by row, then b). */
+/* Coefficient of a symmetry's column k: first A row by row, then b. */
 static double moved(int n, int k, int i, const double *of) {
     if (k >= n * n) {
         return k - n * n == i ? 1.0 : 0.0;

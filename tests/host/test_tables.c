@@ -34,7 +34,7 @@ static image *tabled_surely(const derived *d, image_tables form, int cells) {
     return im;
 }
 
-/* One of 2^14 phases, of 2^16 in `make test`; `make tables-exhaustive` takes them all. */
+/* Samples one of 2^14 phases (one of 2^16 in `make test`); `make tables-exhaustive` takes all. */
 static int check_scene(const scene *s) {
     derived d = derived_builtin(s->name);
     derived_expect(&d, s->name);
@@ -56,7 +56,7 @@ static int check_scene(const scene *s) {
                      t->off[k]);
             TEST_ASSERT_TRUE_MESSAGE(error[0][k].worst <= error[0][k].bound, text);
             TEST_ASSERT_TRUE_MESSAGE(error[0][k].worst >= 0.7 * t->off[k], text);
-            /* six weights leave a sixth harmonic: 2/3 of (2 pi 6/256)^2/8 of its size */
+            /* with six weights a sixth harmonic has the error 2/3 (2 pi 6/256)^2/8, relative to its size */
             TEST_ASSERT_TRUE_MESSAGE(t->off[k] > 0.0 && t->off[k] < 2e-3 * t->size[k], text);
         }
         image_free(im);
@@ -69,7 +69,7 @@ TEST(tables, tables_are_as_near_as_they_say) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(9, each_builtin_scene(check_scene));
 }
 
-/* Twice the cells divide the error by 4 and by 16. */
+/* With twice the cells, the error is divided by 4 (linear) or 16 (cubic). */
 TEST(tables, errors_of_tables_fall_by_their_order) {
     derived d = derived_builtin("epicyclic_from_rest");
     for (int f = 0; f < FORMS; f++) {

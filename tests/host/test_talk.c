@@ -19,7 +19,7 @@ static void expect_same(const stream *wanted, const uint8_t *bytes, size_t lengt
     TEST_ASSERT_TRUE(memcmp(wanted->bytes, bytes, length) == 0);
 }
 
-/* The hello is requested first; everything goes to a tape; the end is answered by the same word. */
+/* The host asks for the hello first, stores everything on a tape, and answers the end with the same word. */
 TEST(talk, heard_and_kept) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         static talk t;
@@ -188,7 +188,7 @@ TEST(talk, wrong_words) {
     }
 }
 
-/* No hello, a malformed one, or one without a clock: the line is closed. Stale words before a good one are ignored. */
+/* A missing or malformed hello, or one without a clock, closes the line. Stale words before a good hello are ignored. */
 TEST(talk, hellos) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
@@ -245,7 +245,7 @@ TEST(talk, interrupted) {
     }
 }
 
-/* A program instead of a line: missing, or silent. */
+/* The firmware is a program: one that is missing, and one that is silent. */
 TEST(talk, programs) {
     static const char *const programs[] = {"/nowhere/at all", "/bin/true"};
     static const char *const words[] = {
@@ -281,7 +281,7 @@ TEST(talk, no_reset) {
     talk_close_line(&heard);
 }
 
-/* Every relevant field of a hello makes it different; the name and counts do not. */
+/* A change of any relevant field makes a hello a different one. The name and the counts are not relevant. */
 TEST(talk, same_hello) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
         wh_signal signal[WH_SIGNALS_MAX];
@@ -413,7 +413,7 @@ static const wh_readings heard = {
     .sample = {{.ticks = UINT32_MAX - 2U, .raw = -3, .channel = 0},
                {.raw = 5, .channel = 0, .status = WH_SAMPLE_DISCONNECTED}}};
 
-/* Any order in the hello: there is one of each kind. */
+/* The signals may have any order in the hello; here there is one of each kind. */
 static void test_rows(void) {
     static const char *const wanted = "time,heard,kind,channel,signal,value,unit,status\n"
                                       "-0.003,0.000,sample,1,load,-1.5,N,good\n"

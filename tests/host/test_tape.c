@@ -340,7 +340,7 @@ TEST(tape_entered, powers_take_few_products) {
     }
 }
 
-/* Only integers in the range of int. */
+/* Phases are multiplied only by integers in the range of int. */
 TEST(tape_entered, what_turns_a_phase) {
     static const double whole[] = {0.0, 1.0, -3.0, 2147483647.0, -2147483647.0};
     static const double not_whole[] = {0.5, -1e-9, 2147483648.0, -2147483648.0, 1e300, 3.0000001};
@@ -407,7 +407,7 @@ TEST(tape_freed, a_constants_error_is_the_results) {
             int leaf = -1;
             int reads = -1;
             switch (dice_one_of(&die, angles == 2 ? 4 : 3)) {
-            case 0: /* the rate of a result counts as reading it */
+            case 0: /* a result whose rate is used counts as read */
                 leaf = op_list_leaf(t, OP_RATE, k);
                 reads = k;
                 break;
@@ -470,7 +470,8 @@ TEST(tape_freed, errors_go_through_operations) {
     for (unsigned what = 0; what < 12; what++) {
         for (int tries = 0; tries < 10; tries++) {
             const double number =
-                decimal() / 10.0; /* times an input, from 1 to 3: no more than 3 */
+                /* multiplied by an input from 1 to 3, the error is at most 3 times as large */
+                decimal() / 10.0;
             const double off = fabs((double)(float)number / number - 1.0);
             op_list *t = op_list_new(0, 1);
             const int x =
@@ -478,7 +479,7 @@ TEST(tape_freed, errors_go_through_operations) {
             t->result[0] =
                 made_of(t, what == 10 ? op_list_mul(t, op_list_constant(t, 0.5), x) : x, what);
             const double bias = op_list_bias(t, t);
-            /* three and two times the number, each with its half unit, stand for it once */
+            /* the number times three and times two, each rounded by half a unit, count once */
             TEST_ASSERT_TRUE(bias <= 5.0 * 0x1p-24 && bias >= 0.0);
             if (what != 2 && what != 9 && what != 4 && what != 5) {
                 const double wanted =
@@ -583,7 +584,7 @@ static int without_raw(const op_list_freedoms *f) {
     return count;
 }
 
-/* For free numerators and denominators each quotient has one freedom, and a root half of it. */
+/* If numerators and denominators are free, each quotient has one freedom; a root of it has half. */
 TEST(tape_freed, a_quotient_has_one_freedom) {
     for (unsigned c = 0; c < dice_cases(60); c++) {
         const int quotients = 1 + (int)dice_one_of(&die, 4);
@@ -617,7 +618,7 @@ TEST(tape_freed, a_quotient_has_one_freedom) {
     }
 }
 
-/* Raw leaves in the sums are multiplied: up to two are accepted, three are not. */
+/* Leaves without constants in the sums must be multiplied: up to two are accepted, three are not. */
 TEST(tape_freed, few_raw_values_are_multiplied) {
     for (int raws = 0; raws <= 3; raws++) {
         for (int in_denominator = 0; in_denominator < 2; in_denominator++) {
@@ -878,7 +879,7 @@ TEST(tape_gauged, constants_vanish) {
     }
 }
 
-/* Up to 250 operations, including constants and leaves. */
+/* Lists of up to 250 operations, with constants and leaves, are searched. */
 TEST(tape_gauged, long_lists_are_left_alone) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;
@@ -899,7 +900,7 @@ TEST(tape_gauged, long_lists_are_left_alone) {
     }
 }
 
-/* One operation more, and one for each forty. */
+/* A better list may cost one operation more, and one for every forty. */
 TEST(tape_gauged, what_a_better_list_may_cost) {
     op_list *t = op_list_new(0, 1);
     int sum = op_list_leaf(t, OP_INPUT, 0);

@@ -15,7 +15,8 @@ static double decimal(uint64_t *seed) {
     return digits / (random_bits(seed) % 2 == 0 ? 100.0 : 1000.0);
 }
 
-/* An epicyclic gear on a carriage, a driven pendulum on one, a pendulum of two links, one on a carriage. */
+/* Scenes: an epicyclic gear on a carriage, a driven pendulum on a carriage, a pendulum of two links, one pendulum on a
+ * carriage. */
 static void write_decimal(unsigned kind, uint64_t *seed, char text[TEXT]) {
     static const char *const bodies[] = {
         "coordinate a [rad]\ncoordinate X [m]\ninput M = 2 [N*m]\n"

@@ -129,7 +129,7 @@ TEST(tape_used, what_float_has_no_room_for) {
     each_list(100, check_fit);
 }
 
-/* Lists that move the scene, and its inputs; not lists for output only. */
+/* The report covers the lists that move the scene, and the inputs, but no list for output only. */
 TEST(tape_used, images_know_what_float_has_no_room_for) {
     for (unsigned c = 0; c < dice_cases(300); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -236,7 +236,8 @@ TEST(tape_used, a_hash_is_of_everything) { each_list(60, check_hash); }
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
-/* Two leaves' sum, and one with a part doubled. Returns whether one can be made from the other, saving a product. */
+/* Two sums of two leaves; in one of them a part is doubled. Returns whether one can be made from the other with one product
+ * less. */
 static bool enter_pair(op_list *t, int k, unsigned way) {
     const int a = op_list_leaf(t, OP_LINEAR, 2 * k);
     const int b = op_list_leaf(t, OP_RATE, 2 * k + 1);
@@ -342,7 +343,7 @@ TEST(tape_used, lists_are_given_back) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-/* An image frees its own lists, and not those shared from another image. */
+/* An image frees its own lists, but not the lists that it shares with another image. */
 TEST(tape_used, images_are_given_back) {
     const long blocks = blocks_in_use();
     image_free(NULL);

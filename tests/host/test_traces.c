@@ -83,7 +83,7 @@ TEST(traces, units) {
     }
 }
 
-/* The end must lie below 2^52 units: at 2^52 the next coarser unit applies, if there is one. */
+/* The end must be below 2^52 units of time. At 2^52 or more the next coarser unit applies, if there is one. */
 TEST(traces, ends) {
     for (int k = 0; k < POWERS; k++) {
         double per_s = 1.0;
@@ -170,7 +170,7 @@ static int signal_named(const char *name) {
     return -1;
 }
 
-/* Changes from the first on, at these times to a unit, with these values. */
+/* Compares the changes, from the first on: their times to one unit, and their values. */
 static void expect_changes(const char *name, const double *time_s, const double *value, int count,
                            double units_per_s) {
     const int signal = signal_named(name);
@@ -330,7 +330,7 @@ static void expect_records(const bodies *b, double units_per_s, double off_m) {
     TEST_ASSERT_EQUAL_INT(1 + (int)ceil(0.9 / spacing_s - 1e-9), rows);
 }
 
-/* Every column of the CSV of the same run: exactly the records with a changed value. */
+/* Compares with every column of the same run's CSV: a record appears exactly when its value changes. */
 static void expect_columns(const char *csv, double units_per_s) {
     enum { COLUMNS = 10 };
     static double row[CHANGES][COLUMNS + 1];

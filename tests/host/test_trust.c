@@ -146,7 +146,7 @@ static void expect_ratio(const char *what, const horizons *h, double least, doub
     TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(h) >= least && horizons_ratio(h) <= most, what);
 }
 
-/* The error grows evenly here, so an omitted part would show in proportion. */
+/* The error grows evenly in these runs, so an omitted part of it would show in proportion. */
 TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
     static const struct {
         wh_method method;
@@ -198,7 +198,7 @@ TEST(trust_scenes, rounding_and_tables) {
     TEST_ASSERT_TRUE(ended >= 4);
 }
 
-/* Near the true horizon; a tolerance near float's resolution may end it earlier. 1: it ended before the run. */
+/* The estimate is near the true time; a tolerance near float's resolution may end it earlier. 1: it ended before the run. */
 static unsigned expect_contacts(const char *name, horizons_setting how, double tolerance) {
     horizons h = built_in(strncmp(name, "thomson", 7) == 0    ? "thomson.whirl"
                           : strncmp(name, "carriage", 8) == 0 ? "eccentric.whirl"
@@ -234,7 +234,7 @@ TEST(trust_scenes, contacts) {
     TEST_ASSERT_TRUE(ended >= count);
 }
 
-/* Beyond the event limit of a step both runs let the ball rest and agree. */
+/* Both runs exceed the event limit of a step, so they let the ball rest, and agree. */
 TEST(trust_scenes, steps_with_too_many_events) {
     horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);

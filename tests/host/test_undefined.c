@@ -44,7 +44,7 @@ typedef struct trial {
     bool ends_later;  /* a restitution is evaluated when the stop is hit */
 } trial;
 
-/* The statement with `form` in it. `y` is free, at rest or sliding, and has no other events. */
+/* The statement that contains `form`. `y` is free, at rest or sliding, and has no other events. */
 static void state(trial *t, const char *form, dice *d) {
     const double a = dice_between(d, 0.1, 0.9);
     char *s = t->statement;
@@ -171,7 +171,7 @@ TEST(undefined, expressions_that_stop_being_numbers) {
     printf("  %u runs ended with the expression's name\n", tried);
 }
 
-/* The same mechanisms stopped before that time give no message. */
+/* The same mechanisms give no message if they stop before that time. */
 TEST(undefined, expressions_that_are_numbers_throughout) {
     dice d = dice_of("defined", 20262);
     const unsigned rounds = dice_cases(usual_or(3, 1));
@@ -200,7 +200,8 @@ TEST(undefined, expressions_that_are_numbers_throughout) {
     model_drop();
 }
 
-/* A stop ends the motion where an expression also ends: the step looks further, the motion does not go there. */
+/* A stop ends the motion at the place where an expression becomes undefined. The step evaluates beyond it, but the motion
+ * does not go there. */
 TEST(undefined, expressions_that_end_where_a_stop_is) {
     static const char *const effects[] = {"hold y while sqrt(x/u) > 9",
                                           "when sqrt(x/u) crosses 9 { set y = 1 [m] }",

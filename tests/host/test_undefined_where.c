@@ -30,7 +30,7 @@ static derived scene_of(const char *text) {
     return d;
 }
 
-/* '@' stands for the undefined part. Each form is undefined if that is, and never by itself. */
+/* '@' stands for the undefined part. Each form is undefined if that part is, and otherwise defined. */
 static const char *const around[] = {
     "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
     "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
@@ -90,7 +90,7 @@ TEST(undefined_where, the_innermost_part_is_named) {
     TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
-/* A term undefined in a window of the step is found if a sampled place lies in it, within the range. */
+/* A term is undefined in a window of the step. It is found if a sampled place lies in that window and within the range. */
 TEST(undefined_where, the_places_on_the_way) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
@@ -207,7 +207,7 @@ TEST(undefined_where, angles_that_it_is_made_of) {
     }
 }
 
-/* A sine anywhere in a formula with an argument near the limit. An angle that counts its turns has no limit. */
+/* A formula contains a sine whose argument is near the limit. An angle that counts its turns has no limit. */
 TEST(undefined_where, the_sine_that_is_too_far) {
     unsigned told_of_sines = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(400, 100)); c++) {

@@ -10,7 +10,7 @@
 #define GRAVITY_M_S2 9.80665
 #define TURN_RAD 6.283185307179586476925
 
-/* One of it is `si` of the SI unit with these exponents. */
+/* One such unit is `si` of the SI unit with these exponents. */
 typedef struct definition {
     const char *name;
     double si;
@@ -19,7 +19,7 @@ typedef struct definition {
 } definition;
 
 static const definition definitions[] = {
-    /* SI base units; of mass the prefixes are the gram's */
+    /* SI base units; prefixes of mass belong to the gram */
     {"m", 1, 1, 0, 0, 0, 0, true},
     {"g", 1e-3, 0, 1, 0, 0, 0, true},
     {"s", 1, 0, 0, 1, 0, 0, true},
@@ -112,7 +112,7 @@ TEST(units, every_unit_is_what_the_standards_say) {
     TEST_ASSERT_TRUE(count >= 60);
 }
 
-/* A factor is an integer ratio if the definition is one over or under a power of ten: 7 [ms] is 7/1000, correctly
+/* A factor is an integer ratio if the unit is defined as a power of ten or one over it. So 7 [ms] is 7/1000, correctly
  * rounded, like 7e-3. */
 TEST(units, prefixes_round_as_decimal_numbers_do) {
     for (int i = 0; unit_name(i) != NULL; i++) {
@@ -134,7 +134,7 @@ TEST(units, prefixes_round_as_decimal_numbers_do) {
     }
 }
 
-/* `whirl list --units` gives each as a number of an SI unit of the same dimension. */
+/* `whirl list --units` gives each unit as a number of an SI unit of the same dimension. */
 TEST(units, every_unit_is_told_in_si) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         char si[DIM_TEXT_SIZE];
@@ -242,7 +242,7 @@ TEST(units, hints_for_habits_mean_the_same) {
     }
 }
 
-/* The unit printed for a dimension, in records and hints, is SI, of that dimension, and the usual one if any. */
+/* The unit that records and hints print for a dimension is an SI unit of that dimension, and the usual one if there is one. */
 TEST(units, dimensions_are_written_in_their_usual_units) {
     static const char *const recorded[] = {"N", "N*m", "W", "N*m*s", "V"};
     static const char *const hinted[] = {"N",       "N*m", "W",   "Pa", "N/m", "N*s/m", "rad/s",
@@ -269,7 +269,7 @@ TEST(units, dimensions_are_written_in_their_usual_units) {
     }
 }
 
-/* Up to 99, down to -99, in each of them. */
+/* Exponents of up to 99 and down to -99, in each base unit. */
 TEST(units, exponents_end_at_both_ends) {
     for (int i = 0; i < 2 * DIM_BASES; i++) {
         const int sign = i < DIM_BASES ? 1 : -1;

@@ -207,7 +207,7 @@ static void expect_rows(int (*command)(int, char **), const char *const *words, 
     TEST_ASSERT_EQUAL_INT(json_length(object.out, list), rows);
 }
 
-/* The findings and the sentence about the run; pairs of a map. */
+/* The JSON contains the findings, the sentence about the run, and the pairs of a map. */
 TEST(verdict, json_of_trust_and_map) {
     static const char *const columns[] = {"name",  "unit", "verdict", "until_s",
                                           "range", "off",  NULL};
@@ -245,7 +245,7 @@ TEST(verdict, json_of_trust_and_map) {
     TEST_ASSERT_TRUE(told[0] > 1 && told[1] > 1);
 }
 
-/* The table of price in JSON; of choose the lines that run its answers. */
+/* The JSON of `price` contains its table, that of `choose` the command lines that run its answers. */
 TEST(verdict, json_of_price_and_choose) {
     static const char *const columns[] = {
         "front",       "error",     "error_unit",  "error_basis", "error_bound", "component",
@@ -319,7 +319,7 @@ TEST(verdict, json_of_all_scenes) {
     model_drop();
 }
 
-/* A failed run has its reason in the object, as on standard error. Others have no reason. */
+/* The JSON of a failed run contains the reason, as on standard error. Other runs have no reason. */
 TEST(verdict, json_of_failures) {
     dice d = dice_of("json_failed", 29112026);
     for (int i = 0; i < 12; i++) {
@@ -343,7 +343,7 @@ TEST(verdict, json_of_failures) {
     }
 }
 
-/* Without an option, with --strict=off and with a drawn limit. Returns whether a finding gives status 1. */
+/* Runs without an option, with --strict=off and with a drawn limit. Returns whether a finding gives status 1. */
 static bool expect_statuses(dice *d, const char **run, const char **sweep, const said *ran,
                             const said *swept, const char *about) {
     said off[2];
@@ -616,7 +616,7 @@ TEST(verdict, looks_take_what_they_may) {
     printf("  looks: at most %.2f of what they may take\n", total);
 }
 
-/* A run of many steps leaves no time for the finer run, or for the third. Run, sweep and trust say so. */
+/* A run of many steps leaves no time for the finer run, or for the third one. Then `run`, `sweep` and `trust` say so. */
 TEST(verdict, what_was_not_looked_at) {
     static const struct {
         const char *until;

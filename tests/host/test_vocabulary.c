@@ -47,7 +47,7 @@ TEST(vocabulary, operations_are_in_their_recorded_order) {
     }
 }
 
-/* Not hashed, but the core and the output handle contacts of one time in this order. */
+/* The order of contacts is not hashed, but the core and the output handle simultaneous contacts in this order. */
 TEST(vocabulary, contacts_are_in_the_core_s_order) {
 #define SAME(id, ...) TEST_ASSERT_EQUAL_INT_MESSAGE(WH_##id, CONTACT_##id, #id);
     CONTACT_KIND_ROWS(SAME)
@@ -133,7 +133,7 @@ static void expect_word_hint(const char *form, const char *word) {
     expect_report(line, wanted);
 }
 
-/* Words of other languages, in any place, and first attempts: each gets its hint, never a guess by spelling. */
+/* Words of other languages, and words that users try first, in any place. Each gets its own hint, never a guess by spelling. */
 TEST(vocabulary, first_words_get_a_hint) {
     static const char *const words[] = {
         "t",          "time",       "if",      "floor", "heaviside",  "table",

@@ -4,7 +4,7 @@
 #include "host/cli/commands.h"
 #include "named_cures.h"
 
-/* With energy E and length l; each confines a body with 0.9 E. */
+/* Potentials with energy E and length l. Each confines a body with the energy 0.9 E. */
 static const char *const potentials[] = {
     "-E*log(1 - (x/l)^2)",
     "E/(1 - (x/l)^2)",

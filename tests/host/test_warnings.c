@@ -19,7 +19,8 @@ typedef struct made_up {
     int masses;
     double mass[MASSES];
     double stiffness
-        [MASSES]; /* of the spring to the previous mass, the first to the wall; of a pendulum, m g l */
+        /* stiffness of the spring to the previous mass or, for the first, to the wall; of a pendulum, m g l */
+        [MASSES];
     double damping; /* of the first, to the wall, N s/m */
     double start[MASSES];
     double rate;
@@ -341,7 +342,7 @@ TEST(warnings, swings_of_a_system_are_told) {
     model_drop();
 }
 
-/* It rests after eight of about 25000 bounces, with a warning; the remedy removes it. */
+/* The ball rests after eight of about 25000 bounces, with a warning. The remedy removes the warning. */
 static void expect_ball_between(said *what, const char **words) {
     named_cure is;
     const char *again[12];
@@ -353,7 +354,7 @@ static void expect_ball_between(said *what, const char **words) {
     command_say(command_run, again, what);
 }
 
-/* To their ends, in both numbers or alternately. Only one scene, made for it, has a warning. */
+/* All built-in scenes run to their ends, in both number formats or alternately. Only one scene, made for it, has a warning. */
 TEST(warnings, built_in_scenes_say_nothing) {
     said list;
     said what;

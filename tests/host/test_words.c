@@ -46,7 +46,7 @@ TEST(words, reserved_words_name_nothing) {
     TEST_ASSERT_TRUE(reserved >= 20);
 }
 
-/* Two swapped neighbours: one mistake away from the word, and no other is as near. */
+/* Two neighbouring letters are swapped: the word is one mistake away, and no other word is as near. */
 TEST(words, a_misspelt_statement_is_offered_its_word) {
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);

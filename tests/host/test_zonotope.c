@@ -81,7 +81,7 @@ static long double drawn_in(enclosure a) {
                         : (long double)dice_between(&die, a.low, a.high);
 }
 
-/* Extent of `before` in the direction after one of the maps plus the box. */
+/* Extent of `before` in the direction, after one of the maps and with the box added. */
 static long double mapped_reach(const exact_set *before, const enclosure *map,
                                 const enclosure *more, const long double *direction) {
     const int n = before->n;
@@ -176,7 +176,7 @@ TEST(zonotope, mapped) {
                 const long double wanted = mapped_reach(&before, map, more, direction);
                 const long double got = reach_of(&now, direction);
                 TEST_ASSERT_TRUE_MESSAGE(got >= wanted - 1e-17L * size, "something is lost");
-                /* entries uncertain by the radius, n of them in each of n rows */
+                /* each of the n by n entries is uncertain by the radius */
                 const long double wide =
                     4.0L * (long double)(radius * n) * (size + 2.0L * length_of(n, before.drift));
                 const long double least = n == 1 ? 0.0L : sqrtl((long double)n) * shorter;

@@ -127,7 +127,7 @@ wave_expr wave_expr_plain(uint64_t *seed) {
 typedef struct arithmetic {
     long double unit;      /* relative error of one rounding */
     long double sine;      /* worst error of a sine */
-    long double phase_rad; /* of a phase; 0 for a number in radians */
+    long double phase_rad; /* rounding of a phase; 0 for a number in radians */
 } arithmetic;
 
 static const arithmetic in_float = {0x1p-24L, 6.3e-8L, 1.463e-9L};
@@ -139,7 +139,8 @@ typedef struct reckoned {
     long double error;
     long double size;
     long double beside; /* error of the angles whose sines may yield this one's */
-    bool evaluated;     /* contains part of a turn angle: its sine is not derived from others */
+    /* contains a fraction of a turn angle, so its sine is not derived from others */
+    bool evaluated;
 } reckoned;
 
 static reckoned reckon(const wave_argument *of, const long double *state, const arithmetic *in) {
@@ -153,7 +154,7 @@ static reckoned reckon(const wave_argument *of, const long double *state, const 
         r.size += fabsl(p->number) * (turns ? 1.0L : 3.0L);
         r.evaluated = r.evaluated || (turns && p->number != rintl(p->number));
         if (turns && in->phase_rad > 0.0L) {
-            /* an integer of any size: 0.75 units at most; and the number is a double */
+            /* the multiple is an integer of any size, so the error is at most 0.75 units; the number is a double */
             r.error += in->phase_rad + 0x1p-53L * fabsl(part);
         } else {
             added += fabsl(part);
