@@ -73,7 +73,7 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
     }
 }
 
-/* Account 0: each contact's energy is the first line's place; account 1 + i: ten times the rate i. */
+/* Account 0 makes the first line's place the energy of each contact; account 1 + i is ten times the rate i. */
 static void bench_levels(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *level) {
     (void)model;
@@ -280,7 +280,7 @@ bool bench_near(wh_real value, wh_real wanted) {
            (WH_DOUBLE ? WH_R(1e-10) : WH_R(1e-3)) * (WH_R(1.0) + WH_ABS(wanted));
 }
 
-/* Rows become upper triangular one by one, by the others' steps: exact for whole numbers this small. */
+/* Makes the rows upper triangular one by one. The arithmetic is exact, because the whole numbers are small. */
 unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at) {
     double kept[BENCH_COORDS][BENCH_COORDS];
     unsigned lead[BENCH_COORDS];

@@ -22,18 +22,19 @@ enum { BENCH_COORDS = 3, BENCH_FORCED = 4 };
 typedef struct bench {
     wh_real inverse[WH_COORDS][WH_COORDS]; /* M^-1 */
     wh_real row[BENCH_CONTACTS][WH_COORDS];
-    wh_real lean[BENCH_CONTACTS]; /* growth of the row's first entry per metre of the first line */
+    /* growth of the row's first entry per metre of motion of the first line */
+    wh_real lean[BENCH_CONTACTS];
     wh_real bias[BENCH_CONTACTS];
     wh_real first[BENCH_CONTACTS];
     wh_real second[BENCH_CONTACTS];
     wh_real free[WH_COORDS];            /* the unconstrained accelerations */
     wh_real ramp[WH_COORDS];            /* their growth per metre of the first line */
     wh_real signal[2 * BENCH_CONTACTS]; /* at any place, */
-    bool moves;                         /* or with J x (lines only; bent by lean) and J x' added */
+    bool moves; /* as above; or, with `moves`, with J x (lines only; bent by lean) and J x' added */
     wh_contact contact[BENCH_CONTACTS];
     wh_contact_system system;
     wh_ledger_form books;
-    const wh_contact_point *at; /* if not NULL, the place at which all must be evaluated, */
+    const wh_contact_point *at; /* if not NULL: the place at which everything must be evaluated */
     const wh_real *input;       /* with this input */
     bool astray;                /* an evaluation took place elsewhere */
     unsigned looks;             /* how often the signals were evaluated */
@@ -42,26 +43,27 @@ typedef struct bench {
 
 extern bench bench_now;
 
-/* Coordinates, the first `angles` of them angles; M^-1 is random, whole and positive definite. */
+/* Sets up coordinates, the first `angles` of which are angles. M^-1 is random, whole and positive definite. */
 void bench_build(uint64_t *seed, unsigned coordinates, unsigned angles);
-/* A contact: pinned to coordinate `pin`, or, with -1, with a random row. Returns its number. */
+/* Adds a contact that is pinned to coordinate `pin` or, for -1, has a random row. Returns its number. */
 unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin);
-/* One to four contacts of the kinds in `kinds` (bits), in order; some pinned, some redundant. */
+/* Adds one to four contacts of the kinds in `kinds` (bits), in order; some pinned, some redundant. */
 void bench_add_some(uint64_t *seed, unsigned kinds);
-/* A random mechanism: coordinates, perhaps `angles` of them angles, and contacts of any kinds with a force. */
+/* A random mechanism with contacts of any kinds that have a force. With `angles` some coordinates may be angles. */
 void bench_draw(uint64_t *seed, bool angles);
-/* Fresh w with the laws, and each contact in a mode: it holds, or, with `some`, perhaps not. */
+/* Starts w and evaluates the laws. Each contact gets a mode: it holds or, with `some`, perhaps does not. */
 void bench_work(uint64_t *seed, bool some, wh_contact_work *w);
 /* Does contact k, in its mode, constrain a place? */
 bool bench_keeps(const wh_contact_work *w, unsigned k);
 /* x[WH_COORDS]: whole numbers, and the guard values after them. */
 void bench_vector(uint64_t *seed, wh_real *x);
-/* All or some of the contacts with a force in member[BENCH_CONTACTS], in any order, then an invalid one. Returns their number. */
+/* Writes all or some of the contacts with a force to member[BENCH_CONTACTS], in any order, then an invalid one. Returns their
+ * number. */
 unsigned bench_members(uint64_t *seed, uint8_t *member);
 
 /* A state: whole turns or radians, metres and rates, and the guard values after them. */
 void bench_state(uint64_t *seed, wh_contact_state *s);
-/* The motion of coordinate i from one to the other, rad or m. */
+/* The motion of coordinate i from state `from` to state `to`, rad or m. */
 wh_real bench_moved(const wh_contact_state *from, const wh_contact_state *to, unsigned i);
 
 /* The references: plain sums over all entries. */
@@ -69,9 +71,11 @@ wh_real bench_along(unsigned k, const wh_real *x); /* J_k x */
 wh_real bench_delassus(unsigned k, unsigned l);    /* J_k M^-1 J_l^T */
 wh_real bench_way(unsigned k, unsigned i);         /* (M^-1 J_k^T)_i */
 bool bench_near(wh_real value, wh_real wanted);    /* within the round-off of a few whole numbers */
-/* The members with rows in the span of earlier independent ones, as bits of places, without those with nonzero at[] (or NULL). */
+/* The members whose rows are in the span of earlier independent rows, as bits of places. Members with nonzero at[] are
+ * skipped (at may be NULL). */
 unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at);
-/* Solves the members' J M^-1 J^T lambda = wanted with zeros for `out` (bits of places): Gauss-Jordan with the largest pivot. */
+/* Solves the members' J M^-1 J^T lambda = wanted by Gauss-Jordan with the largest pivot. Members in `out` (bits of places)
+ * get zero. */
 void bench_solve(const uint8_t *member, unsigned count, unsigned out, const wh_real *wanted,
                  wh_real *lambda);
 

@@ -25,13 +25,13 @@ typedef struct even_failure {
     uint32_t after_ticks;
     unsigned lose[WH_SPEED_SENSORS]; /* pulses */
     unsigned lose_samples;
-    bool swapped;                /* the sensors, from the start */
-    bool jams;                   /* the rotor, permanently */
-    int shows;                   /* the cell: this many counts of square wave instead of the load */
-    int creeps;                  /* drift, counts per second */
+    bool swapped; /* the sensors, from the start */
+    bool jams;    /* the rotor, permanently */
+    int shows;    /* the cell shows a square wave of this many counts instead of the load */
+    int creeps;   /* drift, counts per second */
     wh_load_status status;       /* of all samples */
     bool adds[WH_SPEED_SENSORS]; /* one false pulse */
-    /* permanent: marks are late by up to this many ticks, uniformly; the speed hunts by this much, this often, and drifts */
+    /* permanent: marks are late by up to this many ticks (uniform); the speed swings by hunts_rpm at hunts_Hz and drifts */
     uint32_t jitter_ticks;
     wh_real hunts_rpm;
     wh_real hunts_Hz;
@@ -74,7 +74,7 @@ void even_turn_by_hand(even_rig *even, wh_real rpm);
 /* Until rest is known, so that `arm` is allowed. */
 void even_rest(even_rig *even);
 
-/* From even_start() until `arm` is done; or to the tare of a run. */
+/* Runs from even_start() until `arm` is done, or until the tare of a run. */
 void even_arm(even_rig *even);
 void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
@@ -84,7 +84,7 @@ bool even_is_over(const even_rig *even);
 /* Steps until a phase begins, or the rig is done. */
 void even_go_on_until(even_rig *even, wh_rig_phase phase);
 
-/* From even_start() to this phase of a run to 330 rpm; WH_PHASE_OFF: by `stop`. */
+/* Runs from even_start() to this phase of a run to 330 rpm. WH_PHASE_OFF is reached by `stop`. */
 void even_reach(even_rig *even, wh_rig_phase phase);
 
 /* A whole run; checks that the motor is off at the end. */

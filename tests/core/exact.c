@@ -5,7 +5,8 @@
 
 /* --- velocities --------------------------------------------------------------------------------------------- */
 
-/* Impulses: those in `set` reach target[], holds and those in `beside` zero, stops at least. Returns the stops that open. */
+/* Impulses: contacts in `set` reach target[], holds and contacts in `beside` reach zero, stops at least zero. Returns the
+ * stops that open. */
 static unsigned strike(exact *e, unsigned set, unsigned beside, const double *target,
                        double *impulse) {
     exact_problem p = {set | beside | exact_those(e, WH_STOP, WH_ACTIVE) |
@@ -56,7 +57,7 @@ static unsigned closing(exact *e) {
     return bits;
 }
 
-/* Hits the free stops in `found` and all that close with them. Returns them. */
+/* Hits the free stops in `found` and all that close with them. Returns all stops that were hit. */
 static unsigned hit(exact *e, unsigned found, double *impulse) {
     double a[2];
     double force[HAND_CONTACTS];
@@ -132,7 +133,8 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     return hits;
 }
 
-/* Moves bodies back from free stops that they passed, by the least move. Returns those stops, and those that push, as bits. */
+/* Moves bodies back from the free stops that they passed, by the least move. Returns these stops and the stops that push, as
+ * bits. */
 static unsigned push_out(exact *e) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -182,7 +184,7 @@ void exact_squeeze(exact *e) {
 
 /* --- crossings ---------------------------------------------------------------------------------------------- */
 
-/* Sets the new value. A resting contact that it disturbs flies or is put back; a hold captures again. */
+/* Sets the new value. If that disturbs a resting contact, its body flies or is put back; a hold captures its new place. */
 static void assign(exact *e, unsigned k, double *impulse) {
     const exact was = *e;
     const double zero[HAND_CONTACTS] = {0.0};
@@ -227,7 +229,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
 }
 
-/* A contact on its crossing is on the side that it moves to. */
+/* If a contact is exactly on its crossing, its side is the one that it moves to. */
 static void leave(exact *e) {
     for (unsigned k = exact_forced(); k < hand_now.system.contacts; k++) {
         const int side = exact_in(e->stands, k) ? exact_sign(e, exact_along(k, e->v)) : e->mode[k];

@@ -26,7 +26,7 @@ typedef struct exact {
     unsigned logged;
     unsigned next;   /* stops that are hit in the next round, as bits */
     unsigned stands; /* crossings just taken that are still at their place, as bits */
-    bool vague;      /* a decision depended on less than round-off: no reference from here on */
+    bool vague;      /* a decision depended on round-off; from then on there is no reference */
     bool shared;     /* redundant contacts: each one's share is not unique */
 } exact;
 

@@ -98,7 +98,7 @@ static bool good(const exact_problem *p, unsigned k, int which, double lambda, d
 
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda) {
     for (unsigned number = 0; number < 27;
-         number++) { /* each at its target, its low or its high end */
+         number++) { /* each contact at its target, its low end or its high end */
         unsigned rest = number;
         unsigned tight = 0;
         int which[HAND_CONTACTS] = {0};
@@ -262,7 +262,7 @@ double exact_kinetic(const exact *e) {
     return sum;
 }
 
-/* See exact_law.h. Without a `mover` the energy is the first contact's that is off. */
+/* See exact_law.h. Without a `mover` the energy belongs to the first contact that is off its place. */
 void exact_put_back(exact *e, unsigned but, unsigned mover) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};

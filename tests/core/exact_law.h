@@ -4,10 +4,11 @@
 
 #include "exact.h"
 
-/* Below it a number is zero; slightly above it is vague. */
+/* A smaller number is zero; a slightly larger one is vague. */
 #define EXACT_ZERO 1e-11
 
-/* The problem: x + M^-1 J^T lambda with J x = target[k], by contacts that push (a stop), push up to a limit, or act both ways. */
+/* The problem: x + M^-1 J^T lambda with J x = target[k]. A stop only pushes, a friction acts up to a limit, a hold acts both
+ * ways. */
 typedef struct exact_problem {
     unsigned members; /* as bits */
     double target[HAND_CONTACTS];
@@ -22,30 +23,32 @@ double exact_size_of(double value);
 int exact_sign(exact *e, double value);
 bool exact_in(unsigned bits, unsigned k);
 
-/* hand_now's contacts with a force; is one of this kind? */
+/* hand_now's contacts with a force, as bits; and whether contact k is of this kind. */
 unsigned exact_forced(void);
 bool exact_is(unsigned k, wh_contact_kind kind);
-/* Contacts of a kind in a mode (those of crossings are none), as bits. */
+/* Contacts of a kind in a mode, as bits. Crossings have no mode. */
 unsigned exact_those(const exact *e, wh_contact_kind kind, int mode);
 /* Sets this mode for those in `bits`. */
 void exact_give(exact *e, unsigned bits, int mode);
-/* All that keep their J_k q' at zero, as bits. */
+/* All contacts that keep J_k q' at zero, as bits. */
 unsigned exact_holding(const exact *e);
 
-/* J_k x; the gap; x += M^-1 J_k^T lambda; the change of J_k x by an impulse of l. */
+/* In order: J_k x; the gap; x += M^-1 J_k^T lambda; the change of J_k x by a unit impulse of contact l. */
 double exact_along(unsigned k, const double *x);
 double exact_gap(const exact *e, unsigned k);
 void exact_push(unsigned k, double lambda, double *x);
 double exact_coupled(unsigned k, unsigned l);
 
-/* lambda[] of those in `tight`, which reach their targets; the others' are given. False: dependent rows. */
+/* Computes lambda[] so that the contacts in `tight` reach their targets; the lambda[] of the others are given. False: rows
+ * are dependent. */
 bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double *lambda);
-/* The case that meets the conditions: changes x and the members' lambda[]. Returns those with J x beyond target, as bits. */
+/* Finds the case that meets the conditions and changes x and the members' lambda[]. Returns the contacts with J x beyond
+ * target, as bits. */
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda);
 /* Are the members' rows dependent? */
 bool exact_repeat(const exact *e, unsigned members);
 
-/* Accelerations and forces in the current modes; a contact that must pull pulls. */
+/* Accelerations and forces in the current modes. A contact that would have to pull does pull. */
 void exact_accelerate(exact *e, double *a, double *force);
 /* A contact above its limit gives way: stops first, then the friction furthest above its limit. */
 void exact_give_way(exact *e);
@@ -54,7 +57,7 @@ double exact_stored(const exact *e);
 double exact_kinetic(const exact *e);
 
 /* Resting contacts return to their place; the other holds, except those in `but`, stay with them. The energy is booked to
- * contact `mover`, or, if that is HAND_CONTACTS, to the first contact that is off. */
+ * contact `mover` or, if `mover` is HAND_CONTACTS, to the first contact that is off its place. */
 void exact_put_back(exact *e, unsigned but, unsigned mover);
 
 #endif

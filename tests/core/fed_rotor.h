@@ -30,7 +30,7 @@ typedef struct fed_rotor {
     uint32_t steps;
     uint32_t valid;    /* of them with a valid observer, */
     uint32_t lies;     /* with a valid one that is off by more than lie_rad */
-    wh_real worst_rad; /* while valid, as square_rad2 */
+    wh_real worst_rad; /* steps with a valid observer whose angle is off by more than FED_LIE_RAD */
     wh_real square_rad2;
     wh_real least_radps;
     wh_real most_radps;
@@ -47,12 +47,12 @@ wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm);
 
 void fed_rotor_run(fed_rotor *fed, wh_real target_rpm, wh_real time_s);
 
-/* From now on the voltage is this speed's, without a drive. */
+/* From now on the voltage is the one for this speed, without a speed drive. */
 void fed_rotor_hold(fed_rotor *fed, wh_real speed_rpm);
 
 void fed_rotor_count(fed_rotor *fed);
 
-/* Of the counted steps: RMS angle error while valid; half the range of the speed over its mean. */
+/* Over the counted steps: RMS error of the angle while valid; half the range of the speed divided by its mean. */
 wh_real fed_rotor_rms_rad(const fed_rotor *fed);
 wh_real fed_rotor_ripple(const fed_rotor *fed);
 wh_real fed_rotor_mean_rpm(const fed_rotor *fed);

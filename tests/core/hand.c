@@ -86,7 +86,7 @@ static void hand_sets(const void *model, const wh_phase *phase, const wh_real *l
     result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
-/* Entries: the loads' and springs' effect on each momentum, and the loads' work. */
+/* Entries of the books: the effect of loads and springs on each momentum, and the work of the loads. */
 static void hand_powers(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
@@ -182,7 +182,7 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
-/* Entries after a scene's contacts are invalid: used, they would stick on the first coordinate to the end. */
+/* Entries after a scene's contacts are invalid. If the core used them, the first coordinate would stick for ever. */
 static void put_sentinels(void) {
     for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
         hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};

@@ -45,7 +45,7 @@ extern wh_state hand_state;
 extern unsigned hand_looks; /* how often the signals were evaluated */
 extern wh_real hand_pushed; /* the scene's input: a hold's condition, true above zero */
 
-/* One body (of m00), or two with the given mass matrix; no contact, load or spring yet. */
+/* Sets up one body (of mass m00), or two with the given mass matrix, without contact, load or spring. */
 void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11);
 /* Adds a contact; see hand.law for the numbers. Returns its number. Contacts with a force come first. */
 unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,

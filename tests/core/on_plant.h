@@ -38,7 +38,7 @@ wh_refusal plant_order(on_plant *on, wh_rig_event event, float value);
 /* Resets and restarts the processor; the rig continues. */
 void plant_reset(on_plant *on, hal_reset cause);
 
-/* Hardware and controller: idle at rest; armed; or at the tare of a run. */
+/* Starts hardware and controller; they end idle at rest, armed, or at the tare of a run. */
 void plant_start(on_plant *on);
 void plant_arm(on_plant *on);
 void plant_begin(on_plant *on, float target_rpm);

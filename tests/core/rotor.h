@@ -37,7 +37,7 @@ typedef struct rotor_state {
 /* The rig of core/models/eccentric.whirl, its marks a degree early. */
 rotor_kind rotor_nominal(void);
 
-/* Advances by ticks, a multiple of 500, with the voltage `drive`, a fraction of the rated one. */
+/* Advances by `ticks`, a multiple of 500. `drive` is the voltage divided by the rated one. */
 void rotor_turn(const rotor_kind *kind, rotor_state *rotor, wh_real drive, uint32_t ticks);
 
 wh_real rotor_acceleration_radps2(const rotor_kind *kind, const rotor_state *rotor, wh_real drive);

@@ -25,7 +25,8 @@ void tel_type(const char *line) {
     wh_station_take(&bench.station, "\n", 1);
 }
 
-/* The next item of this kind with this time and value; earlier ones were dropped. Uneven samples' times are exact to an eighth. */
+/* Finds the next item of this kind with this time and value; earlier ones were dropped. Times of uneven samples are exact to
+ * an eighth of their period. */
 static void find_sample(uint32_t ticks, int32_t value) {
     const uint32_t within = bench.got.uneven ? bench.tel.every * EVEN_STEP_TICKS / 8U : 0;
     while (bench.samples.taken < bench.samples.put &&

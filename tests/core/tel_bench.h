@@ -53,20 +53,20 @@ void tel_begin(void);
 
 void tel_type(const char *line);
 
-/* The line takes this many bytes, which are compared with the sent data. */
+/* The line takes this many bytes. They are compared with the sent data. */
 void tel_hear(unsigned bytes);
 void tel_hear_frame(const wire_frame *frame);
 
-/* This step's input: one sample a step, evenly; or now and then two, none, a late or an invalid one. And pulses. */
+/* Makes this step's input: one sample a step, evenly, or now and then two, none, a late or an invalid one. Also pulses. */
 void tel_draw_seen(bool evenly);
 
 /* Steps the station with this step's input. */
 void tel_step(void);
 
-/* One control period of the firmware; the line takes this many bytes. */
+/* A control period of the firmware, in which the line takes this many bytes. */
 void tel_period(bool evenly, unsigned bytes);
 
-/* Starts telemetry by this order; all later output is compared with the sent data. */
+/* Starts telemetry by this order. From then on all output is compared with the sent data. */
 void tel_turn_on(const char *rate);
 
 #endif

@@ -143,7 +143,7 @@ static void rotate_by_changes(const void *model, const wh_phase *phase, const wh
     given[3] = lack(turn_less) * real[1] - lack(turn_sine) * real[0];
 }
 
-/* The error of x after STEPS steps from (1, 0): the reference is the rotation's power by squaring, in double. */
+/* Error of x after STEPS steps from (1, 0). The reference is a power of the rotation, by squaring, in double. */
 static double rotation_error(bool compensated) {
     wh_real real[2] = {WH_R(1.0), WH_R(0.0)};
     wh_real carry[2] = {WH_R(0.0), WH_R(0.0)};
@@ -174,7 +174,7 @@ static void test_a_matrix_turns_as_far_as_its_power(void) {
 
 #endif
 
-/* A shaft (angle, rate) accelerated by the input: mean rate r + u h/2, end rate r + u h, or the change. */
+/* The input accelerates a shaft (angle, rate). Mean rate r + u h/2 and end rate r + u h, or their changes. */
 static bool changes_only;
 static void speed_up(const void *model, const wh_phase *phase, const wh_real *real,
                      const wh_real *rate, const wh_real *input, wh_real *given) {

@@ -125,7 +125,7 @@ TEST(contact, a_step_has_room_for_so_many_moments) {
     }
 }
 
-/* A pressed body rests on the wall that it hits at the eighth moment, although it would have left it. */
+/* A pressed body hits a wall at the eighth moment, from which it would have separated. It rests there. */
 TEST(contact, a_rest_at_the_last_moment_is_counted) {
     for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
@@ -213,7 +213,7 @@ TEST(contact, crossing_sets_the_rate) {
     TEST_ASSERT_TRUE(hand_near(hand_state.real[0], WH_R(0.05), 1e-12, 1e-6));
 }
 
-/* A load beyond all bounds: the step is refused, with state, modes and books unchanged. */
+/* A load beyond all bounds: the step is refused; state, modes and books stay unchanged. */
 TEST(contact, a_refused_step_changes_nothing) {
     hand_build_ball(WH_R(0.5));
     hand_start(true);
@@ -229,7 +229,7 @@ TEST(contact, a_refused_step_changes_nothing) {
     TEST_ASSERT_TRUE(hand_state.fault >= 0);
 }
 
-/* The component that a load drives out of bounds is named at a run's first try, after an event of its step, and later. */
+/* A load drives a component out of bounds. It is named at a run's first step, after an event within a step, and later. */
 TEST(contact, the_component_that_diverged_is_told) {
     for (unsigned where = 0; where < 3; where++) {
         for (unsigned c = 0; c < 2; c++) {

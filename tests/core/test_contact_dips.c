@@ -1,5 +1,6 @@
-/* test_contact_dips.c: stops into which a try dips (contact_step.h), for random bodies under constant loads with known ends. Stops
- * passed and on their way out are reported. Those open or closing at the start were hit. Passes between open ends are found. */
+/* test_contact_dips.c: steps that pass a stop and come back (contact_step.h), for random bodies under constant loads with
+ * known ends. Stops that were passed and are being left are reported. Stops that are open or closing at the start were hit.
+ * Passes between two open ends are found. */
 #include "draw.h"
 #include "hand.h"
 
@@ -15,7 +16,7 @@ typedef struct drawn_stop {
     wh_real rate[2]; /* the same */
 } drawn_stop;
 
-/* On x0 from below, on x1, on x0 from above. */
+/* Stops on x0 from below, on x1, and on x0 from above. */
 static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, wh_real offset) {
     const unsigned i = k == 1 ? 1 : 0;
     const wh_real sign = k == 2 ? WH_R(-1.0) : WH_R(1.0);
@@ -95,7 +96,7 @@ TEST(contact_dips, what_dips_and_comes_back) {
             dips += hit;
             leaves += (leaving >> k & 1U) != 0 && closed && !hit;
         }
-        /* a parabola between two open ends: its lowest place decides whether the stop is passed */
+        /* the path is a parabola and open at both ends: its lowest place decides whether the stop is passed */
         for (unsigned k = 0; k < 3; k++) {
             const drawn_stop *s = &stop[k];
             const wh_real least =

@@ -22,7 +22,7 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
     return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
 }
 
-/* Stops (one in `touched` is in touch), a hold, frictions, a crossing: one to three in all, under loads of size `heavy`. */
+/* Draws one to three contacts under loads of size `heavy`: stops (one in `touched` touches), a hold, frictions, a crossing. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = (unsigned)HAND_CONTACTS - crosses;
@@ -105,7 +105,7 @@ static double impulse_of(unsigned k) {
     return (double)(entry[i] / hand_now.law[k].row[i]);
 }
 
-/* Did the contact act? A stop found again by round-off as it leaves gets nothing, and a redundant one may get nothing. */
+/* Did the contact act? A stop that round-off finds again as it leaves gets nothing, and a redundant one may get nothing. */
 static bool counts(const exact *e, const wh_event *event) {
     return hand_now.contact[event->contact].kind != WH_STOP || event->mode != WH_FREE ||
            !(e->shared || near((double)event->impulse, 0.0));
@@ -235,7 +235,7 @@ static void levels_now(wh_real *level) {
                       hand_state.input, level);
 }
 
-/* Corrects some of the places and rates, or all if carries distinguish runs; the books record the change. */
+/* Corrects some places and rates, or all of them if runs differ by their carries. The books record the change. */
 static void correct(uint64_t *seed) {
     wh_real before[3];
     wh_real after[3];
@@ -273,7 +273,7 @@ static wh_real gap_of(unsigned k) {
            hand_now.law[k].row[1] * hand_state.real[hand_now.n - 1] - hand_now.law[k].offset;
 }
 
-/* Stops in a mode, and those passed by more than `by`. */
+/* Number of stops in this mode, and of stops passed by more than `by`. */
 static unsigned stops_that(bool rest, wh_real by) {
     unsigned count = 0;
     for (unsigned k = 0; k < hand_now.system.forced; k++) {

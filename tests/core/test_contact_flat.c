@@ -6,7 +6,7 @@
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Stops and holds on lines and angles, or holds alone; held: the number that can slip. */
+/* Draws stops and holds on lines and angles, or holds alone. `held`: number of holds that can slip. */
 static void draw(uint64_t *seed, unsigned angles, wh_contact_work *w) {
     const unsigned stops = draw_one_in(seed, 2) ? WH_KIND_BIT(WH_STOP) : 0U;
     bench_build(seed, BENCH_COORDS, angles);
@@ -25,7 +25,7 @@ static bool holds(const wh_contact_work *w, unsigned k) {
     return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
 }
 
-/* A contact that holds nothing has a row of zeros; a hold has the row's part independent of the others. */
+/* A contact that holds nothing has a row of zeros. A hold has the part of its row that is independent of the others. */
 TEST(contact_flat, rows_are_those_of_the_place) {
     uint64_t seed = 241;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -72,8 +72,8 @@ TEST(contact_flat, rows_are_those_of_the_place) {
     }
 }
 
-/* Rows that lean with the first line's place. A step is checked at its end and at the place that its rates alone lead to,
- * whichever comes first. A refused step is checked only at the latter. The check needs a curved hold that can slip. */
+/* The rows change with the place of the first line. A step is checked at its end and at the place that its rates alone lead
+ * to, whichever comes first. A refused step is checked only at the latter. A check is made only if a curved hold can slip. */
 TEST(contact_flat, a_say_is_lost_at_either_place) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
@@ -114,7 +114,7 @@ TEST(contact_flat, a_say_is_lost_at_either_place) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 64 && seen[1] > ROUNDS / 64 && seen[2] > ROUNDS / 64);
 }
 
-/* The place that the rates lead to: angles by their turn, lines by their motion. */
+/* The place that the rates lead to: angles advance by their turn, lines by their motion. */
 TEST(contact_flat, rates_lead_ahead) {
     uint64_t seed = 243;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

@@ -21,7 +21,8 @@ static void rest_on_a_stop(bool books) {
     TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE && hand_state.real[0] == WH_R(0.0));
 }
 
-/* Raised, or lowered by at most the ball's fall in a step, the stop takes the ball along. The energy m g s is the stop's. */
+/* The stop is raised, or lowered by at most the ball's fall in a step, and takes the ball along. The energy m g s is booked
+ * to the stop. */
 TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
     const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
                              WH_R(-0.9) * REACH_M};
@@ -39,7 +40,7 @@ TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
     }
 }
 
-/* Lowered by more, it leaves the ball to free fall. */
+/* If the stop is lowered by more, the ball falls freely. */
 TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
     const wh_real moves[] = {WH_R(-1.2) * REACH_M, WH_R(-2.0) * REACH_M, WH_R(-1e-3), WH_R(-2.0)};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
@@ -50,7 +51,8 @@ TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
         TEST_ASSERT_TRUE(hand_near(hand_state.real[0], -REACH_M, 1e-18, 1e-12));
         TEST_ASSERT_TRUE(hand_near(hand_state.real[1], -HAND_G * STEP_S, 1e-16, 1e-9));
         TEST_ASSERT_TRUE(hand_state.ledger[wh_ledger_of_contact(&hand_books, 0)] == WH_R(0.0));
-        hand_steps(40); /* onto the stop, if that is near: loses its height, bounces by half */
+        /* the ball falls onto the stop, if that is near, and bounces with half the speed */
+        hand_steps(40);
         TEST_ASSERT_TRUE(i == 3 || hand_state.contacts->events > 0);
         TEST_ASSERT_TRUE(hand_state.real[0] >= moves[i] - WH_R(1e-9));
     }
@@ -111,7 +113,8 @@ static wh_real shown(unsigned i) {
     return accel[i];
 }
 
-/* Before and after the first step: zero on a stop, free fall above it. Friction holds up to its limit, then slows a slide. */
+/* Accelerations before and after the first step: zero on a stop, free fall above it. Friction holds up to its limit, then
+ * slows the slide. */
 TEST(contact_follow, accelerations_with_their_contacts) {
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));
@@ -196,7 +199,7 @@ static void expect_near(wh_real wanted, wh_real got) {
     TEST_ASSERT_TRUE(hand_near(got, wanted, 1e-12, 3e-4));
 }
 
-/* The hold's place: for a curved or moved one its expression, for a straight one its motion, which is zero at first. */
+/* A hold's place is its expression if it is curved or moved; if it is straight, its motion, which is zero at first. */
 static wh_real captured(const revised *r) {
     return r->direction > 0 ? WH_R(0.0) : r->direction < 0 ? PLACE - OFFSET : PLACE;
 }
@@ -214,7 +217,8 @@ static void expect_hold(const revised *r) {
     expect_near(stops ? r->rate[0] + WH_R(0.25) * r->rate[1] : r->rate[0], s.real[2]);
 }
 
-/* Passed by g and put back: x0 by g, alone if it is the stop's pin. Else a free x1 moves by (1/M)_01/(1/M)_00 = -1/2 of that. */
+/* x0 passed the stop by g and is put back by g. If the stop is pinned to x0, only x0 moves. Otherwise a free x1 moves by
+ * (1/M)_01/(1/M)_00 = -1/2 of that. */
 static void expect_places(const revised *r) {
     const bool passed = r->stop_moved && r->gap < WH_R(0.0);
     const bool held = !(r->hold_moved && !r->keeps);
@@ -239,7 +243,7 @@ TEST(contact_revise, each_way_to_be_moved) {
         r.rate[0] = (wh_real)draw_broken(&seed, -1000, 1000);
         r.rate[1] = (wh_real)draw_broken(&seed, -1000, 1000);
         const bool passed = r.stop_moved && r.gap < WH_R(0.0);
-        /* its held place is its present one, unless nothing reads it */
+        /* its held place becomes the present one, unless nothing reads that */
         r.kept_before = captured(&r) + (passed ? WH_R(0.0) : WH_R(0.0078125));
         revise(&r);
         TEST_ASSERT_TRUE(w.moved == 0);

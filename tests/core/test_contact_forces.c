@@ -11,7 +11,8 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_work(seed, some, w);
 }
 
-/* The others' effect on each other's accelerations. A redundant contact, or one at a limit, has no effect. */
+/* The load of a contact contains the effect of the other contacts' forces. A redundant contact, or one at a limit, has no
+ * effect. */
 TEST(contact_forces, a_load_is_what_a_dense_solve_says) {
     uint64_t seed = 101;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -51,7 +52,8 @@ TEST(contact_forces, a_load_is_what_a_dense_solve_says) {
 
 /* --- forces -------------------------------------------------------------------------------------------------- */
 
-/* A sliding contact pushes against its motion; the others keep J q'' + J' q' at zero. Returns the members' number and targets. */
+/* A sliding contact pushes against its motion; the others keep J q'' + J' q' at zero. Writes the targets and returns the
+ * number of members. */
 static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *member,
                             wh_real *wanted, wh_real *force) {
     unsigned count = 0;
@@ -157,8 +159,9 @@ static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, cons
     return good;
 }
 
-/* Redundant contacts: if all agree and no limit is exceeded, they carry nothing. Otherwise the load is shared, and a contact
- * that cannot take its share reports a force beyond its limit. The motion changes only for contradictory contacts. */
+/* Redundant contacts carry nothing if they agree with the others and no limit is exceeded. Otherwise they share the load, and
+ * a contact that cannot take its share reports a force beyond its limit. The motion changes only if contacts contradict each
+ * other. */
 TEST(contact_forces, what_repeats_others_shares_their_load) {
     uint64_t seed = 222;
     unsigned seen[2][2] = {{0}};
@@ -207,7 +210,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             exceeds = exceeds || wh_contact_exceeds(of, &w, member[i], lambda[i]);
             open = open || (stop && (repeats >> i & 1U) == 0 && bench_near(lambda[i], WH_R(0.0)));
         }
-        if (open) { /* a force of zero up to round-off: beyond its limit? */
+        if (open) { /* the force is zero up to round-off, so it may or may not exceed its limit */
             continue;
         }
         wh_contact_accel(&model, at.phase, at.linear, at.rate, NULL, accel);

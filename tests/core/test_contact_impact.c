@@ -24,7 +24,7 @@ static bool is_stop(unsigned k) { return bench_now.contact[k].kind == WH_STOP; }
 
 /* --- one stop ------------------------------------------------------------------------------------------------ */
 
-/* A press within its terms' round-off does not count, except for a lone stop, which takes it as it is. */
+/* A press within the round-off of its terms does not count. If the stop is the only contact, any press counts. */
 TEST(contact_impact, who_is_pressed) {
     uint64_t seed = 301;
     unsigned pressed = 0;
@@ -54,7 +54,8 @@ TEST(contact_impact, who_is_pressed) {
     TEST_ASSERT_TRUE(pressed > ROUNDS / 3 && pressed < ROUNDS);
 }
 
-/* A flight shorter than its share of the step does not count. Without a press a stop rests only at rate zero, if that is known. */
+/* A flight shorter than its share of the step counts as rest. Without a press, a stop rests only if its rate is known to be
+ * zero. */
 TEST(contact_impact, who_rests) {
     uint64_t seed = 302;
     unsigned resting = 0;
@@ -92,7 +93,7 @@ TEST(contact_impact, who_rests) {
 
 /* --- several ------------------------------------------------------------------------------------------------- */
 
-/* Resting stops with restitution whose force is zero relative to the accelerations and the other forces. */
+/* Stops that touch: resting, with restitution, and with a force of zero relative to the accelerations and the other forces. */
 TEST(contact_impact, who_merely_touches) {
     uint64_t seed = 303;
     unsigned loose = 0;
@@ -125,7 +126,7 @@ TEST(contact_impact, who_merely_touches) {
     TEST_ASSERT_TRUE(loose > ROUNDS / 32);
 }
 
-/* Closing free stops with a gap within the motion of the step's finest share. */
+/* Stops hit in the same moment: free and closing, with a gap smaller than the motion in the step's finest share. */
 TEST(contact_impact, who_is_hit_in_the_same_moment) {
     uint64_t seed = 304;
     unsigned tied = 0;
@@ -162,7 +163,7 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
     TEST_ASSERT_TRUE(tied > ROUNDS / 32);
 }
 
-/* Free stops in touch that a hit made close, or close more than twice as fast. */
+/* Stops that an impact is passed on to: free, touching, and made to close by the hit, or to close more than twice as fast. */
 TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     uint64_t seed = 305;
     unsigned passed = 0;
@@ -195,7 +196,7 @@ TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     TEST_ASSERT_TRUE(passed > ROUNDS / 64);
 }
 
-/* Free stops without restitution, in touch and at rest relative to the hit's effect on them. */
+/* Stops beside an impact: free, without restitution, touching, and at rest relative to the hit's effect on them. */
 TEST(contact_impact, who_is_beside_an_impact) {
     uint64_t seed = 306;
     unsigned beside = 0;
@@ -262,7 +263,7 @@ TEST(contact_impact, a_restitution) {
 
 /* --- after too many events ------------------------------------------------------------------------------------ */
 
-/* A curved surface is met by a limited number of Newton steps; after the last evaluation nothing moves. */
+/* Newton's method finds a curved surface in a limited number of steps. After the last evaluation nothing moves. */
 TEST(contact_impact, a_squeeze_ends) {
     uint64_t seed = 308;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -294,7 +295,8 @@ TEST(contact_impact, a_squeeze_ends) {
     }
 }
 
-/* The body is beyond a surface that curves away. The first push overshoots, and the others bring it back to its original side. */
+/* The body is beyond a surface that curves away. The first push moves it too far, and the next ones bring it back to its own
+ * side. */
 TEST(contact_impact, what_is_pushed_too_far_comes_back) {
     uint64_t seed = 309;
     for (unsigned round = 0; round < ROUNDS; round++) {

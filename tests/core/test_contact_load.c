@@ -16,7 +16,7 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     }
 }
 
-/* A stop pushes from zero on, friction up to its limit, a hold without limit: up to the limit, and no further. */
+/* A stop pushes with zero or more, friction acts up to its limit, a hold without limit. No contact takes more than its limit. */
 TEST(contact_load, who_takes_how_much) {
     uint64_t seed = 102;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -38,7 +38,7 @@ TEST(contact_load, who_takes_how_much) {
     }
 }
 
-/* Its own terms: the bias, and each coordinate's share of the accelerations and of every force. */
+/* The terms of one contact: its bias, and each coordinate's share of the accelerations and of every force. */
 static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *accel) {
     wh_real size = WH_ABS(bench_now.bias[k]);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
@@ -50,7 +50,7 @@ static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *acc
     return size;
 }
 
-/* And the largest effect of another contact along any chain without repetition. */
+/* Adds the largest effect of another contact, along any chain of contacts without repetition. */
 static wh_real size_of(const wh_contact_work *w, const uint8_t *member, unsigned count, unsigned i,
                        unsigned passed, const wh_real *accel) {
     wh_real most = terms_of(w, member[i], accel);
@@ -94,7 +94,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
     TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
 }
 
-/* The direction of a missing force, or of the curvature's alone; `impulse`: of rates, without curvature. */
+/* Direction of a force that is missing, or that the curvature alone requires. With `impulse`, of rates, without curvature. */
 static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
                      wh_real bends_by) {
     const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));
@@ -109,7 +109,7 @@ static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, 
     return 0;
 }
 
-/* At the threshold, below it and above it, for every term alone. */
+/* Each term alone is at the threshold, below it and above it. */
 TEST(contact_load, what_contradicts_is_told_from_rounding) {
     uint64_t seed = 104;
     unsigned seen[3] = {0};
@@ -151,7 +151,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
         }
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         const unsigned repeats = bench_repeats(member, count, at);
-        /* an independent contact has no curvature of its own left */
+        /* with curvature, only redundant contacts are asked */
         const unsigned any = small == WH_R(0.0) || rates ? (1U << count) - 1U : repeats;
         const unsigned asked = any & (unsigned)draw_bits(&seed);
         out = repeats;
@@ -221,7 +221,7 @@ TEST(contact_load, a_small_difference_of_bends_is_none) {
     }
 }
 
-/* The contact that reaches a limit first if redundant contact i is pushed and nothing moves. */
+/* The contact that reaches a limit first if redundant contact i is pushed and nothing may move. */
 static unsigned first_of(const uint8_t *member, unsigned count, const int8_t *at,
                          const wh_real *lambda, unsigned i, int8_t push, int8_t *limit, bool *tie) {
     int8_t fixed[BENCH_CONTACTS];
@@ -307,7 +307,7 @@ TEST(contact_load, who_is_at_a_limit_first_gives_way) {
     TEST_ASSERT_TRUE(asked > ROUNDS / 10 && others > ROUNDS / 40);
 }
 
-/* One round: contacts at a limit push with it, and the others take the remainder. */
+/* In a round, contacts at a limit push with that limit, and the others take the remainder. */
 TEST(contact_load, a_round_bears_what_limits_leave) {
     uint64_t seed = 106;
     for (unsigned round = 0; round < ROUNDS; round++) {

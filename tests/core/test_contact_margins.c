@@ -77,7 +77,8 @@ static wh_real margin_of(const wh_contact_work *w, unsigned k) {
     return BENCH_SENTINEL;
 }
 
-/* The signals that a step depends on: both of a stop and a hold, one of a crossing and a friction, a sticking friction's limit. */
+/* The signals that a step depends on: both signals of a stop or hold, one of a crossing or friction, the limit of a sticking
+ * friction. */
 static wh_real sum_of(const wh_contact_work *w) {
     wh_real all = WH_R(0.0);
     for (unsigned k = 0; k < bench_now.system.contacts; k++) {
@@ -139,7 +140,7 @@ static wh_real draw_none(uint64_t *seed) {
 
 static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
 
-/* The law in the contact's current mode, if a step depends on it: none for a stop. */
+/* The law that a step depends on in the contact's current mode; a stop has none. */
 static bool law_is_number(const wh_contact_work *w, unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
     const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && bench_keeps(w, k));
@@ -225,7 +226,7 @@ TEST(contact_margins, calm_is_told) {
     }
 }
 
-/* Bezier's form of the cubic with these end values and slopes (for the whole path), by de Casteljau. */
+/* The cubic with these end values and slopes (over the whole path), in Bezier's form, by de Casteljau. */
 static double cubic(double s, double from, double slope0, double to, double slope1) {
     double point[4] = {from, from + slope0 / 3.0, to - slope1 / 3.0, to};
     for (unsigned left = 3; left > 0; left--) {

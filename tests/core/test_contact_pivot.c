@@ -19,7 +19,7 @@ static wh_real high_of(unsigned k) {
     return bench_now.contact[k].kind == WH_FRICTION ? bench_now.first[k] : WH_LIMITLESS;
 }
 
-/* Bound on a residual's round-off, and on that of forces relative to their terms. */
+/* Bound on the round-off of a residual, and on that of forces relative to their terms. */
 static wh_real noise_of(const wh_contact_work *w, unsigned k, bool forces, wh_real wanted,
                         wh_real made, wh_real lambda) {
     const wh_real sum = WH_ABS(wanted) + WH_ABS(made) + WH_ABS(lambda * bench_delassus(k, k));
@@ -31,7 +31,7 @@ static wh_real draw_rough(uint64_t *seed) {
     return draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 8) / WH_CONTACT_QUIET;
 }
 
-/* One contact with its limit, less, more, and more by round-off or just above. */
+/* One contact gets exactly its limit, less, more, more by round-off only, or just more than that. */
 TEST(contact_pivot, one_contact_takes_what_it_can) {
     uint64_t seed = 121;
     unsigned gave = 0;
@@ -73,7 +73,8 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
     TEST_ASSERT_TRUE(gave > ROUNDS / 8);
 }
 
-/* A contact at a limit keeps its place. One that leaves a limit goes to the list's end and is tested again for contradiction. */
+/* A contact at a limit keeps its place in the list. One that leaves a limit goes to the end and is tested again for
+ * contradiction. */
 TEST(contact_pivot, who_leaves_a_limit_is_eliminated_last) {
     uint64_t seed = 122;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -105,7 +106,7 @@ TEST(contact_pivot, who_leaves_a_limit_is_eliminated_last) {
     }
 }
 
-/* Among contacts beyond a limit, or pulled on at one, the lowest number is chosen, wherever it stands. */
+/* Among contacts beyond a limit, or pulled on at one, the one with the lowest number is chosen, wherever it is in the list. */
 TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
     uint64_t seed = 123;
     unsigned none = 0;
@@ -207,7 +208,7 @@ static bool solves(unsigned number, const uint8_t *member, unsigned count, const
     return true;
 }
 
-/* Accelerations are those of any case that solves it, and so are forces if no rows are dependent. */
+/* The accelerations are those of every case that solves the problem, and so are the forces if no rows are dependent. */
 TEST(contact_pivot, no_case_solves_it_otherwise) {
     uint64_t seed = 124;
     unsigned solved = 0;
@@ -251,7 +252,8 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
     TEST_ASSERT_TRUE(solved > ROUNDS / 2);
 }
 
-/* A forced cycle, as nothing here counts as small. It ends after 4 n + 1 rounds; the last round's release is counted. */
+/* The cycle is forced, because here no residual counts as small. It ends after 4 n + 1 rounds, counting the last round's
+ * release. */
 TEST(contact_pivot, what_does_not_end_is_ended) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {

@@ -44,7 +44,7 @@ TEST(contact_places, a_coordinate_moves_and_no_other) {
     }
 }
 
-/* A product of as many bits as a 64-bit integer holds; a plain sum loses the last ones. */
+/* The products have as many bits as a 64-bit integer holds. A plain sum would lose the last ones. */
 TEST(contact_places, no_bit_of_a_product_is_lost) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
@@ -197,7 +197,8 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 16 && seen[1] > ROUNDS / 16 && seen[2] > ROUNDS / 16);
 }
 
-/* Far: an error above the gap terms' share, for a line its place, for an angle one radian. */
+/* A stop is far passed if its error exceeds a share of the gap's terms: an entry of the row times the place of a line, or
+ * times one radian for an angle. */
 TEST(contact_places, how_far_a_stop_is_passed) {
     uint64_t seed = 145;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -226,7 +227,7 @@ TEST(contact_places, how_far_a_stop_is_passed) {
     }
 }
 
-/* The step's end is written into the state completely, nothing after it is touched, and it reads back the same. */
+/* The step's end is written to the state completely, and nothing after it changes. It reads back the same. */
 TEST(contact_places, a_step_is_written_down_and_read_back) {
     uint64_t seed = 146;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

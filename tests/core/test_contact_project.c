@@ -42,7 +42,7 @@ static unsigned members_of(const wh_contact_work *w, unsigned but, uint8_t *memb
     return count;
 }
 
-/* x += M^-1 J^T lambda from the members' solve for `wanted`; a pinned contact gets nothing. */
+/* x += M^-1 J^T lambda, where lambda solves the members' equations for `wanted`. A pinned contact gets nothing. */
 static void add_least(const uint8_t *member, unsigned count, const wh_real *wanted, wh_real *lambda,
                       wh_real *x) {
     bench_solve(member, count, bench_repeats(member, count, NULL), wanted, lambda);
@@ -57,7 +57,7 @@ static void add_least(const uint8_t *member, unsigned count, const wh_real *want
     }
 }
 
-/* A pinned contact goes straight back: the first of a coordinate, and any other that is still beyond its place. */
+/* A pinned contact goes straight back if it is the first of its coordinate or is still beyond its place. */
 static void go_back(const uint8_t *member, unsigned count, const wh_real *off, wh_real *way) {
     bool first[BENCH_COORDS];
     for (unsigned c = 0; c < BENCH_COORDS; c++) {
@@ -143,7 +143,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
         }
         TEST_ASSERT_TRUE(w.undefined == -1);
         for (unsigned e = 0; e < of->ledger->entries;
-             e++) { /* the energy is booked to the contact that was off */
+             e++) { /* the energy is booked to the contact that was off its place */
             const bool its = w.books != NULL && e == wh_ledger_of_contact(of->ledger, mover);
             const bool line = of->angles < n;
             TEST_ASSERT_TRUE(bench_near(books.step[e], its && line && mover < WH_CONTACTS_MAX
@@ -156,7 +156,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
     TEST_ASSERT_TRUE(coarse > ROUNDS / 8 && moves > ROUNDS / 8);
 }
 
-/* The first contact with a NaN place is reported; the others are corrected without it. */
+/* The first contact with a NaN place is reported, and the others are corrected without it. */
 TEST(contact_project, a_place_that_is_no_number_is_told) {
     uint64_t seed = 162;
     unsigned told = 0;
@@ -263,8 +263,8 @@ TEST(contact_project, rates_are_taken_away_by_the_least) {
     }
 }
 
-/* A stop and a friction on one of two coupled bodies, the stop passed a little, or far. Friction then does not hold its body. A
- * corrected place is checked again, at most twice. */
+/* A stop and a friction act on one of two coupled bodies, which is a little or far beyond the stop. Then friction does not
+ * hold its body. A corrected place is checked again, at most twice. */
 TEST(contact_project, what_slipped_is_put_back) {
     uint64_t seed = 164;
     unsigned far = 0;

@@ -141,7 +141,7 @@ static bool friction_holds(unsigned k) {
     return way && energy_of(k) <= SLACK && WH_ABS(impulse_of(k)) <= most + SLACK;
 }
 
-/* `was`: its place at capture; a crossing of this step may have moved it. */
+/* `was`: its place at capture. A crossing in this step may have moved it. */
 static bool hold_holds(unsigned k, wh_real was) {
     for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
         if (hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN) {
@@ -172,7 +172,7 @@ static bool all_hold(const wh_real *was) {
     return good;
 }
 
-/* A run; false if an invariant fails. A step with too many events has no such promise. */
+/* Makes a run; false if an invariant fails. Invariants are not required of a step with too many events. */
 static bool run(wh_real *end, uint64_t *overruns) {
     wh_real was[HAND_CONTACTS] = {WH_R(0.0)};
     bool good = true;

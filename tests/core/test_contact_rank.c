@@ -63,7 +63,7 @@ static bool repeats(const wh_contact_work *w, unsigned k) {
     return false;
 }
 
-/* A row's remainder is orthogonal to the other remainders, and as long as its distance from them. */
+/* What remains of a row is orthogonal to the other remainders. Its length is the row's distance from their span. */
 TEST(contact_rank, rows_are_made_independent) {
     uint64_t seed = 31;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -97,8 +97,8 @@ TEST(contact_rank, rows_are_made_independent) {
     }
 }
 
-/* From one place to another: no loss without a change or with a small one. A row that has become dependent is lost, and so is
- * the first that points back. A redundant hold cannot be lost. */
+/* The holds move from one place to another. Without a change, or with a small one, none is lost. A row that has become
+ * dependent is lost, and so is the first that points back. A redundant hold cannot be lost. */
 TEST(contact_rank, the_first_that_is_lost_is_told) {
     uint64_t seed = 37;
     unsigned lost = 0;
@@ -126,7 +126,8 @@ TEST(contact_rank, the_first_that_is_lost_is_told) {
     TEST_ASSERT_TRUE(lost > ROUNDS / 4);
 }
 
-/* A lone hold must point right back; the second of two loses its remainder after a right angle. */
+/* A lone hold is lost only if its row points nearly straight back. The second of two is lost after a right angle, when
+ * nothing of its row remains. */
 TEST(contact_rank, how_far_a_row_may_turn) {
     static const struct {
         unsigned count;

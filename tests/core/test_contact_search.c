@@ -92,7 +92,7 @@ static void enter(wh_real off, tally *sum) {
     TEST_ASSERT_TRUE(WH_ABS(off) <= WH_BRACKET);
 }
 
-/* The mean is at most so many hundredths of evaluations, the maximum `most`; almost all are accurate. */
+/* The mean is at most this many hundredths of evaluations, the maximum `most`. Almost all are accurate. */
 static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, unsigned most) {
     const unsigned mean = 100U * sum->looks / sum->searches;
     const unsigned bound = WH_DOUBLE ? hundredths : hundredths_f;
@@ -101,8 +101,8 @@ static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, u
     TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
 }
 
-/* Stops, holds' conditions and crossings, each with its time (after the end: no event), several at once; some begin at zero with an
- * immediate event. The first is found, just past it, with all simultaneous ones. */
+/* Several stops, hold conditions and crossings, each with its time (after the end: no event). Some begin at zero and have an
+ * event at once. The search finds the first, just past it, and all that are simultaneous with it. */
 TEST(contact_search, the_first_of_several_is_found) {
     uint64_t seed = 201;
     tally sum = {0, 0, 0, 0};
@@ -152,7 +152,7 @@ TEST(contact_search, the_first_of_several_is_found) {
     told(&sum, 870, 645, 14);
 }
 
-/* A contact beyond zero has its event at once, with all such ones and no others; a sliding one begins at rest. */
+/* Contacts that start beyond zero all have their event at once, and no others have. A sliding contact begins at rest. */
 TEST(contact_search, what_is_beyond_already_comes_at_once) {
     uint64_t seed = 202;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -182,7 +182,8 @@ TEST(contact_search, what_is_beyond_already_comes_at_once) {
     }
 }
 
-/* A friction that slides against a force rests at v/a. It begins with a rate, or at zero in a mode that it is about to leave. */
+/* A friction that slides against a force comes to rest at v/a. It begins with a rate, or at zero in a mode that it is about
+ * to leave. */
 TEST(contact_search, sliding_ends_where_the_rate_does) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
@@ -218,7 +219,8 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
     told(&sum, 1025, 740, 25);
 }
 
-/* A contact that slides from rest and is bent back. Its rate is zero at the start, which is no event, and at the end. */
+/* A contact slides from rest, and a force turns it back. Its rate is zero at the start, which is no event, and again at the
+ * end. */
 TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};

@@ -13,7 +13,7 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 4000 : 100 };
 
 #define CLOSE (WH_DOUBLE ? 1e-9 : 2e-4)
 
-/* Stops; the last contact may be a hold or a friction. A body anywhere; resting and held contacts are at rest. */
+/* Draws stops; the last contact may be a hold or a friction. A body may be anywhere; resting and held contacts are at rest. */
 static void draw(uint64_t *seed, wh_contact_work *w, wh_contact_state *s, exact *e) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     const unsigned count = 1 + (unsigned)(draw_bits(seed) % HAND_CONTACTS);
@@ -103,7 +103,8 @@ TEST(contact_squeeze, the_least_that_lets_nobody_pass) {
     TEST_ASSERT_TRUE(compared >= MECHANISMS / 2U);
 }
 
-/* Two stops are passed. The first pushes a body onto the other, which is hit without a push, by a slide along the first. */
+/* Two stops are passed. The first pushes a body onto the second. That one is hit although nothing pushes it, because the body
+ * slides along the first. */
 TEST(contact_squeeze, who_is_met_without_a_push_is_hit) {
     for (int slope = -3; slope <= 3; slope++) {
         for (int beyond = 1; beyond <= 3; beyond++) {

@@ -14,7 +14,7 @@ static wh_real none(unsigned way) {
     return way == 0 ? zero / zero : (way == 1 ? WH_R(1.0) : WH_R(-1.0)) / zero;
 }
 
-/* Three contacts with ordered kinds, from the number. False: no such case. No contact is near an event. */
+/* Draws three contacts with ordered kinds, from the number. False: there is no such case. No contact is near an event. */
 static bool build(unsigned number, bool held, bool pinned, bool straight) {
     wh_contact_kind kind[COUNT];
     for (unsigned k = 0; k < COUNT; k++, number /= 4) {
@@ -129,7 +129,7 @@ TEST(contact_undefined, the_first_of_several_is_named) {
     }
 }
 
-/* A restitution counts at a hit of its stop, at a run's start and later. */
+/* A restitution is evaluated only when its stop is hit, at a run's start or later. */
 TEST(contact_undefined, a_restitution_counts_at_an_impact) {
     for (unsigned k = 0; k < COUNT; k++) {
         for (unsigned later = 0; later < 2; later++) {

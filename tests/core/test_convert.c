@@ -20,7 +20,7 @@ static uint32_t bits_of(float real) {
 
 static float wide_to_float(uint64_t number) {
     volatile uint64_t hidden =
-        number; /* hides it from the compiler, which would compute it itself */
+        number; /* hides the number from the compiler, which would convert it itself */
     return (float)hidden;
 }
 
