@@ -27,8 +27,8 @@ static const command_usage accel_usage = {
         "\n"
         "Coordinates, rates, inputs and parameters may be set, each once. A value is SI, or has a unit:\n"
         "\"theta'=330 [rpm]\". A bare number is refused if the declared unit is not SI. Without a value, a\n"
-        "state is 0, and an input or parameter has its declared value. A scene includes its effects and their\n"
-        "parameters.\n",
+        "state is 0, and an input or parameter has its declared value. A scene includes its effects and\n"
+        "their parameters.\n",
     .tail = "",
     .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
             [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
