@@ -93,9 +93,9 @@ void energy_residual_print(FILE *out, const energy_residual *b) {
     if (b->known) {
         fprintf(out, "energy residual    %.2e of %s, %.3g J\n", b->ratio,
                 b->rounded && b->exact
-                    ? "the smallest entry above round-off and the error of the books' integrals"
+                    ? "the smallest entry above round-off and the error of the balance's integrals"
                 : b->rounded ? "the smallest entry above round-off"
-                             : "the largest entry of the books",
+                             : "the largest entry of the energy balance",
                 b->largest_J);
     }
 }
@@ -168,11 +168,11 @@ static void account_print_end(FILE *out, double change, double left) {
 
 /* The two energies, and the balanced energy if it differs from their sum. */
 static void print_levels(FILE *out, const books *b) {
-    fprintf(out, "energy book [J]\n");
+    fprintf(out, "energy balance [J]\n");
     account_print_level(out, "kinetic", b->kinetic_J);
     account_print_level(out, "stored", b->stored_J);
     if (b->image->has_integral) {
-        account_print_level(out, "booked: h = sum q' dL/dq' - L, not T + V", b->energy_J);
+        account_print_level(out, "balanced: h = sum q' dL/dq' - L, not T + V", b->energy_J);
     }
 }
 
@@ -244,7 +244,7 @@ static void print_momentum(FILE *out, const image *im, const kept_account *kept,
                            const books *b, double time_s) {
     const image_unknown *u = &im->unknown[i];
     const double change = b->momentum_now[i] - b->momentum[i];
-    fprintf(out, "momentum book of %s [%s]\n", u->name, u->momentum_si);
+    fprintf(out, "momentum balance of %s [%s]\n", u->name, u->momentum_si);
     print_entries(out, kept, u->name);
     account_print_end(out, change, kept->left);
     if (u->is_length && time_s > 0.0) {

@@ -15,8 +15,8 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
          "half of it is the error of an amplitude, which no plot shows",
-         "fail the energy balance: the residual is too large a part of the largest entry of their books (" ENERGY_RESIDUAL_COLUMN
-         "), at the end or on the way"},
+         "fail the energy balance: the residual is too large compared with the balance's largest entry (" ENERGY_RESIDUAL_COLUMN
+         "), at the end or at a time before"},
     [FINDING_ACCURACY] =
         {"accuracy", FINDING_WARNING, 0.5, "of the run",
          "an error that grows evenly and is 2 % at the end passes 1 % there",

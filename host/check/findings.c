@@ -31,7 +31,7 @@ static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT])
 static void say_mass(FILE *out, const run_checks *v) {
     fprintf(
         out,
-        "%s of '%s' is nearly singular: round-off, in double too, may cause an error of %.2g %% in its solution",
+        "%s of '%s' is nearly singular: even in double, round-off may cause an error of %.2g %% in its solution",
         v->image->has_energies ? "the mass matrix" : "the matrix of the highest derivatives",
         v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
 }
@@ -39,7 +39,7 @@ static void say_mass(FILE *out, const run_checks *v) {
 static void say_constants(FILE *out, const run_checks *v) {
     fprintf(
         out,
-        "constants of '%s' are sums in which a small number is lost beside a large one: their round-off, in double too, may be of any size",
+        "constants of '%s' are sums in which a small number is lost beside a large one: even in double, their round-off can be of any size",
         v->image->mechanism);
 }
 
@@ -49,12 +49,12 @@ static void say_energy(FILE *out, const run_checks *v) {
     if (part > 2.0 * b->ratio) {
         fprintf(
             out,
-            "the energy balance fails: its residual reached %.3g J, %.2e of the largest entry of the books",
+            "the energy balance fails: its residual reached %.3g J, %.2e of the largest entry of the energy balance",
             part * b->largest_J, part);
     } else {
         fprintf(
             out,
-            "the energy balance fails: its residual is %.3g J, %.2e of the largest entry of the books",
+            "the energy balance fails: its residual is %.3g J, %.2e of the largest entry of the energy balance",
             b->left_J, b->ratio);
     }
     if (b->jump_s >= 0.0) {
@@ -92,7 +92,7 @@ static void say_pole(FILE *out, const run_checks *v) {
     statement_text(q->where, statement, sizeof statement);
     fprintf(
         out,
-        "the step after t = %.6g s jumped over a pole, where %s grows without bound: %s; no motion passes it",
+        "the step after t = %.6g s jumped over a pole, where %s grows without bound: %s; no motion continues through a pole",
         begin_s, q->what, statement);
 }
 
@@ -412,7 +412,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     } else if (is_told(v, FINDING_MASS)) {
         hint =
             v->image->has_energies
-                ? "measure the coordinate from the heavy body to the light one, not the other way"
+                ? "give the heavy body the absolute coordinate, and give the light body's position relative to it"
                 : "two equations are nearly the same: replace one by their difference";
     } else if (is_told(v, FINDING_CONSTANTS)) {
         hint = "declare the small number as a parameter of its own";
@@ -472,7 +472,7 @@ static void say_remedy(FILE *out, const run_checks *v) {
         const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
         if (v->found[FINDING_MISSED].value < 1.0) {
             fputs(
-                "hint: write the expression without a pole or a jump, such as 1/x or sign(x): Whirl finds no bounds for it\n",
+                "hint: write the expression without a pole or a jump, as in 1/x or sign(x): Whirl cannot bound it\n",
                 out);
         }
         if (until_s > 0.0) {
@@ -480,7 +480,7 @@ static void say_remedy(FILE *out, const run_checks *v) {
         }
     } else if (is_told(v, FINDING_EVENTS)) {
         fputs(
-            "hint: use restitution 0, or add hysteresis to the condition: that ends such events\n",
+            "hint: use restitution 0, or add hysteresis to the condition: this ends such events\n",
             out);
     } else if ((v->against & ~FINDING_OF_SCENE) == FINDING_BIT(FINDING_ACCURACY) &&
                v->found[FINDING_ACCURACY].at_s > 0.0) {
@@ -625,7 +625,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
             statement);
     }
     fputs(
-        "hint: try a smaller --step; if the run fails at the same time, look for a singular position there\n",
+        "hint: try a smaller --step; if the run fails at the same time, check for a singular position there\n",
         out);
     findings_say_failed(out, v);
 }

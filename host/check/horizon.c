@@ -295,17 +295,18 @@ static void print_column(FILE *out, const horizon *h, int k) {
     case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
     case HORIZON_NOT_TOLD:
         if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
-            fprintf(out, "unknown         after %.9g s: double has no sine of such angles\n",
+            fprintf(out,
+                    "unknown         after %.9g s: the angle is too large for sine in double\n",
                     c->until_s);
         } else if (c->range > 0.0) {
             fprintf(
                 out,
-                "unknown         round-off may move it by %.2e of its range, %.4g %s, in double too\n",
+                "unknown         even in double, round-off may move it by %.2e of its range, %.4g %s\n",
                 c->rounding / c->range, c->range, unit);
         } else {
             fprintf(
                 out,
-                "unknown         round-off may be the reason that it does not move, in double too\n");
+                "unknown         even in double, round-off may be the reason that it does not move\n");
         }
         break;
     case HORIZON_ROUNDING:
@@ -337,16 +338,18 @@ static void print_invariants(FILE *out, const horizon *h) {
         return;
     }
     const energy_residual balance = energy_residual_of(b, h->of->shape->kind, h->of->run);
-    fputs(", only the balances are, to t = ", out);
+    fputs("; only the balances are meaningful, to t = ", out);
     fprintf(out, "%.9g s:\n", h->of->end_s);
     if (!balance.known) {
         fputs("  energy: its balance is not known\n", out);
     } else if (energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT)) {
-        fprintf(out,
-                "  energy: not conserved either, residual %.2e of the largest entry of its books\n",
-                balance.ratio);
+        fprintf(
+            out,
+            "  energy: not conserved either, residual %.2e of the largest entry of its balance\n",
+            balance.ratio);
     } else {
-        fprintf(out, "  energy: residual %.2e of the largest entry of its books\n", balance.ratio);
+        fprintf(out, "  energy: residual %.2e of the largest entry of its balance\n",
+                balance.ratio);
     }
     print_momenta(out, h);
 }
@@ -362,8 +365,8 @@ static void print_verdict(FILE *out, const horizon *h) {
         return;
     }
     if (t->unwrapped && h->until_s >= t->cut_s) {
-        fprintf(out, "unknown after t = %.9g s: double has no sine beyond %g rad\n", t->cut_s,
-                ANGLE_SINE_MOST_RAD);
+        fprintf(out, "unknown after t = %.9g s: sine is computed only up to %g rad in double\n",
+                t->cut_s, ANGLE_SINE_MOST_RAD);
     } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
         fprintf(out, "unknown: double has too few digits for %s at its position\n",
                 name_of(h, h->first, name));
@@ -384,17 +387,17 @@ static void print_verdict(FILE *out, const horizon *h) {
         fprintf(
             out,
             t->missed
-                ? "after t = %.9g s a step passed through a contact or over an edge or a force: whirl run names it\n"
-                : "after t = %.9g s a step jumped over a pole of an expression: no motion passes it\n",
+                ? "after t = %.9g s a step passed through a contact or over an edge or a force: `whirl run` names it\n"
+                : "after t = %.9g s a step jumped over a pole of an expression: no motion continues through a pole\n",
             t->jumped_s);
     }
     if (t->unaliased) {
-        fputs("not looked at: [aliased], that takes more than the two runs did\n", out);
+        fputs("not checked: [aliased], because it takes longer than the two runs\n", out);
     }
     if (t->aliased.column > 0) {
         fprintf(
             out,
-            "its steps alias a fast force or motion, so that the run with half the step has the same error\n");
+            "the steps alias a fast force or motion, so the run with half the step has the same error\n");
     }
     print_invariants(out, h);
 }
@@ -433,15 +436,16 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     char name[NAME_SIZE];
     if (h->to_the_end && doubted) {
         fputs(
-            "trusted            unknown: the finer run agrees to the end, but may share the error that is warned of\n",
+            "trusted            unknown: the finer run agrees to the end, but may share the error of the warning\n",
             out);
     } else if (h->to_the_end) {
         fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
                 h->tolerance);
     } else if (h->of->unwrapped && h->until_s >= h->of->cut_s) {
-        fprintf(out,
-                "trusted            unknown after t = %.6g s: double has no sine beyond %g rad\n",
-                h->of->cut_s, ANGLE_SINE_MOST_RAD);
+        fprintf(
+            out,
+            "trusted            unknown after t = %.6g s: sine is computed only up to %g rad in double\n",
+            h->of->cut_s, ANGLE_SINE_MOST_RAD);
     } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
         const horizon_column *c = &h->column[h->first];
         fprintf(out,
@@ -453,7 +457,7 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
             fprintf(out, "round-off may be the reason that it does not move\n");
         }
     } else if (h->of->aliased.column > 0) {
-        fputs("trusted            unknown: its steps alias a fast force or motion\n", out);
+        fputs("trusted            unknown: the steps alias a fast force or motion\n", out);
     } else {
         fprintf(out, "trusted            until t = %.6g s: ", h->until_s);
         print_reason(out, h);

@@ -291,8 +291,8 @@ static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     statement_text(where, text, sizeof text);
     diag_error(
         errors, where,
-        "give the linkage lengths with which it cannot lie flat, or hold one coordinate more there",
-        "%s the holds allow more than one motion from here, since this one repeats the others: %s",
+        "choose lengths with which the linkage cannot lie flat, or hold one more coordinate there",
+        "%s the holds allow more than one motion from here, because this hold repeats the others: %s",
         at->when, text);
 }
 

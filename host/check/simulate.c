@@ -67,7 +67,7 @@ static bool open_files(simulation *sim) {
     int power;
     if (s->vcd != NULL && !traces_power(sim->image, s->every, &power)) {
         fputs(
-            "whirl run: error: these records lie too close for --vcd, whose finest unit is a femtosecond, with 2^52 units at most\nhint: use a larger --every, or --csv, which has no such limit\n",
+            "whirl run: error: these records are too close for --vcd: its finest unit is a femtosecond, and a time has at most 2^52 units\nhint: use a larger --every, or --csv, which has no such limit\n",
             stderr);
         return false;
     }
@@ -399,7 +399,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (result == SIMULATION_DONE && h != NULL) {
         horizon_print_line(out, h, (sim->verdict->against & ~FINDING_OF_SCENE) != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
-        fputs("trusted            not computed, which takes more than a second: run whirl trust\n",
+        fputs("trusted            not computed: it takes more than a second; run `whirl trust`\n",
               out);
     }
     const unsigned unlooked = run_checks_unlooked(sim->verdict);
@@ -411,7 +411,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
             fprintf(out, ", poles and contacts in %" PRIu64 " of %" PRIu64 " steps", unseen,
                     sim->steps);
         }
-        fputs(": that takes more than a second\n", out);
+        fputs(": the check takes more than a second\n", out);
     }
     summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
 }

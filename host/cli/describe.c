@@ -62,7 +62,7 @@ static void tell_undefined(const image *im, const char *file) {
     if (!nonfinite_term(&at, errors)) {
         fprintf(stderr,
                 "%s: error: at this state the accelerations of '%s' are not finite numbers\n"
-                "hint: look for a singular position: an inertia that vanishes there\n",
+                "hint: check for a singular position, where an inertia vanishes\n",
                 file, im->name);
     }
     diags_flush(errors, stderr);

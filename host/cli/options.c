@@ -353,8 +353,8 @@ bool options_strict(const char *command, char **words, int *at, double *strict, 
     if (*bad) {
         fprintf(
             stderr,
-            "whirl %s: error: --strict takes 'off', or a part of the largest entry of the books\n"
-            "hint: --strict=off, or such as --strict=1e-6: above 0, at most 1\n",
+            "whirl %s: error: --strict takes 'off', or a fraction of the largest entry of the energy balance, above 0 and at most 1\n"
+            "hint: --strict=off or --strict=1e-6\n",
             command);
     }
     return true;

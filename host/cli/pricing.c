@@ -273,7 +273,7 @@ static bool can_start(pricing *p, const instance *inst) {
         const effect *missing = instance_lacks(inst, p->grid.axes[i].symbol);
         if (missing != NULL) {
             fprintf(stderr,
-                    "whirl %s: error: '%s' belongs to the effect '%s', which takes no part here\n"
+                    "whirl %s: error: '%s' belongs to the effect '%s', which is not selected here\n"
                     "hint: add --with %s\n",
                     p->options->command, p->grid.axes[i].symbol->name, missing->name,
                     missing->name);

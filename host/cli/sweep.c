@@ -384,10 +384,10 @@ static bool is_affordable(const sweep_options *o, const grid *g, const image *ba
     }
     const double wanted = operations_of(g, base);
     if (wanted > o->effort) {
-        fprintf(stderr,
-                "whirl map: error: this would take about %.0f minutes: %llu pairs, two runs beside "
-                "each other for each\nhint: fewer pairs, longer steps, a nearer --until",
-                effort_minutes(wanted), (unsigned long long)g->points);
+        fprintf(
+            stderr,
+            "whirl map: error: this would take about %.0f minutes: %llu pairs with two runs each\nhint: use fewer pairs, longer steps or an earlier --until",
+            effort_minutes(wanted), (unsigned long long)g->points);
         effort_say(wanted);
     }
     return wanted <= o->effort;

@@ -183,10 +183,8 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
     if (wanted > o->effort) {
         fprintf(
             stderr,
-            "whirl trust: error: this would take about %.0f minutes: two runs beside each other, "
-            "of %.3g and %.3g steps\n"
-            "hint: a nearer --until tells it of the beginning, where trust ends in a chaotic "
-            "motion; or a longer --step",
+            "whirl trust: error: this would take about %.0f minutes: two runs of %.3g and %.3g steps\n"
+            "hint: use an earlier --until, or a longer --step: a chaotic motion loses its accuracy early anyway",
             effort_minutes(wanted), (double)im->steps, 2.0 * (double)im->steps);
         effort_say(wanted);
     }

@@ -512,7 +512,8 @@ static bool exponential_exact(twofold *step, int states, int columns) {
 static bool is_possible(const image *im, diags *errors) {
     static const char hint[] = "leave out --matrix";
     if (im->contacts > 0) {
-        diag_error(errors, im->contact[0].at, "leave it out, --without; or leave out --matrix",
+        diag_error(errors, im->contact[0].at,
+                   "leave the effect out with --without EFFECT, or leave out --matrix",
                    "a step with events is no matrix: '%s' has this %s", im->name,
                    im->contact[0].word);
     } else if (im->ledger.kept) {

@@ -408,7 +408,7 @@ static bool can_keep(const layout *map, diags *errors) {
     const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {
         diag_error(errors, m->at, "leave out the ledger",
-                   "'%s' is given by equations: there are no energies to keep books of", m->name);
+                   "'%s' is given by equations: without energies it has no ledger", m->name);
         return false;
     }
     if (map->form != WH_SECOND_ORDER) {
@@ -445,8 +445,7 @@ static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int co
     }
     if (!good) {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
-                   "the books of '%s' cannot be kept: there are too many entries",
-                   e->instance->mechanism->name);
+                   "the ledger of '%s' has too many entries", e->instance->mechanism->name);
         ledger_lists_free(l);
         l = NULL;
     }
@@ -484,24 +483,26 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
             m->name);
     } else if (contacts != NULL) {
         const contact_statement *first = contacts->row[0].from;
-        diag_error(errors, first->at, "leave it out, --without; or leave out --stabilized",
+        diag_error(errors, first->at,
+                   "leave the effect out with --without EFFECT, or leave out --stabilized",
                    "--stabilized: '%s' has events, whose energy changes it would undo", m->name);
     } else if (settings->matrix != MATRIX_NONE) {
         diag_error(errors, m->at, "leave out --matrix, or --stabilized",
                    "--stabilized needs the stages of a step, and a matrix has none");
     } else if (wh_methods[settings->method].takes == WH_NO_RATES) {
-        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
-                   "--stabilized keeps books, and %s none: its kicks know no rates",
-                   wh_methods[settings->method].title);
+        diag_error(
+            errors, m->at, "choose another --method, or leave out --stabilized",
+            "--stabilized needs a ledger, which %s cannot have: its kicks do not depend on rates",
+            wh_methods[settings->method].title);
     } else if (settings->method == WH_SEMI_IMPLICIT_EULER) {
         diag_error(
             errors, m->at, "choose another --method, or leave out --stabilized",
             "--stabilized corrects an energy drift, but with %s the energy oscillates about the right one instead",
             wh_methods[settings->method].title);
     } else if (map->form != WH_SECOND_ORDER) {
-        diag_error(errors, m->at, "--without conserve, or leave out --stabilized",
-                   "--stabilized keeps books, which a coordinate that is integrated from its "
-                   "momentum has not");
+        diag_error(
+            errors, m->at, "add --without conserve, or leave out --stabilized",
+            "--stabilized needs a ledger, which is not possible with a coordinate that is integrated from its momentum");
     } else if (integral != NULL) {
         diag_error(errors, m->at, no_stabilized,
                    "--stabilized: the kinetic energy of '%s' is no quadratic form of its rates",
@@ -517,7 +518,8 @@ static bool stabilizing_conserves(const ledger_lists *books, const equations *e,
     for (int i = 0; i < books->smooth; i++) {
         if (books->entry[i].account == 0) {
             diag_error(
-                errors, *books->entry[i].at, "leave it out, --without; or leave out --stabilized",
+                errors, *books->entry[i].at,
+                "leave the effect out with --without EFFECT, or leave out --stabilized",
                 "--stabilized is for motion without drive or damping: this statement drives or damps");
             return false;
         }

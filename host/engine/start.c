@@ -131,17 +131,17 @@ static bool is_free_of_rates(const image *im, const char *title, diags *errors) 
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];
     const int taken = rate_taken(im);
-    snprintf(hint, sizeof hint, "its kicks are at positions, and know no rates; choose --method %s",
+    snprintf(hint, sizeof hint,
+             "the kicks of this method depend on positions only; choose --method %s",
              methods_of_form(im->form, others));
     if (taken >= 0) {
         diag_error(errors, im->unknown[taken].at, hint,
-                   "%s is not defined here: accelerations take the rate of '%s'", title,
+                   "%s is not defined here: the accelerations depend on the rate of '%s'", title,
                    im->unknown[taken].name);
     } else if (im->contacts > 0) {
-        diag_error(errors, im->contact[0].at, hint, "%s is not defined here: there are contacts",
-                   title);
+        diag_error(errors, im->contact[0].at, hint, "%s is not defined with contacts", title);
     } else if (im->ledger.kept) {
-        diag_error(errors, im->at, hint, "%s is not defined here: it keeps no books", title);
+        diag_error(errors, im->at, hint, "%s is not defined with a ledger", title);
     }
     return taken < 0 && im->contacts == 0 && !im->ledger.kept;
 }
@@ -157,18 +157,16 @@ bool start_has_method(const image *im, wh_method method, diags *errors) {
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         if (u->order != 2) {
-            snprintf(
-                hint, sizeof hint,
-                "it moves positions in another way than rates: every unknown must be of order 2; "
-                "choose --method %s",
-                others);
+            snprintf(hint, sizeof hint,
+                     "this method needs equations of order 2 for every unknown; choose --method %s",
+                     others);
             diag_error(errors, u->at, hint, "%s is not defined here: '%s' is of order %d", title,
                        u->name, u->order);
             return false;
         }
     }
     snprintf(hint, sizeof hint,
-             "integrate the coordinate, --without conserve; or choose --method %s", others);
+             "integrate the coordinate with --without conserve, or choose --method %s", others);
     diag_error(errors, im->at, hint,
                "%s is not defined here: '%s', which is conserved, is integrated from its momentum",
                title, im->unknown[im->from_momentum[0]].name);

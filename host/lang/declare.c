@@ -126,8 +126,8 @@ static named *claim_name(parser *in, const token *name) {
     const int length = (int)name->length;
     if (word_is_reserved(name->text, name->length)) {
         char hint[80];
-        snprintf(hint, sizeof hint, "take another name, such as %.*s_1", length > 30 ? 30 : length,
-                 name->text);
+        snprintf(hint, sizeof hint, "choose another name, such as %.*s_1",
+                 length > 30 ? 30 : length, name->text);
         diag_error(in->diags, name->at, hint, "'%.*s' is a reserved word", length, name->text);
         return NULL;
     }

@@ -344,8 +344,9 @@ static void check_contact(parser *in, const mechanism *made, const contact_state
     char hint[RATE_HINT_SIZE];
     const symbol *rate = find_input(made, each->value, true, mark);
     if (rate != NULL) {
-        diag_error(in->diags, each->value->at, "write what is to be limited or held, not its rate",
-                   "stop and hold act on coordinates: they take no rate, as '%s' is", rate->name);
+        diag_error(in->diags, each->value->at,
+                   "write the position that is to be limited or held, not its rate",
+                   "stop and hold limit coordinates, not rates: '%s' is a rate", rate->name);
         return;
     }
     const symbol *input =

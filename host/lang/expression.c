@@ -144,7 +144,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
     case CONTEXT_CONSTANT:
         if (found->kind == SYM_INPUT || (uses & USES_INPUT) != 0) {
             diag_error(in->diags, name->at, NULL,
-                       "%s changes while running: only numbers and parameters can stand here",
+                       "%s changes during a run: only numbers and parameters can stand here",
                        words);
             return false;
         }
@@ -157,27 +157,31 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
         break;
     case CONTEXT_FORCE:
         if (order > 1) {
-            diag_error(in->diags, name->at, NULL,
-                       "T, V, F and Q take no second derivative, as %s %s", words,
-                       by_let ? "has" : "is");
+            diag_error(
+                in->diags, name->at,
+                "write it with coordinates and rates: whirl derive prints the expression of each second derivative",
+                "T, V, F and Q cannot contain a second derivative: %s %s one", words,
+                by_let ? "has" : "is");
             return false;
         }
         break;
     case CONTEXT_GAP:
         if (order > 0) {
-            diag_error(in->diags, name->at, "write what is to be limited or held, not its rate",
-                       "stop and hold act on coordinates: they take no rate, as %s %s", words,
+            diag_error(in->diags, name->at,
+                       "write the position that is to be limited or held, not its rate",
+                       "stop and hold limit coordinates, not rates: %s %s a rate", words,
                        by_let ? "has" : "is");
             return false;
         }
         break;
     case CONTEXT_EVENT:
         if (order > 1) {
-            diag_error(in->diags, name->at,
-                       "write it with coordinates and rates: whirl derive prints the expression "
-                       "of each second derivative",
-                       "stop, friction, hold and when take no second derivative, as %s %s", words,
-                       by_let ? "has" : "is");
+            diag_error(
+                in->diags, name->at,
+                "write it with coordinates and rates: whirl derive prints the expression "
+                "of each second derivative",
+                "stop, friction, hold and when cannot contain a second derivative: %s %s one",
+                words, by_let ? "has" : "is");
             return false;
         }
         break;
@@ -185,7 +189,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
     case CONTEXT_OUTPUT:
         if (order > 2 && (found->kind == SYM_COORDINATE ||
                           (by_let && in->builder != NULL && !in->builder->has_equations))) {
-            diag_error(in->diags, name->at, NULL, "a coordinate takes at most two primes here");
+            diag_error(in->diags, name->at, NULL, "a coordinate has at most two primes here");
             return false;
         }
         break;
@@ -239,8 +243,8 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
         }
         if (made->height > EXPR_HEIGHT_MAX) {
             diag_error(in->diags, name->at, NULL,
-                       "'%s' and what it stands for are more than %d operators deep", found->name,
-                       EXPR_HEIGHT_MAX);
+                       "'%s' is more than %d operators deep once its lets are inserted",
+                       found->name, EXPR_HEIGHT_MAX);
             return NULL;
         }
         break;
@@ -501,7 +505,7 @@ static const expr *parse_named(parser *in) {
         } else if (search.best != NULL) {
             snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
         } else if (in->names != NULL && names_find(in->names, name.text, name.length) != NULL) {
-            snprintf(hint, sizeof hint, "products are written with *; a coordinate has no (t)");
+            snprintf(hint, sizeof hint, "write products with *; a coordinate has no (t)");
         } else {
             size_t at = (size_t)snprintf(hint, sizeof hint, "the functions are");
             for (int f = 0; f < FUNCTIONS; f++) {
@@ -545,7 +549,7 @@ static const expr *parse_primary(parser *in) {
     char words[80];
     token_words(&in->token, words, sizeof words);
     if (in->token.kind == TOKEN_NEWLINE) {
-        parser_fail(in, "a line goes on only while a parenthesis or brace is open",
+        parser_fail(in, "to continue on the next line, keep a parenthesis or brace open",
                     "a value is missing before the end of the line");
     } else if (in->token.kind == TOKEN_UNIT) {
         parser_fail(in, "a unit belongs to a number: 2 [kg]; there are no matrices",
@@ -594,7 +598,7 @@ static const expr *parse_product(parser *in) {
         const token sign = in->token;
         parser_next(in);
         if (sign.sign == '*' && parser_is_sign(in, '*')) {
-            parser_fail(in, "powers are written with ^: r^2", "'**' is no operator");
+            parser_fail(in, "write powers with ^: r^2", "'**' is no operator");
             return NULL;
         }
         const expr *right = parse_signed(in);

@@ -85,7 +85,7 @@ static void check_pairs(const instance *made, diags *all) {
             const contact_statement *b = &of->contacts[k];
             if (b->kind == CONTACT_FRICTION && b->coordinate == a->coordinate &&
                 instance_has_contact(made, b)) {
-                diag_error(all, a->at, "call for one of these effects",
+                diag_error(all, a->at, "select only one of these effects",
                            "friction on '%s' was already given in line %d", a->coordinate->name,
                            b->at.line);
                 break;
@@ -97,7 +97,7 @@ static void check_pairs(const instance *made, diags *all) {
         for (int k = 0; k < i && instance_has_noise(made, a); k++) {
             const noise *b = &of->noises[k];
             if (b->output == a->output && instance_has_noise(made, b)) {
-                diag_error(all, a->at, "call for one of these effects",
+                diag_error(all, a->at, "select only one of these effects",
                            "noise on '%s' was already given in line %d", a->output->name,
                            b->at.line);
                 break;
@@ -119,9 +119,10 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
     if (changes && named->effect >= 0 && !made->with[named->effect]) {
         const char *owner = made->mechanism->effects[named->effect].name;
         char hint[120];
-        snprintf(hint, sizeof hint, "call for it: with %s", owner);
-        diag_error(all, tree->at, hint, "'%s' belongs to the effect '%s', which takes no part here",
-                   named->name, owner);
+        snprintf(hint, sizeof hint, "add it to the scene: with %s", owner);
+        diag_error(all, tree->at, hint,
+                   "'%s' belongs to the effect '%s', which is not selected here", named->name,
+                   owner);
     }
     check_inputs(made, tree->left, all);
     check_inputs(made, tree->right, all);
@@ -309,9 +310,9 @@ static bool takes_part(const instance *made, override_kind kind, const assignmen
     if (kind == OVERRIDE_SET) {
         snprintf(hint, sizeof hint, "add --with %.80s", missing->name);
     } else {
-        snprintf(hint, sizeof hint, "name a scene that calls for %.60s", missing->name);
+        snprintf(hint, sizeof hint, "name a scene that selects %.60s", missing->name);
     }
-    diag_error(all, change->at, hint, "'%s' belongs to the effect '%s', which takes no part here",
+    diag_error(all, change->at, hint, "'%s' belongs to the effect '%s', which is not selected here",
                change->symbol->name, missing->name);
     return false;
 }
@@ -428,11 +429,11 @@ static void evaluate_durations(plan *from, instance *made) {
     const place at = from->until.value != NULL ? from->until.at : from->step.at;
     made->step = ratio_of(made->step_s);
     if (!ratio_count(ratio_of(made->until_s), made->step, &made->steps)) {
-        diag_error(values->diags, at, "a larger step or an earlier until",
+        diag_error(values->diags, at, "use a larger step or an earlier until",
                    "more than 2^63 steps of %.9g s", made->step_s);
     }
     if (made->until_s > 0.0 && made->until_s < made->step_s * (1.0 - ROUNDING)) {
-        diag_error(values->diags, at, "a later until or a shorter step; until 0 takes no step",
+        diag_error(values->diags, at, "use a later until or a shorter step; until 0 takes no step",
                    "until %.9g s is less than one step of %.9g s", made->until_s, made->step_s);
     }
 }
@@ -448,8 +449,8 @@ static void evaluate_ranges(plan *from, instance *made) {
         const double low = finite_value(each->low, &from->values, each->at, what);
         const double high = finite_value(each->high, &from->values, each->at, what);
         if (!(low < high)) {
-            diag_error(from->values.diags, each->at, "write the lesser end first",
-                       "%s holds nothing: from %.9g to %.9g", what, low, high);
+            diag_error(from->values.diags, each->at, "write the smaller value first",
+                       "%s is empty: from %.9g to %.9g", what, low, high);
         }
         made->range[made->range_count++] =
             (range_value){each->symbol, each->primes, low, high, each->at};

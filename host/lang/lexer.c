@@ -155,7 +155,7 @@ static void read_number(lexer *in, token *made) {
             made->kind = TOKEN_BAD;
         } else if (made->number == 0.0 && strcspn(digits, "123456789") < strcspn(digits, "eE")) {
             diag_error(in->diags, made->at, "write 0, or at least 5e-324",
-                       "this number is too small to tell from zero");
+                       "this number is too small to be distinguished from zero");
             made->kind = TOKEN_BAD;
         }
     }

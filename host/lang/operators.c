@@ -306,8 +306,9 @@ const expr *expr_difference(parser *in, place at, const expr *left, const expr *
     if (made != NULL) {
         made->dim = common_dimension(in, at, left, right, "compare", "with");
         if (are_same(left, right)) {
-            diag_error(in->diags, at, "compare two things of which one may move past the other",
-                       "both sides are the same, so that this never changes");
+            diag_error(in->diags, at,
+                       "compare two different quantities, of which one can pass the other",
+                       "both sides are the same, so this comparison never changes");
         }
     }
     return made;

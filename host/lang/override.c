@@ -108,10 +108,10 @@ static bool check_target(parser *in, override_kind kind, const token *name, cons
     if (!moves && !is_constant) {
         problem = "follows from the others and cannot be given";
     } else if (kind == OVERRIDE_SET && moves) {
-        problem = "is no parameter or input";
+        problem = "is not a parameter or an input";
         hint = "give its initial value with --start";
     } else if (kind == OVERRIDE_START && !moves) {
-        problem = "is no coordinate or rate";
+        problem = "is not a coordinate or a rate";
         hint = "change it with --set";
     } else if (is_constant && name->primes > 0) {
         problem = "has no derivative";
@@ -130,7 +130,8 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
     parser in = begin(of, text, arena, all);
     const token name = in.token;
     if (name.kind != TOKEN_NAME) {
-        return parser_fail(&in, "NAME=VALUE, such as m=3 or \"theta'=1.2\"", "a name is missing");
+        return parser_fail(&in, "write NAME=VALUE, such as m=3 or \"theta'=1.2\"",
+                           "a name is missing");
     }
     parser_next(&in);
     const named *found = find_name(&in, of, &name);
@@ -138,7 +139,7 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
         return false;
     }
     if (!parser_is_sign(&in, '=')) {
-        return parser_fail(&in, "NAME=VALUE, such as m=3 or \"theta'=1.2\"",
+        return parser_fail(&in, "write NAME=VALUE, such as m=3 or \"theta'=1.2\"",
                            "'=' is missing after '%s'", found->symbol.name);
     }
     parser_next(&in);

@@ -245,7 +245,7 @@ const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
                                            unit_parse(name, unit = length, &scale, &unsaid));
     const bool whole = !opens || (name[length] == ')' && memchr(name, '(', length) == NULL);
     if (before == 0 || before > 40 || rest > 60 || !whole) {
-        snprintf(hint, OPERATOR_HINT, "products are written with *, units in brackets: 2*m, 2 [m]");
+        snprintf(hint, OPERATOR_HINT, "write products with * and units in brackets: 2*m, 2 [m]");
     } else if (counts && !known) {
         snprintf(hint, OPERATOR_HINT, "write %.*s [%.*s]", before, begin, (int)unit, name);
     } else {
@@ -313,7 +313,7 @@ bool statement_unknown(parser *in, unsigned where) {
         const bool goes_on = parser_is_sign(in, '+') || parser_is_sign(in, '-') ||
                              parser_is_sign(in, '*') || parser_is_sign(in, '/');
         return parser_fail(
-            in, goes_on ? "a line goes on only while a parenthesis or brace is open" : NULL,
+            in, goes_on ? "to continue on the next line, keep a parenthesis or brace open" : NULL,
             "a statement cannot begin with %s", name);
     }
     const token word = in->token;

@@ -42,9 +42,10 @@ static bool has_range(parser *in, const token *name, const named *found) {
         return false;
     }
     if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
-        diag_error(in->diags, name->at, NULL, "range takes '%s' with %s", what->name,
-                   moves ? "fewer primes: what follows from the equations has no range"
-                         : "no prime: an input has no rate");
+        diag_error(
+            in->diags, name->at, NULL, "range takes '%s' with %s", what->name,
+            moves ? "use fewer primes: a derivative that follows from the equations has no range"
+                  : "leave out the prime: an input has no rate");
         return false;
     }
     for (int i = 0; i < made->range_count; i++) {
@@ -73,7 +74,7 @@ static bool range_item(parser *in, const statement_word *word) {
     usable = usable && dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
              dim_multiply(found->symbol.dim, wanted, &wanted);
     token_words(&name, words, sizeof words);
-    if (!parser_expect_sign(in, '=', "behind the name")) {
+    if (!parser_expect_sign(in, '=', "after the name")) {
         return false;
     }
     const place low_at = in->token.at;
@@ -244,7 +245,7 @@ static void scene_check_sets(parser *in, const draft *read) {
             char hint[120];
             snprintf(hint, sizeof hint, "add to the scene: with %.80s", name);
             diag_error(in->diags, each->at, hint,
-                       "'%s' belongs to the effect '%s', which this scene does not name",
+                       "'%s' belongs to the effect '%s', which this scene does not select",
                        each->symbol->name, name);
         }
     }
@@ -429,7 +430,7 @@ static bool parse_scene_statement(parser *in) {
     }
     into->has_content |= !uses;
     if (word != NULL && (word->rules & INTO_EFFECT) != 0) {
-        return parser_fail(in, "put it into an effect, and call for that: with NAME",
+        return parser_fail(in, "put it into an effect and select that effect: with NAME",
                            "'%s' belongs into a mechanism or an effect", word->text);
     }
     if (word == NULL || (word->stands & IN_SCENE) == 0) {

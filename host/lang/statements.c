@@ -40,7 +40,7 @@ static void check_once(parser *in, place *first, place at, const char *what) {
         return;
     }
     if (first->line > 0) {
-        diag_error(in->diags, at, "one statement holds the whole sum",
+        diag_error(in->diags, at, "write the whole sum in one statement",
                    "%s was already given in line %d", what, first->line);
     } else {
         *first = at;
@@ -71,9 +71,10 @@ bool read_energy(parser *in, const statement_word *word) {
         const bool needs_rate = kind != TERM_V && value->order == 0;
         char is[DIM_TEXT_SIZE];
         diag_error(in->diags, value_at,
-                   needs_rate ? (kind == TERM_T ? "no speed stands in it: T = m*l^2*theta'^2/2"
-                                                : "no speed stands in it: F = b*theta'^2/2")
-                              : "a number without a unit is dimensionless: write 2 [kg], 3 [N/m]",
+                   needs_rate
+                       ? (kind == TERM_T ? "it contains no speed; write: T = m*l^2*theta'^2/2"
+                                         : "it contains no speed; write: F = b*theta'^2/2")
+                       : "a number without a unit is dimensionless: write 2 [kg], 3 [N/m]",
                    "%s, but this is %s", term_rule(kind), dim_text(value->dim, is, sizeof is));
     }
     add_term(in, (term){kind, NULL, value, NULL, in->effect, at});
@@ -211,7 +212,7 @@ static void finish_system(parser *in, builder *done) {
     }
     if (done->equation_count != made->coordinate_count) {
         diag_error(in->diags, made->at, NULL,
-                   "mechanism '%s' has %d state%s but %d equation%s: as many are needed",
+                   "mechanism '%s' has %d state%s but %d equation%s: the numbers must be equal",
                    made->name, made->coordinate_count, made->coordinate_count == 1 ? "" : "s",
                    done->equation_count, done->equation_count == 1 ? "" : "s");
         return;
@@ -273,9 +274,9 @@ static bool parse_name(parser *in, effect *made) {
     static const struct {
         word_id word;
         const char *as;
-    } meant[] = {{WORD_NONE, "`with none` calls for no effect"},
-                 {WORD_LEDGER, "`with ledger` keeps the books of energy and momentum"},
-                 {WORD_ALL, "`--with all` calls for every effect"},
+    } meant[] = {{WORD_NONE, "`with none` selects no effect"},
+                 {WORD_LEDGER, "`with ledger` records the balances of energy and momentum"},
+                 {WORD_ALL, "`--with all` selects every effect"},
                  {WORD_CONSERVE, "`--without conserve` integrates what a scene conserves"}};
     const mechanism *into = in->builder->made;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
@@ -292,7 +293,7 @@ static bool parse_name(parser *in, effect *made) {
     for (size_t i = 0; i < sizeof meant / sizeof meant[0]; i++) {
         if (token_is_word(&in->token, meant[i].word)) {
             char hint[120];
-            snprintf(hint, sizeof hint, "%s: take another name", meant[i].as);
+            snprintf(hint, sizeof hint, "%s: choose another name", meant[i].as);
             parser_fail(in, hint, "'%s' is a reserved word", word_row(meant[i].word)->text);
         }
     }

@@ -135,14 +135,14 @@ double parameter_value(valuation *known, int index) {
     }
     known->parameter[index] = 0.0;
     if (known->parameter_state[index] == 1) {
-        diag_error(known->diags, at, "break the circle: give one of the values as a number",
-                   "'%s' is set from itself", name);
+        diag_error(known->diags, at, "give one of these values as a number",
+                   "'%s' is set to a value that depends on itself", name);
         return 0.0;
     }
     const int height = known->parameter_expr[index]->height;
     if (known->depth + height > DEPTH_MAX) {
         diag_error(known->diags, at, "set some of them to numbers",
-                   "too long a chain of values set one from the other");
+                   "too many values are set from each other in a chain");
         return 0.0;
     }
     known->parameter_state[index] = 1;

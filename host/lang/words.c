@@ -25,15 +25,16 @@ COLUMN(contact_undefined, contact_kind, CONTACT_KIND_ROWS, CONTACT_UNDEFINED)
 /* === words of other languages, and their counterparts here ==================================== */
 
 #define CLOCK \
-    "there is no name for the time; in Q and in the condition of a hold a coordinate is a clock " \
+    "the time has no name; in Q and in the condition of a hold use a coordinate as a clock " \
     "(docs/language.md, \"What is given over time\")"
 #define CHOICE "choose with max(a, b), min(a, b) or sign(x); at a moment, with when or hold"
 #define JUMP "write (1 + sign(x))/2; of a contact, stop, hold or when"
-#define COUNT "nothing counts in steps but: when x crosses 1 [m] rising { set x = 0 [m] }"
+#define COUNT \
+    "a run has no step counter; an event sets a value: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define PARAMETER "write: parameter m = 2 [kg]"
 #define RATE "a derivative in time is a prime: x', x''"
 #define NOISE "an output has noise: noise y deviation 0.01 [m] seed 7"
-#define BLOW "a blow changes a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
+#define BLOW "write a blow as a change of a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
 const char *energy_hint(const char *text, size_t length) {
@@ -60,10 +61,11 @@ const char *first_word_hint(const char *text, size_t length) {
         {"t", CLOCK},
         {"time", CLOCK},
         {"given",
-         "a given motion is the force that it makes felt: Q(x) = k*xe "
-         "(docs/language.md, \"What is given over time\"); a condition: hold x while x > 0 [m]"},
-        {"every", "what happens at intervals follows a clock: when phi crosses 2*pi rising "
-                  "{ set phi = 0 [rad] }"},
+         "write a given motion as the force that it causes: Q(x) = k*xe "
+         "(docs/language.md, \"What is given over time\"); or with a condition: hold x while x > 0 [m]"},
+        {"every",
+         "for events at intervals use a coordinate as a clock: when phi crosses 2*pi rising "
+         "{ set phi = 0 [rad] }"},
         {"if", CHOICE},
         {"else", CHOICE},
         {"where", CHOICE},
@@ -77,7 +79,7 @@ const char *first_word_hint(const char *text, size_t length) {
         {"&", "join two comparisons with and: x > a and x < b"},
         {"|", "join two comparisons with or: x < a or x > b; for the size of x, write abs(x)"},
         {"sgn", "write sign(x)"},
-        {"pow", "powers are written with ^: a^b"},
+        {"pow", "write powers with ^: a^b"},
         {"ln", "the natural logarithm is log(x)"},
         {"log10", "log(x) is the natural logarithm: log(x)/log(10)"},
         {"const", PARAMETER},

@@ -91,9 +91,9 @@ typedef enum fault_place {
     X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", "kicks do not reach the watchdog") \
     X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts") \
     X(FAULT_READINGS_LOST, "readings-lost", FAULT_LINE, 0.1, 0, 1, "", \
-      "this share of the readings comes empty") \
+      "this share of the readings arrives empty") \
     X(FAULT_ORDERS_LOST, "orders-lost", FAULT_LINE, 0.1, 0, 1, "", \
-      "this share of the orders is lost: outputs stay")
+      "this share of the orders is lost: outputs keep their values")
 
 #define FAULT_NAME(which, word, place, size, least, most, unit, words) which,
 typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;

@@ -55,7 +55,7 @@ bool changes_take_part(const grid *g, const instance *base) {
         const effect *missing = swept != NULL ? instance_lacks(base, swept) : NULL;
         if (missing != NULL) {
             fprintf(stderr,
-                    "whirl %s: error: '%s' belongs to the effect '%s', which takes no part here\n"
+                    "whirl %s: error: '%s' belongs to the effect '%s', which is not selected here\n"
                     "hint: add --with %s\n",
                     command_of(g), swept->name, missing->name, missing->name);
             return false;

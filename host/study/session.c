@@ -612,14 +612,14 @@ static void say_found(const sitting *s) {
                     (unsigned long long)s->found[id], (unsigned long long)s->ran, row->points,
                     row->word);
             name_point(s->sweep, s->found_first[id]);
-            fputs("\nhint: `whirl run` of the point tells what would do\n", stderr);
+            fputs("\nhint: run the point with `whirl run`: it prints a remedy\n", stderr);
         }
     }
     if (s->unlooked != 0) {
-        fprintf(stderr, "whirl sweep: note: %llu of %llu points were not looked at for ",
+        fprintf(stderr, "whirl sweep: note: %llu of %llu points were not checked for ",
                 (unsigned long long)s->unlooked_points, (unsigned long long)s->ran);
         finding_say_names(stderr, s->unlooked);
-        fputs(": that takes more than a second each\n", stderr);
+        fputs(": each check takes more than a second\n", stderr);
     }
 }
 

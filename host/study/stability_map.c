@@ -225,8 +225,10 @@ void map_print(FILE *out, const stability_map *m, const char *words) {
         }
     }
     if (m->unlooked > 0) {
-        fprintf(out, "  not looked at: [aliased] of %llu, that takes more than the two runs did\n",
-                (unsigned long long)m->unlooked);
+        fprintf(
+            out,
+            "  not checked: [aliased] in %llu runs, because it takes longer than the two runs\n",
+            (unsigned long long)m->unlooked);
     }
 }
 

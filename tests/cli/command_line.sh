@@ -182,12 +182,12 @@ done
 # nor are accelerations that a composition cannot know
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086
-    says 2 "epicyclic.whirl:[0-9:]* error: leapfrog is not defined here: accelerations take the rate of 'theta'" \
+    says 2 "epicyclic.whirl:[0-9:]* error: leapfrog is not defined here: the accelerations depend on the rate of 'theta'" \
         $command epicyclic_conserved --method leapfrog
     # shellcheck disable=SC2086
-    says 2 "error: leapfrog is not defined here: there are contacts" $command ball_bounces --method leapfrog
+    says 2 "error: leapfrog is not defined with contacts" $command ball_bounces --method leapfrog
     # shellcheck disable=SC2086
-    says 2 "error: leapfrog is not defined here: it keeps no books" \
+    says 2 "error: leapfrog is not defined with a ledger" \
         $command mk/price/separable.whirl --with ledger --method leapfrog
     # shellcheck disable=SC2086
     says 2 "hint: .* choose --method euler, semi-implicit-euler, heun, .* or nystroem5$" \
@@ -207,7 +207,7 @@ says 2 "hint: --as VALUE" derive epicyclic --as
 
 says 2 "'q' is unknown in mechanism 'thomson'" run thomson_a --set q=3
 says 2 "'=' is missing after 'm'" run thomson_a --set m
-says 2 'hint: NAME=VALUE' run thomson_a --set m
+says 2 'hint: write NAME=VALUE' run thomson_a --set m
 says 2 'a value is missing' run thomson_a --set m=
 says 2 'division by zero' run thomson_a --set m=1/0
 says 2 "'sqrt' of a negative|not a finite number|finite" run thomson_a --set 'm=sqrt(-1)'
@@ -221,7 +221,7 @@ says 2 "unknown effect 'spin'" run thomson_a --without spin
 # what belongs to an effect is changed where that takes part
 for call in 'run --set b=1' 'derive --set b=1' 'sweep --over b=1..2:2' 'sweep --over X=0..0:1 --set b=1'; do
     # shellcheck disable=SC2086 # lists of words
-    says 2 "'b' belongs to the effect 'rail_drag', which takes no part here" $call epicyclic_from_rest
+    says 2 "'b' belongs to the effect 'rail_drag', which is not selected here" $call epicyclic_from_rest
     # shellcheck disable=SC2086
     says 2 'hint: add --with rail_drag' $call epicyclic_from_rest
     # shellcheck disable=SC2086
@@ -230,7 +230,7 @@ for call in 'run --set b=1' 'derive --set b=1' 'sweep --over b=1..2:2' 'sweep --
     check "$call --with E: accepted" "$whirl" $call epicyclic_from_rest --with ' rail_drag , ledger'
 done
 says 2 "'b' belongs to the effect 'rail_drag'" accel epicyclic b=1
-says 2 'hint: name a scene that calls for rail_drag' accel epicyclic_from_rest b=1
+says 2 'hint: name a scene that selects rail_drag' accel epicyclic_from_rest b=1
 prints "^X'' = " accel epicyclic_rail_drag b=1
 for list in '' ' ' , 'rail_drag,' ',rail_drag' 'rail_drag, ,ledger'; do
     says 2 'a name is missing in --with "' run epicyclic_from_rest --with "$list"
@@ -243,9 +243,9 @@ says 2 'until must not be negative' run thomson_a --until -1s
 says 2 'until must be at most 1e\+18 s, and this is 1e\+300 s' run thomson_a --until 1e300
 says 2 'a step must be from 1e-18 s to 1e\+18 s, and this is 1e-300 s' run thomson_a --step 1e-300
 says 2 'more than 2\^63 steps of 1e-09 s' run thomson_a --step 1ns --until 1e11
-says 2 'hint: a larger step or an earlier until' run thomson_a --step 1ns --until 1e11
+says 2 'hint: use a larger step or an earlier until' run thomson_a --step 1ns --until 1e11
 says 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step 3s
-says 2 'hint: a later until or a shorter step' run thomson_a --until 1s --step 3s
+says 2 'hint: use a later until or a shorter step' run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
 prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
 # the nearest whole number of steps; the lower one of two that are as near
@@ -422,14 +422,14 @@ fi
 
 # --- energy that is given back --------------------------------------------------------------------------
 prints '^  Runge-Kutta 4 compensated, stabilized, float, step' run docs/hard/long.whirl:gear_turns --number float --compensated --stabilized
-prints '^energy book' run docs/hard/long.whirl:pendulum_swings --stabilized
+prints '^energy balance' run docs/hard/long.whirl:pendulum_swings --stabilized
 prints '^  "stabilized": true,$' describe docs/hard/long.whirl:gear_turns --json --stabilized
 prints '^    .stabilized = true,$' derive docs/hard/long.whirl:gear_turns --as c --stabilized
 prints 'Runge-Kutta 4 stabilized, double' trust docs/hard/long.whirl:pendulum_swings --stabilized --until 2s
 says 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized: 'ball' has events" run ball_bounces --stabilized
 says 2 "error: --stabilized corrects .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
 says 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for motion without drive or damping: this statement drives or damps' run thomson_a --stabilized
-says 2 "error: --stabilized keeps books, and leapfrog none" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
+says 2 "error: --stabilized needs a ledger, which leapfrog cannot have" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
 says 2 "error: --stabilized corrects an energy drift, but with semi-implicit Euler" run docs/hard/long.whirl:pendulum_swings --stabilized --method semi-implicit-euler
 prints '^  given back \(--stabilized\) ' run docs/hard/long.whirl:gear_turns --stabilized
 says 2 'error: --stabilized needs the stages of a step' run two_mass_relative --stabilized --matrix exact

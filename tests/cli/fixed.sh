@@ -214,7 +214,7 @@ grep -q 'put it into an effect, and leave that out: --without EFFECT$' "$scratch
     "$whirl" derive "$scratch/w/stopped.whirl" --without end --as c --number fixed >"$scratch/out" 2>"$scratch/err" && [ -s "$scratch/out" ]
 verdict $? "and as the hint says, it has a step in fixed point without the effect"
 sed "s/x' = -300 .. 300/x' = 300 .. -300/" "$scratch/w/cart.whirl" >"$scratch/w/empty.whirl"
-refuse "the range of 'x'' holds nothing: from 0.3 to -0.3" "$scratch/w/empty.whirl:cart_narrow"
+refuse "the range of 'x'' is empty: from 0.3 to -0.3" "$scratch/w/empty.whirl:cart_narrow"
 refuse "keeps a ledger" two_mass_relative --with ledger
 refuse "knows --method rk4 only, not heun" two_mass_relative --method heun
 refuse "are not compensated" two_mass_relative --compensated

@@ -73,7 +73,7 @@ kill -INT $process
 wait $process
 [ $? -eq 130 ] && grep -Eq '^whirl run: interrupted at t = [0-9.]+ s of 1000000 s$' "$scratch/err"
 verdict $? "run without records: exit status 130, and when"
-grep -q '^energy book' "$scratch/out"
+grep -q '^energy balance' "$scratch/out"
 verdict $? "run without records: its books are there" "$scratch/out"
 
 # a run in fixed point looks for its ranges first

@@ -196,7 +196,7 @@ check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --un
 check "points that fail the balance: exit status 1" status 1 \
     "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
 check "points that fail the balance: how many, and the first" \
-    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual is too large a part of the largest entry of their books (energy_residual), at the end or on the way [energy]; first: point 2 (step=0.2)' "$scratch/said"
+    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual is too large compared with the balance's largest entry (energy_residual), at the end or at a time before [energy]; first: point 2 (step=0.2)' "$scratch/said"
 check "no balance without energies" sh -c "! '$whirl' sweep carriage_ratio --until 0.1s --over ratio=0.1..0.2:2 --quiet | grep -q energy_residual"
 check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
@@ -211,7 +211,7 @@ between() {
 check "overruns: exit status 1" status 1 between --csv "$scratch/between.csv"
 check "overruns: how many, and the first" \
     grep -q "warning: 3 of 5 points had steps with more events .*events\]; first: point 3 (z'=13)\$" "$scratch/said"
-check "overruns: with a way out" grep -q '^hint: .whirl run. of the point tells what would do' "$scratch/said"
+check "overruns: with a way out" grep -q '^hint: run the point with .whirl run.: it prints a remedy' "$scratch/said"
 check "run says the same of one" sh -c "'$whirl' run ball_between --until 20ms --start z\\'=13 | grep -q '^  1 steps had more'"
 check "run says nothing of another" sh -c "! '$whirl' run ball_between --until 20ms --start z\\'=7 | grep -q 'steps had more'"
 check "the rows do not tell" status 1 between --csv -

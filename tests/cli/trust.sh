@@ -150,7 +150,7 @@ for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
 done
 refused 2 "error: this would take about .* minutes" thomson_a --until 1e5s
 refused 2 "or --effort [0-9.e+]*$" thomson_a --until 1e5s
-refused 2 "^hint: a nearer --until" thomson_a --until 1e5s
+refused 2 "^hint: use an earlier --until" thomson_a --until 1e5s
 refused 2 "is less than one step" thomson_a --until 0.0001s
 refused 2 "there is no file and no built-in scene" nothing
 refused 2 "one scene at a time" thomson_a thomson_b

@@ -265,7 +265,7 @@ TEST(bad_input, values_that_are_no_numbers) {
     expect_text(text, "x.whirl:4:16: error: a step must be from 1e-18 s to 1e+18 s");
     snprintf(text, sizeof text, "%sparameter a = 1\nparameter b = a\nscene s { set a = b }\n",
              start);
-    expect_text(text, "x.whirl:6:15: error: 'a' is set from itself");
+    expect_text(text, "x.whirl:6:15: error: 'a' is set to a value that depends on itself");
 }
 
 /* `head`, then `piece` repeated, then `tail`; to be freed. */
@@ -311,7 +311,7 @@ TEST(bad_input, lets_upon_lets_are_bounded) {
     for (int i = 1; i <= 1200; i++) {
         used += (size_t)sprintf(text + used, "let a%d = a%d*a%d\n", i, i - 1, i - 1);
     }
-    expect(text, used, "what it stands for are more than 1000 operators deep");
+    expect(text, used, "' is more than 1000 operators deep once its lets are inserted");
     free(text);
 }
 

@@ -148,7 +148,7 @@ TEST(books_told, conserved_momenta) {
                 "\nno single coordinate's momentum is conserved; whirl examine finds those of sums and rotations\n") !=
                 NULL,
             what.out);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy book [J]\n"), what.out);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy balance [J]\n"), what.out);
     }
     model_drop();
     TEST_ASSERT_TRUE(none > 3U);
@@ -168,10 +168,10 @@ TEST(books_told, ledgers) {
         mechanism_text(&m, text);
         run(text, "--with", &what);
         TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "conserved"), what.out);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy book [J]\n"), what.out);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, "energy balance [J]\n"), what.out);
         for (unsigned i = 0; i < m.count; i++) {
             char head[60];
-            snprintf(head, sizeof head, "\nmomentum book of %c [kg*m/s]\n", name_of(i));
+            snprintf(head, sizeof head, "\nmomentum balance of %c [kg*m/s]\n", name_of(i));
             const char *book = strstr(what.out, head);
             TEST_ASSERT_NOT_NULL_MESSAGE(book, what.out);
             const char *change = strstr(book + 1, "\n  change ");
@@ -232,12 +232,13 @@ TEST(books_told, every_line) {
                                          .losses_J = dice_between(&d, -9.0, 0.0),
                                          .contacts_J = dice_between(&d, -9.0, 0.0),
                                          .left_J = dice_between(&d, -9.0, 9.0)};
-        int at = snprintf(
-            wanted, sizeof wanted, "energy book [J]\n  %-44s %.9g -> %.9g\n  %-44s %.9g -> %.9g\n",
-            "kinetic", b->kinetic_J[0], b->kinetic_J[1], "stored", b->stored_J[0], b->stored_J[1]);
+        int at =
+            snprintf(wanted, sizeof wanted,
+                     "energy balance [J]\n  %-44s %.9g -> %.9g\n  %-44s %.9g -> %.9g\n", "kinetic",
+                     b->kinetic_J[0], b->kinetic_J[1], "stored", b->stored_J[0], b->stored_J[1]);
 #define ADD(...) at += snprintf(wanted + at, sizeof wanted - (size_t)at, __VA_ARGS__)
         if (integral) {
-            ADD("  %-44s %.9g -> %.9g\n", "booked: h = sum q' dL/dq' - L, not T + V",
+            ADD("  %-44s %.9g -> %.9g\n", "balanced: h = sum q' dL/dq' - L, not T + V",
                 b->energy_J[0], b->energy_J[1]);
         }
         const char *contacts = "impacts, friction, holds and settings";
@@ -711,7 +712,7 @@ static void expect_told(const image *im) {
     alloc_text_end(out);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  kinetic "), text);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "  stored "), text);
-    TEST_ASSERT_TRUE_MESSAGE((strstr(text, "  booked: h = ") != NULL) == im->has_integral, text);
+    TEST_ASSERT_TRUE_MESSAGE((strstr(text, "  balanced: h = ") != NULL) == im->has_integral, text);
     free(text);
     books_close(b);
     engine_double.stop(run);

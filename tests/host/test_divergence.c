@@ -528,7 +528,7 @@ static void expect_words(const horizon *h) {
     TEST_ASSERT_EQUAL_STRING(h->of->shape->column[h->first].primes == 0 ? "a" : "a'", name);
     TEST_ASSERT_NOT_NULL(strstr(
         told,
-        "after that no single coordinate is accurate, only the balances are, to t = 4 s:\n  energy: "));
+        "after that no single coordinate is accurate; only the balances are meaningful, to t = 4 s:\n  energy: "));
 }
 
 /* The fast spring, at w h = 1/2, lags by w (w h)^4/120 = 0.026 rad per second. Its error reaches a hundredth of its

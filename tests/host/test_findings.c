@@ -694,10 +694,10 @@ static void test_not_believed(void) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(s.err), s.code, s.err);
         expect_note(
             s.err, "whirl sweep: warning: ", 1, 2,
-            "fail the energy balance: the residual is too large a part of the largest entry of their books (energy_residual), at the end or on the way [energy]; ",
+            "fail the energy balance: the residual is too large compared with the balance's largest entry (energy_residual), at the end or at a time before [energy]; ",
             fine_first ? 1 : 0, at);
-        TEST_ASSERT_TRUE(times_in(s.err, "hint: `whirl run` of the point tells what would do\n") >=
-                         1);
+        TEST_ASSERT_TRUE(
+            times_in(s.err, "hint: run the point with `whirl run`: it prints a remedy\n") >= 1);
         made_sweep_close(&m);
     }
     sessions_close();

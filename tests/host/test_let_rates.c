@@ -160,8 +160,8 @@ TEST(let_rates, derivatives_of_lets_keep_the_rules) {
         const char *said;
     } cases[] = {
         {"V = 1 [N]*z'", "V must be"},
-        {"Q(x) = 1 [kg]*z''", "T, V, F and Q take no second derivative, as \"z''\" has"},
-        {"stop z' >= 0 [m/s] restitution 0", "they take no rate, as \"z'\" has"},
+        {"Q(x) = 1 [kg]*z''", "T, V, F and Q cannot contain a second derivative: \"z''\" has one"},
+        {"stop z' >= 0 [m/s] restitution 0", "not rates: \"z'\" has a rate"},
         {"output p = z'''", "at most two primes"},
         {"V = 1 [N]*(x + l'*1 [s])", ""},
         {"let w = n'", "the rate of the input 'f' is not known"},

@@ -112,7 +112,7 @@ static const told_scene scenes[] = {
               "b' = -9 .. 9 [m/s], c' = -1 .. 1 [m/s]; start a = 1 [m], b = @0.5 [m], c' = @3.3e-6 "
               "[m/s]; step 1 [ms]; until 0.5 [s]",
      .words = {"--number", "fixed"}},
-    {.told = "momentum book of a [kg*m/s]",
+    {.told = "momentum balance of a [kg*m/s]",
      .coordinates = THREE,
      .law = "T = 1 [kg]*a'^2/2 + 2 [kg]*b'^2/2 + 3 [kg]*c'^2/2 + @0.4 [kg]*a'*c'\n"
             "V = @5 [N/m]*b^2/2\nF = @0.7 [N*s/m]*b'^2/2\n",

@@ -114,12 +114,13 @@ static void test_wrong_overrides(void) {
     expect_set_refused("m=1 2", "<command line>:1:5: error: an operator is missing before '2'");
     expect_set_refused("m=1;r=2", "<command line>:1:4: error: unexpected ';'");
     expect_set_refused("m=1\n", "<command line>:1:4: error: unexpected the end of the line");
-    expect_set_refused("theta=1", "<command line>:1:1: error: 'theta' is no parameter or input");
+    expect_set_refused("theta=1",
+                       "<command line>:1:1: error: 'theta' is not a parameter or an input");
     expect_set_refused("vx=1", "<command line>:1:1: error: 'vx' follows from the others");
     expect_set_refused("r=theta", "<command line>:1:3: error: 'theta' depends on the motion");
-    expect_set_refused("m=m", "error: 'm' is set from itself");
+    expect_set_refused("m=m", "error: 'm' is set to a value that depends on itself");
     expect_set_refused("m=log(0)", "error: parameter 'm' is not a finite number");
-    expect_start_refused("m=1", "<command line>:1:1: error: 'm' is no coordinate or rate");
+    expect_start_refused("m=1", "<command line>:1:1: error: 'm' is not a coordinate or a rate");
     expect_start_refused("X''=1", "<command line>:1:1: error: 'X' has no initial value for this");
     expect_start_refused("X'=1 [m]", "<command line>:1:4: error: \"X'\" is speed [m/s]");
     const char *misspelt = "rail_darg";

@@ -416,7 +416,7 @@ static void test_effects_that_take_no_part(void) {
         if (lacks) {
             snprintf(
                 wanted, sizeof wanted,
-                "whirl %s: error: 'pull' belongs to the effect 'tug', which takes no part here\n"
+                "whirl %s: error: 'pull' belongs to the effect 'tug', which is not selected here\n"
                 "hint: add --with tug\n",
                 c > 3U ? "map" : "sweep");
         }

@@ -435,7 +435,7 @@ TEST(simulated, files_that_cannot_be_written) {
     const simulation_settings s = {
         .kind = &engine_double, .every = 1, .quiet = true, .vcd = "/dev/null"};
     TEST_ASSERT_EQUAL_STRING(
-        "whirl run: error: these records lie too close for --vcd, whose finest unit is a femtosecond, with 2^52 units at most\nhint: use a larger --every, or --csv, which has no such limit\n",
+        "whirl run: error: these records are too close for --vcd: its finest unit is a femtosecond, and a time has at most 2^52 units\nhint: use a larger --every, or --csv, which has no such limit\n",
         simulated(d.image, &s, SIMULATION_BAD_FILE));
     derived_free(&d);
     end();

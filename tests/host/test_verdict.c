@@ -639,7 +639,7 @@ TEST(verdict, what_was_not_looked_at) {
         TEST_ASSERT_EQUAL_INT(cases[i].count, json_length(what.out, "not_looked_at"));
         command_say(command_sweep, sweep, &what);
         TEST_ASSERT_EQUAL_INT(cases[i].count, json_length(what.out, "rows/0/not_looked_at"));
-        snprintf(line, sizeof line, "1 of 1 points were not looked at for %s: ", cases[i].names);
+        snprintf(line, sizeof line, "1 of 1 points were not checked for %s: ", cases[i].names);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, line), what.err);
     }
     said what;
