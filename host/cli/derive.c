@@ -212,7 +212,8 @@ static bool header_is_apart(const source_model *from, const char *header) {
     struct stat about_output;
     struct stat about_header;
     if (strcmp(header, "-") == 0 || header[0] == '\0') {
-        fputs("whirl derive: error: --header takes a file: standard output has the C\n", stderr);
+        fputs("whirl derive: error: --header needs a file: standard output is for the C code\n",
+              stderr);
         return false;
     }
     if (source_would_be_lost(from, "--header", header, "")) {

@@ -63,7 +63,7 @@ static int column_of(const subsets *s, const char *name) {
         nearest_offer(&search, c->name);
     }
     fprintf(stderr,
-            "whirl effects: error: --error: '%s' is no coordinate, rate or output of '%s'\n"
+            "whirl effects: error: --error: '%s' is not a coordinate, rate or output of '%s'\n"
             "hint: --error %s=...\n",
             name, s->of->name, search.best != NULL ? search.best : s->columns->column[1].name);
     return 0;
@@ -164,7 +164,7 @@ static void print_effect(const subsets *s, int k) {
     }
     print_row(s, s->of->effects[s->effect[k]].name, without->moved, figure,
               all->contacts - without->contacts,
-              !s->acted[k]                ? "not tested by this run: it never acted"
+              !s->acted[k]                ? "not tested by this run: it did not act"
               : without->failed != NULL   ? without->failed
               : subsets_keeps(s, without) ? "may be left out"
                                           : "needed");
@@ -280,14 +280,14 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
         return EXIT_BAD_INPUT;
     }
     if (s->effects == 0) {
-        fprintf(stderr, "whirl effects: error: no effect takes part in '%s'\nhint: %s%s\n",
+        fprintf(stderr, "whirl effects: error: no effect is selected in '%s'\nhint: %s%s\n",
                 s->image->name, s->of->effect_count > 0 ? "--with all, or --with " : "",
                 s->of->effect_count > 0 ? s->of->effects[0].name
-                                        : "docs/effects.md tells how to write one");
+                                        : "docs/effects.md shows how to write one");
         return EXIT_BAD_INPUT;
     }
     if (s->image->steps == 0) {
-        fputs("whirl effects: error: a run of no steps compares nothing\nhint: --until 1s\n",
+        fputs("whirl effects: error: a run without steps compares nothing\nhint: --until 1s\n",
               stderr);
         return EXIT_BAD_INPUT;
     }

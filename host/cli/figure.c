@@ -134,7 +134,8 @@ static bool is_whole(const plot_options *o) {
         return false;
     }
     if (o->targets > RUNS_MOST) {
-        fprintf(stderr, "whirl plot: error: %d runs, at most %d\n", o->targets, RUNS_MOST);
+        fprintf(stderr, "whirl plot: error: %d runs are more than the limit of %d\n", o->targets,
+                RUNS_MOST);
         return false;
     }
     for (int i = 0; i < o->targets; i++) {
@@ -230,9 +231,12 @@ static bool take_one(int count, char **words, int *at, figure_options *o) {
     if (value != NULL) {
         o->out = value;
     } else if (!bad && (value = options_value(count, words, at, "--data", &bad)) != NULL) {
-        bad = o->given_count == DATA_MOST || strchr(value, '=') == NULL;
-        if (bad) {
-            fprintf(stderr, "whirl figure: error: --data NAME=FILE, at most %d\n", DATA_MOST);
+        const bool full = o->given_count == DATA_MOST;
+        bad = full || strchr(value, '=') == NULL;
+        if (full) {
+            fprintf(stderr, "whirl figure: error: more than %d --data options\n", DATA_MOST);
+        } else if (bad) {
+            fprintf(stderr, "whirl figure: error: --data takes NAME=FILE, not '%.60s'\n", value);
         } else {
             o->given[o->given_count++] = value;
         }
@@ -247,7 +251,7 @@ static bool take_one(int count, char **words, int *at, figure_options *o) {
         options_unknown("figure", words[*at], OPTIONS_SCENE, own);
         bad = true;
     } else if (!bad && o->name != NULL) {
-        fprintf(stderr, "whirl figure: error: one figure at a time, not also '%.60s'\n",
+        fprintf(stderr, "whirl figure: error: one figure at a time: '%.60s' is a second\n",
                 words[*at]);
         bad = true;
     } else if (!bad) {
@@ -302,7 +306,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
         return EXIT_BAD_INPUT;
     }
     if (!system_scratch_folder(folder)) {
-        perror("whirl figure: error: a temporary folder");
+        perror("whirl figure: error: cannot make a temporary folder");
         return EXIT_RUN_FAILED;
     }
     char *file = alloc_words("%s/records.csv", folder);

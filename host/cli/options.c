@@ -134,7 +134,7 @@ static const char *value_at(int count, char **words, int at, const char *name) {
 static bool is_new(int count, char **words, int at, const char *name) {
     for (int i = 0; i < at && !may_be_repeated(name); i++) {
         if (is_option(words[i], name)) {
-            fprintf(stderr, "whirl: error: %s is there twice: '%s' and '%s'\n", name, words[i],
+            fprintf(stderr, "whirl: error: %s is given twice: '%s' and '%s'\n", name, words[i],
                     words[at]);
             if (strcmp(name, "--y") == 0) { /* a list of quantities */
                 fprintf(stderr, "hint: --y \"%s, %s\"\n", value_at(count, words, i, name),
@@ -219,8 +219,9 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
         }
         const char *name = keep(c, at + before, end - before);
         if (strcmp(name, "conserve") == 0 && list == &c->with) {
-            fputs("whirl: error: --with takes effects: a scene says itself what it conserves\n",
-                  stderr);
+            fputs(
+                "whirl: error: --with takes effects, not 'conserve': write conserve in the scene\n",
+                stderr);
             return false;
         }
         if (is_in(*list, *count, name)) {
@@ -229,7 +230,7 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
         }
         push(list, count, name);
         if (is_in(c->with, c->with_count, "all") && is_in(c->without, c->without_count, "all")) {
-            fputs("whirl: error: --with all and --without all: which?\n", stderr);
+            fputs("whirl: error: --with all and --without all contradict each other\n", stderr);
             return false;
         }
         at += field;

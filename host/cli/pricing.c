@@ -127,8 +127,8 @@ static int run_command(const pricing_command *c, int count, char **words) {
 static void says_missing(const pricing *p, const char *why) {
     fprintf(
         stderr,
-        "whirl %s: error: --measure: nothing can be counted on %s: %s\n"
-        "hint: without --measure prices are predicted; `make deps` installs compilers and emulators\n",
+        "whirl %s: error: --measure: whirl cannot count on %s: %s\n"
+        "hint: leave out --measure to predict costs, or run `make deps` to install compilers and emulators\n",
         p->options->command, p->board->name, why);
 }
 
@@ -254,13 +254,15 @@ static bool read_ranges(pricing *p) {
             return false;
         }
         if (p->grid.axes[i].symbol == NULL) {
-            fprintf(stderr, "whirl %s: error: --vary varies no step: steps are what is priced\n",
-                    o->command);
+            fprintf(
+                stderr,
+                "whirl %s: error: --vary cannot change the step: whirl tries the steps itself\n",
+                o->command);
             return false;
         }
     }
     if (p->grid.count > 0 && p->grid.points > PRICING_PLACES_MAX) {
-        fprintf(stderr, "whirl %s: error: --vary: %llu places, and at most %d can be tried\n",
+        fprintf(stderr, "whirl %s: error: --vary: %llu combinations exceed the limit of %d\n",
                 o->command, (unsigned long long)p->grid.points, PRICING_PLACES_MAX);
         return false;
     }
@@ -375,7 +377,7 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
         wanted = (uint64_t)number_floor(p->until_s / each_s * (1.0 + 1e-9));
     }
     if (wanted < 1) {
-        fprintf(stderr, "whirl %s: error: %.9g s of motion are too short or too long\n",
+        fprintf(stderr, "whirl %s: error: a motion of %.9g s is too short or too long\n",
                 p->options->command, p->until_s);
         return EXIT_BAD_INPUT;
     }
@@ -439,7 +441,7 @@ static int show(pricing *p, const table *made) {
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
         fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
-                p->trial.reliable ? ": no setting has a row" : ", without a reference to trust");
+                p->trial.reliable ? ": no setting has a row" : ": there is no reliable reference");
         return EXIT_RUN_FAILED;
     }
     if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
@@ -535,7 +537,7 @@ static bool fits(const pricing *p) {
     }
     if (!p->asks_error) {
         fputs(
-            "whirl choose: error: --error is missing\nhint: such as --error 1e-3, a part of the largest value, or --of X --error 0.1mm\n",
+            "whirl choose: error: --error is missing\nhint: --error 1e-3 (a fraction of the largest value), or --of X --error 0.1mm\n",
             stderr);
     }
     return p->asks_error;
@@ -606,7 +608,8 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
     const uint64_t common = ratio_divisor(periods, rate.numerator);
     *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
     if (rate.numerator == 0 && w->table.rate_Hz > 1.0) {
-        fprintf(stderr, "whirl choose: error: --rate %.9g Hz is more than any step can follow\n",
+        fprintf(stderr,
+                "whirl choose: error: --rate %.9g Hz is faster than the shortest possible step\n",
                 w->table.rate_Hz);
         return false;
     }
@@ -632,7 +635,7 @@ static void show_counting(void *context, int counted) {
 static int says_contacts(const pricing *p, const char *missing) {
     fprintf(stderr,
             "whirl choose: error: the cost of contacts must be counted: %s\n"
-            "hint: whirl price %s%s shows errors and evaluations without that\n",
+            "hint: whirl price %s%s shows errors and evaluations without counting\n",
             missing, p->target, p->words);
     return EXIT_RUN_FAILED;
 }
@@ -655,7 +658,7 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
             code = says_contacts(p, "a tool is missing");
         }
         w->counts = false;
-        w->prices = "predicted, since a tool is missing that counts";
+        w->prices = "predicted, because a tool for counting is missing";
         c = choice_make(&p->trial, made, w);
     }
     if (w->table.progress != NULL) {
@@ -706,10 +709,9 @@ static int choose_begun(pricing *p, choice_wish *w) {
     }
     char *prices = alloc_words(
         "%s%s",
-        missing == NULL
-            ? "counted on the board: of what is named, its step or its whole run, and its bytes"
-        : predicts ? "predicted, as --predict asks for"
-                   : "predicted, since nothing can be counted: ",
+        missing == NULL ? "counted on the board: the step or the whole run, and the bytes"
+        : predicts      ? "predicted, as --predict asks for"
+                        : "predicted, since nothing can be counted: ",
         missing != NULL ? missing : "");
     w->prices = prices;
     const int done = choose_from(p, w, missing == NULL);

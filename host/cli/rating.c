@@ -43,7 +43,7 @@ static const char *refused(const rating_wish *w) {
     const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
     diags_free(unsaid);
     return w->settings->stabilized ? "the cost of --stabilized is not known"
-           : !held                 ? "a start angle has more turns than float counts"
+           : !held                 ? "a start angle has more turns than float can represent"
                                    : NULL;
 }
 

@@ -102,7 +102,8 @@ bool run_take_choice(const char *command, int count, char **words, int *at, plot
         (value = options_value(count, words, at, "--panel", bad)) != NULL) {
         *bad = to->panels == PLOT_PANELS;
         if (*bad) {
-            fprintf(stderr, "whirl %s: error: at most %d --panel\n", command, PLOT_PANELS);
+            fprintf(stderr, "whirl %s: error: more than %d --panel options\n", command,
+                    PLOT_PANELS);
         } else {
             to->panel[to->panels++] = value;
         }

@@ -416,7 +416,7 @@ int command_emit_settings(int count, char **words) {
     }
     if (!good) {
         fputs(
-            "usage: whirl emit-settings FOLDER STEPS EVERY SCENE|FILE[:SCENE] [EVERY SCENE ...]\n",
+            "usage: whirl emit-settings FOLDER STEPS INTERVAL SCENE|FILE[:SCENE] [INTERVAL SCENE ...]\n",
             stderr);
         return EXIT_BAD_INPUT;
     }

@@ -174,12 +174,13 @@ static bool is_whole_sweep(sweep_options *o) {
 static bool is_whole_map(sweep_options *o) {
     const char *problem = NULL;
     if (o->over_count > AXES) {
-        fprintf(stderr, "whirl map: error: two --over, not also '%.60s'\n", o->over[AXES]);
+        fprintf(stderr, "whirl map: error: a map has two --over: '%.60s' is a third\n",
+                o->over[AXES]);
         return false;
     }
     if (o->over_count < AXES) {
         fprintf(stderr,
-                "whirl map: error: two --over are wanted, %s\nhint: such as --over "
+                "whirl map: error: a map needs two --over: %s\nhint: such as --over "
                 "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'\n",
                 o->over_count == 0 ? "there is none" : "there is one");
         return false;
@@ -347,9 +348,9 @@ static int show_map(const sweep_options *o, const stability_map *m, const char *
         return code == EXIT_DONE ? EXIT_INTERRUPTED : code;
     }
     if (map_count(m, MAP_NONE) == m->grid->points) {
-        fputs("whirl map: error: no pair has a run\nhint: `whirl run` with the values of one tells "
-              "why\n",
-              stderr);
+        fputs(
+            "whirl map: error: no pair can be run\nhint: start one pair with `whirl run`: it prints the reason\n",
+            stderr);
         return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
     }
     return code;
@@ -378,8 +379,10 @@ static double operations_of(const grid *g, const image *base) {
 
 static bool is_affordable(const sweep_options *o, const grid *g, const image *base) {
     if (g->points > PAIRS_MOST) {
-        fprintf(stderr, "whirl map: error: %llu pairs, at most %d\nhint: fewer in each --over\n",
-                (unsigned long long)g->points, PAIRS_MOST);
+        fprintf(
+            stderr,
+            "whirl map: error: %llu pairs exceed the limit of %d\nhint: use a smaller COUNT in each --over\n",
+            (unsigned long long)g->points, PAIRS_MOST);
         return false;
     }
     const double wanted = operations_of(g, base);

@@ -72,9 +72,7 @@ static bool same_unit(const char *a, const char *b) {
     return a != NULL && b != NULL && strcmp(a, b) == 0;
 }
 
-static const char *unit_words(const char *unit) {
-    return unit == NULL ? "a unit that no file tells" : unit;
-}
+static const char *unit_words(const char *unit) { return unit == NULL ? "an unknown unit" : unit; }
 
 /* The quantity's columns and its unit. False, reported, if no run has it, or the runs' units differ. */
 static bool find_columns(const char *command, const char *name, const plot_run *runs, int count,
@@ -107,8 +105,9 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     panels_quantity *q = &p->quantity[p->quantities];
     const char *unit = NULL;
     if (p->quantities == PANELS_QUANTITIES) {
-        fprintf(stderr, "whirl %s: error: at most %d quantities\nhint: --y NAME,NAME\n", command,
-                PANELS_QUANTITIES);
+        fprintf(stderr,
+                "whirl %s: error: more than the limit of %d quantities\nhint: --y NAME,NAME\n",
+                command, PANELS_QUANTITIES);
         return false;
     }
     q->column = alloc(p->runs, sizeof *q->column);
@@ -122,8 +121,8 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     }
     panel = panel < 0 ? p->count : panel;
     if (panel == PANELS_MOST) {
-        fprintf(stderr, "whirl %s: error: at most %d panels\nhint: --y NAME,NAME\n", command,
-                PANELS_MOST);
+        fprintf(stderr, "whirl %s: error: more than the limit of %d panels\nhint: --y NAME,NAME\n",
+                command, PANELS_MOST);
         return false;
     }
     if (panel < p->count && !same_unit(p->unit[panel], unit) &&

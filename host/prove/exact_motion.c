@@ -26,24 +26,25 @@ static bool is_smooth(const instance *inst, diags *errors) {
         const contact_statement *c = &m->contacts[i];
         if (instance_has_contact(inst, c)) {
             diag_error(errors, c->at,
-                       "only smooth scenes can be proved about; whirl trust estimates",
-                       "%s changes the equations at moments of its own, which are not enclosed",
+                       "use whirl trust, which estimates; a proof needs a smooth scene",
+                       "%s changes the equations during a run, and the proof cannot enclose when",
                        contact_called(c->kind));
             return false;
         }
     }
     for (int i = 0; i < m->input_count; i++) {
         if (m->inputs[i]->rate != NULL) {
-            diag_error(errors, m->inputs[i]->at,
-                       "leave out its rate, or write it as a parameter; whirl trust estimates",
-                       "an input with a rate moves inside a step, which is not enclosed");
+            diag_error(
+                errors, m->inputs[i]->at,
+                "leave out its rate, write it as a parameter, or use whirl trust, which estimates",
+                "an input with a rate changes inside a step, which the proof cannot enclose");
             return false;
         }
     }
     if (inst->scene != NULL && inst->scene->when_count > 0) {
         diag_error(errors, inst->scene->whens[0].at,
-                   "only smooth scenes can be proved about; whirl trust estimates",
-                   "%s changes the equations at moments of its own, which are not enclosed",
+                   "use whirl trust, which estimates; a proof needs a smooth scene",
+                   "%s changes the equations during a run, and the proof cannot enclose when",
                    contact_called(CONTACT_WHEN));
         return false;
     }
@@ -100,9 +101,9 @@ static bool lagrange(making *k) {
 }
 
 static bool not_linear(making *k, const term *t) {
-    diag_error(
-        k->errors, t->value->at, "write each highest derivative times what has none of them",
-        "it cannot be seen, without rounding, that this is linear in the highest derivatives");
+    diag_error(k->errors, t->value->at,
+               "write each highest derivative times a factor without such derivatives",
+               "exact arithmetic does not show that this is linear in the highest derivatives");
     return false;
 }
 
@@ -308,7 +309,8 @@ static bool is_defined(const exact_motion *m, const mechanism *of, diags *errors
         good = good && enclosure_is_finite(m->start[i]);
     }
     if (!good) {
-        diag_error(errors, of->at, NULL, "a number in the equations of '%s' cannot be enclosed",
+        diag_error(errors, of->at, NULL,
+                   "a number in the equations of '%s' is not finite: its interval has no bounds",
                    of->name);
     }
     return good;
@@ -320,8 +322,8 @@ static bool derive(making *k, exact_motion *m) {
         return false;
     }
     if (!solve(k)) {
-        diag_error(k->errors, of->at, "fewer coordinates, or simpler energies",
-                   "the equations of '%s' grow beyond what can be enclosed, or cannot be solved",
+        diag_error(k->errors, of->at, "use fewer coordinates or simpler energies",
+                   "the equations of '%s' are too large for a proof, or cannot be solved",
                    of->name);
         return false;
     }

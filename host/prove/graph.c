@@ -411,8 +411,9 @@ int graph_without(graph *g, int a, int first) {
 /* === reader =================================================================================== */
 
 static int refused(reader_symbols *s, const expr *at, const char *what) {
-    diag_error(s->errors, at->at, "only smooth functions that are enclosed can be proved about",
-               "%s of what moves cannot be enclosed", what);
+    diag_error(s->errors, at->at,
+               "use whirl trust, which estimates; a proof needs smooth functions",
+               "%s of a moving quantity has no enclosure", what);
     return -1;
 }
 

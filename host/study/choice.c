@@ -142,7 +142,7 @@ static void drop_long(const trials *t, table *made) {
         if (evaluations * each <= RUN_INSTRUCTIONS) {
             made->row[kept++] = *row;
         } else {
-            made->why = "its run has too many steps to be counted: a shorter --horizon";
+            made->why = "the run has too many steps to be counted: use a shorter --horizon";
         }
     }
     made->unpriced += kept < made->count;
@@ -237,9 +237,8 @@ static void print_load(FILE *out, const choice_wish *w, const table_row *row,
                        const choice_row *by) {
     const cost_figure *f = &row->cost.cycles_worst;
     if (!(w->clock_Hz > 0.0) || by->unknown[CHOICE_LOAD]) {
-        fputs(w->clock_Hz > 0.0
-                  ? "  load        not known: the cycles of the longest step are not\n"
-                  : "  load        not asked: give --clock\n",
+        fputs(w->clock_Hz > 0.0 ? "  load        unknown, like the cycles of the longest step\n"
+                                : "  load        not computed: add --clock 16e6\n",
               out);
         return;
     }
@@ -277,9 +276,10 @@ static void print_run(FILE *out, const table_row *row) {
     fprintf(out, "  of          %.0f counted steps: every one to the horizon, events included\n",
             row->run.steps);
     if (declared_of(row) > 0.0) {
-        fprintf(out,
-                "  declared    %.0f %s are the most that a step can take: docs/dev/events.md\n",
-                declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
+        fprintf(
+            out,
+            "  declared    %.0f %s at most in a step, by the declared bounds (docs/dev/events.md)\n",
+            declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
     } else {
         fputs("  declared    not known: the stretches of a step are not counted on this board\n",
               out);
@@ -324,7 +324,7 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
     }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
         if (by->unknown[i]) {
-            fprintf(out, "  %s is limited, and not known here: count it\n",
+            fprintf(out, "  %s is limited, but unknown here: count it with --measure\n",
                     i == CHOICE_FLASH ? "flash" : "RAM");
         }
     }
@@ -392,7 +392,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
         print_bytes(out, made, &c->any);
         print_options(out, t, &made->row[c->any.row]);
     } else if (c->weaker.row < 0 && c->any.row < 0) {
-        fputs("  nothing that was tried\n", out);
+        fputs("  no tried setting\n", out);
     }
 }
 
@@ -420,7 +420,7 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_wi
     } else if (made->broken_off + made->unpriced == 0) {
         fprintf(out, "nothing fits: all %d settings were tried\n", made->settings);
     } else {
-        fprintf(out, "nothing fits of the steps that were tried%s\n",
+        fprintf(out, "nothing fits among the tried steps%s\n",
                 made->broken_off > 0 ? ": raise --effort" : "");
     }
     if (!found && made->count > 0) {

@@ -389,7 +389,7 @@ static cost_figure sum_of(const cost_row *row, const cost_counts *c, cost_figure
     for (int i = 0; row != NULL && i < COST_CLASSES; i++) {
         const double count = cost_counted(c, row->quantity)[i];
         if (count > 0.0 && row->figure[i] < 0.0) {
-            *why = "no counted step has an operation that this scene has: measure it";
+            *why = "this scene has an operation that no counted step has: measure it";
             row = NULL;
         } else {
             sum += count * row->figure[i];
@@ -421,7 +421,7 @@ static double state_bytes(const image *im, cost_number number) {
 
 cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number != COST_FIXED && !takes_method(im)) {
-        return (cost){.why = "the scene does not take this method"};
+        return (cost){.why = "this method is not possible for the scene"};
     }
     if (im->contacts > 0) { /* their memory is laid out by the board's compiler */
         return (cost){.why = "the cost of contacts depends on the motion: it must be counted"};

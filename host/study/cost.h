@@ -26,7 +26,7 @@
 
 /* X(id, word, description of the figure's source) */
 #define COST_BASIS_ROWS(X) \
-    X(COST_NOT_KNOWN, "not known", "nobody can tell: it must be measured") \
+    X(COST_NOT_KNOWN, "not known", "unknown: it must be measured") \
     X(COST_EXACT, "exact", "follows from the layout") \
     X(COST_PREDICTED, "predicted", "from the image, as a sum over its operations") \
     X(COST_MEASURED, "measured", "counted in an emulator, or read off a linked image") \
@@ -81,10 +81,10 @@ const cost_board *cost_board_named(const char *name); /* NULL: unknown */
     X(PRODUCT, "a product") \
     X(QUOTIENT, "a quotient") \
     X(ROOT, "a square root") \
-    X(MOVE, "a size, a sign, a choice, or a value that is loaded or kept") \
+    X(MOVE, "a size, a sign, a choice, or a value that is loaded or stored") \
     X(LOOKED_UP, "a sine and cosine, looked up") \
     X(TURNED, "a sine and cosine, rotated on") \
-    X(CELL, "an angle's cell of a table") \
+    X(CELL, "the search for an angle's table cell") \
     X(LINE, "a value of a linear table") \
     X(CUBIC, "a value of a cubic table") \
     X(FUNCTION, "another function") \

@@ -192,7 +192,7 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
     } else if (made->count == 1 && made->from != made->to) {
         problem = "a single point needs FROM = TO";
     } else if (made->is_log && !(made->from * made->to > 0.0)) {
-        problem = "a logarithmic range takes two ends above zero, or two below";
+        problem = "both ends of a logarithmic range must be above zero, or both below";
     }
     if (problem != NULL) {
         say(g, over);
@@ -233,7 +233,7 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
         if (!isfinite(made->from) || !isfinite(made->to) || !isfinite(made->to - made->from)) {
             problem = "FROM and TO must be finite numbers";
         } else if (from->uses != to->uses && made->from != 0.0 && made->to != 0.0) {
-            problem = "one end has a unit and the other has not";
+            problem = "one end has a unit and the other has none";
         } else if (made->symbol == NULL && !(made->from > 0.0 && made->to > 0.0)) {
             problem = "step must be above zero";
         }

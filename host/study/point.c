@@ -180,7 +180,7 @@ static bool has_measure_inside(const source *typed, diags *errors) {
             if (begins && at[length + blanks(at + length)] == '(') {
                 const size_t offset = (size_t)(at - typed->text);
                 diag_error(errors, (place){typed, 1, (int)offset + 1, offset},
-                           "take it as it is, and reckon with the column afterwards",
+                           "measure it alone, and compute with the column afterwards",
                            "%s() must stand around the whole measure", kind_names[kind]);
                 return true;
             }
@@ -242,7 +242,7 @@ static const expr *read_expression(measures *m, const mechanism *of, const char 
     const expr *made = parse_expression(&in, CONTEXT_OUTPUT);
     if (made != NULL && in.token.kind != TOKEN_END) {
         char words[80];
-        parser_fail(&in, "max, min, amplitude, mean and period stand around a whole expression",
+        parser_fail(&in, "write max, min, amplitude, mean and period around the whole expression",
                     "unexpected %s", token_words(&in.token, words, sizeof words));
     }
     bool *let_seen = arena_alloc(m->arena, (size_t)of->let_count * sizeof *let_seen);
@@ -480,14 +480,15 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
     const double epsilon = w->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
     for (int i = 0; i < w->count; i++) {
         if (m->gauges[i].undefined) {
-            fprintf(reason, "what the measure '%s' takes is not a finite number throughout",
+            fprintf(reason,
+                    "the expression of the measure '%s' is not a finite number at every step",
                     w->list[i].name);
             return false;
         }
         value[i] = gauge_result(&m->gauges[i], m->image->step_s, epsilon);
         const bool no_period = isnan(value[i]) && m->gauges[i].kind == MEASURE_PERIOD;
         if (!isfinite(value[i]) && !no_period) {
-            fprintf(reason, "the measure '%s' is not a finite number: what it takes is too large",
+            fprintf(reason, "the measure '%s' is not a finite number: its expression is too large",
                     w->list[i].name);
             return false;
         }

@@ -372,7 +372,7 @@ static void say_missing(FILE *out, const trials *t) {
     for (int k = 1; k < r->columns; k++) {
         char name[TRIAL_NAME];
         if (r->shape->column[k].unknown >= 0 && !counts(t, k)) {
-            fprintf(out, "%s%s", first ? "  left out    stays at zero but for rounding: " : ", ",
+            fprintf(out, "%s%s", first ? "  left out    zero except for round-off: " : ", ",
                     trial_column(t, k, name));
             first = false;
         }
@@ -385,7 +385,7 @@ void figure_reference(FILE *out, const trials *t) {
     fprintf(out, "  reference   %s\n", r->how);
     if (r->kind == REFERENCE_NONE) {
         const char *where = trial_place(t, t->worst);
-        fprintf(out, "              none that could be trusted%s%s: %s\n",
+        fprintf(out, "              no reliable reference%s%s: %s\n",
                 where[0] != '\0' ? ", with" : "", where, r->why);
         return;
     }
@@ -500,7 +500,8 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
         }
     }
     free(show);
-    fprintf(out, "\n%d rows, %d of them on the front (*): no row is as cheap and errs less",
+    fprintf(out,
+            "\n%d rows, %d of them on the front (*): no row has a smaller error at the same cost",
             made->count, front);
     if (!words->all) {
         fprintf(out, "; %d are shown, --all shows all", rows);
@@ -511,7 +512,7 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
 void table_print_left(FILE *out, const table *made, double operations) {
     fprintf(out, "%d settings", made->settings);
     if (made->broken_off > 0) {
-        fprintf(out, "; finer steps of %d take more than their share of --effort %.3g",
+        fprintf(out, "; for %d settings, finer steps exceed their share of --effort %.3g",
                 made->broken_off, operations);
     }
     if (made->unpriced > 0) {
@@ -522,7 +523,7 @@ void table_print_left(FILE *out, const table *made, double operations) {
 
 /* Explains the letters above the table, so that nobody reads m as metre. */
 static void print_letters(FILE *out, const table_row *first) {
-    fputs("\nletters behind figures: how each is known\n", out);
+    fputs("\nletters after figures: the source of each figure\n", out);
     figure_legend(out, &first->cost);
     if (first->price.unit == PRICE_EVALUATIONS) {
         fputs(
@@ -563,7 +564,8 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
     const table_row *row = &made->row[last];
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, words);
-    fprintf(out, "the last row of the front again, and as code:\n  %s\n  %s\n", run, derive);
+    fprintf(out, "commands that run the last row of the front, and print it as code:\n  %s\n  %s\n",
+            run, derive);
     free(run);
     free(derive);
 }
@@ -743,7 +745,7 @@ static bool is_host(const cost_board *board) { return strcmp(board->name, "host"
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]) {
     static const char missing[] = " is missing";
     if (t != NULL && t->image[0]->contacts > 0 && is_host(board)) {
-        return "runs with contacts are counted in emulators alone";
+        return "runs with contacts are counted only in emulators";
     }
     if (access(COUNTS, R_OK) != 0) {
         return "this is not the root of Whirl's source tree; run it there to count with the "

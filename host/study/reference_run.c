@@ -1012,8 +1012,9 @@ reference *reference_new(const reference_wish *w) {
         if (r->why == NULL) {
             r->still = !moves(r);
             r->why = alloc_words(
-                !r->still ? "the two never agree: only round-off moves, or the horizon is too long"
-                          : "nothing moves");
+                !r->still
+                    ? "the two references never agree: the motion is only round-off, or the horizon is too long"
+                    : "nothing moves");
         }
     }
     return r;

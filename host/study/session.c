@@ -28,7 +28,8 @@
 /* === a CSV file that is continued ============================================================= */
 
 static int refuse(const char *path, const char *why) {
-    fprintf(stderr, "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path,
+    fprintf(stderr,
+            "%s: error: %s\nhint: use another --csv to keep it, or --fresh to overwrite it\n", path,
             why);
     return EXIT_BAD_INPUT;
 }
@@ -71,7 +72,7 @@ static int line_length(const char *text) { return (int)strcspn(text, "\n"); }
 static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s) {
     char *there = read_text(sh->beside);
     if (there == NULL) {
-        return refuse(s->path, "it is no sweep's: there is no FILE.sweep beside it");
+        return refuse(s->path, "the file is not from a sweep: there is no FILE.sweep beside it");
     }
     const char *old = there;
     const char *new = s->fingerprint;
@@ -85,7 +86,7 @@ static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s)
         free(sh->notes);
         sh->notes = alloc_words("%s", old);
     } else if (*old != '\0' || *new != '\0') {
-        code = refuse(s->path, "it belongs to another sweep");
+        code = refuse(s->path, "the file belongs to another sweep");
         fprintf(stderr, "  there: %.*s\n  here:  %.*s\n", line_length(old), old, line_length(new),
                 new);
     }
@@ -140,12 +141,12 @@ static int check_rows(resumable_csv *sh, const resumable_csv_settings *s, off_t 
         }
         bool failed = false;
         if (in_header && strcmp(line, s->header) != 0) {
-            code = refuse(s->path, "its header is another sweep's");
+            code = refuse(s->path, "the header is that of another sweep");
             break;
         }
         if (!in_header && !is_row(s, line, (size_t)length, sh->rows, &failed)) {
             char why[100];
-            snprintf(why, sizeof why, "its row %llu is not this sweep's",
+            snprintf(why, sizeof why, "row %llu is not from this sweep",
                      (unsigned long long)sh->rows + 1);
             code = refuse(s->path, why);
             break;
@@ -667,7 +668,7 @@ static int run_points(const session_settings *o, sitting *s) {
         return EXIT_RUN_FAILED;
     }
     say_found(s);
-    const char *hint = s->sheet.is_file ? "hint: the same command goes on from there\n" : "";
+    const char *hint = s->sheet.is_file ? "hint: repeat the command to continue from there\n" : "";
     switch (result) {
     case JOBS_DONE: say_end(o, s, workers); break;
     case JOBS_STOPPED:

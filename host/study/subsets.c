@@ -67,8 +67,8 @@ bool subsets_open(subsets *s, diags *errors) {
     s->image = image_without(s, 0, errors);
     for (int i = 0; s->image != NULL && i < s->image->effects; i++) {
         if (s->image->effect[i].with && s->effects == SUBSETS_EFFECTS_MAX) {
-            diag_error(errors, s->of->effects[i].at, "leave some out, --without",
-                       "more than %d effects take part", SUBSETS_EFFECTS_MAX);
+            diag_error(errors, s->of->effects[i].at, "leave some out with --without EFFECT",
+                       "more than %d effects are selected", SUBSETS_EFFECTS_MAX);
             return false;
         }
         if (s->image->effect[i].with) {

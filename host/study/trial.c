@@ -322,10 +322,11 @@ static bool find_column(trials *t) {
         return false;
     }
     if (noisy) {
-        fprintf(stderr,
-                "whirl: error: %s has noise of its own, which is no error of a step\n"
-                "hint: take what it is made of, or --without the effect that adds the noise\n",
-                t->wish.of);
+        fprintf(
+            stderr,
+            "whirl: error: %s has noise, so its error is not that of the step\n"
+            "hint: choose a quantity without noise, or leave out the effect that adds it with --without EFFECT\n",
+            t->wish.of);
         return false;
     }
     return true;
@@ -596,7 +597,7 @@ bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pac
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     if (trial_is_slow_to_plan(t, s, pace)) {
         *own = true;
-        return (cost){.why = "its ranges take too long to look for: raise --effort"};
+        return (cost){.why = "finding its ranges takes too long: raise --effort"};
     }
     cost c = trial_cost(t, s, pace, own);
     for (int i = 0;

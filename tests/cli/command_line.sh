@@ -457,16 +457,16 @@ for command in run derive price choose sweep map; do
     while read -r option; do
         "$whirl" $command epicyclic_from_rest "$option" 1 "$option=1" >"$scratch/out" 2>"$scratch/err"
         status=$?
-        if grep -q 'is there twice' "$scratch/err"; then
+        if grep -q 'is given twice' "$scratch/err"; then
             [ $status -eq 2 ] && grep -q '^hint: ' "$scratch/err" && twice=$((twice + 1))
         else # its value was wrong before, or it takes none
             [ $status -eq 2 ] || echo "$command $option: $status" >>"$scratch/passed"
         fi
     done <"$scratch/options"
     [ $twice -ge 3 ] && [ ! -s "$scratch/passed" ]
-    verdict $? "$command: $twice options, each refused where it is there twice" "$scratch/passed"
+    verdict $? "$command: $twice options, each refused where it is given twice" "$scratch/passed"
 done
-says 2 '--step is there twice' run epicyclic_from_rest --step 1ms --until 1s --step=2ms
-says 2 '--error is there twice' choose epicyclic_from_rest --error 1e-1 --error 1e-4
-says 2 '--csv is there twice' run epicyclic_from_rest --csv "$scratch/a" --csv "$scratch/b"
+says 2 '--step is given twice' run epicyclic_from_rest --step 1ms --until 1s --step=2ms
+says 2 '--error is given twice' choose epicyclic_from_rest --error 1e-1 --error 1e-4
+says 2 '--csv is given twice' run epicyclic_from_rest --csv "$scratch/a" --csv "$scratch/b"
 exit $failed

@@ -61,7 +61,7 @@ says '^allowed  *5  *-  *-  *1  *1  *-  *-  *-  *-$'
 cells drag '# # # # # # # # # may be left out'
 cells pull '# # # # # # # # # needed'
 for effect in buffer far_spring weight lift; do
-    says "^$effect .* not tested by this run: it never acted$"
+    says "^$effect .* not tested by this run: it did not act$"
 done
 says '^smallest set that keeps the error: pull, buffer, far_spring, weight, lift$'
 says '^not tested, so kept: buffer, far_spring, weight, lift$'
@@ -107,7 +107,7 @@ says 'price on mps2-an505 \(Cortex-M33\), float, predicted$'
 says '^effect .* instructions  *evaluations '
 cells drag '# # # # # # # may be left out'
 ask "$cart"
-cells buffer '# # # - # - - not tested by this run: it never acted'
+cells buffer '# # # - # - - not tested by this run: it did not act'
 cells drag '# # # # # # # may be left out'
 
 # --- what cannot run without an effect --------------------------------------------------------------------------------------
@@ -133,17 +133,17 @@ ask "$scratch/odd.whirl" --without wall --until 900s --step 10ms
 verdict $? "a scene that diverges with all its effects: status 1"
 
 # --- errors ---------------------------------------------------------------------------------------------------------------
-refused "'X' is no coordinate, rate or output of 'cart'" '^hint: --error x=' "$cart" --error X=1mm
-refused "'sped' is no coordinate" '^hint: --error speed=' "$cart" --error sped=1
-refused "'x''' is no coordinate" '^hint: --error' "$cart" --error "x''=1"
+refused "'X' is not a coordinate, rate or output of 'cart'" '^hint: --error x=' "$cart" --error X=1mm
+refused "'sped' is not a coordinate" '^hint: --error speed=' "$cart" --error sped=1
+refused "'x''' is not a coordinate" '^hint: --error' "$cart" --error "x''=1"
 refused '--error x has no value' '^hint: --error x=' "$cart" --error x
 refused "'x' is given twice" '^hint: leave one out' "$cart" --error x=1mm,x=2mm
 refused 'this is mass' '1kg' "$cart" --error x=1kg
 refused 'unit' '^hint: ' "$cart" --error x=1mmm
 refused 'a number above zero, not -1mm' '' "$cart" --error x=-1mm
-refused "no effect takes part in 'bare'" '^hint: --with all, or --with drag' "$scratch/cart.whirl:bare"
-refused "no effect takes part in 'two_mass_absolute'" 'docs/effects.md' two_mass_absolute
-refused 'a run of no steps compares nothing' '^hint: --until 1s' "$cart" --until 0
+refused "no effect is selected in 'bare'" '^hint: --with all, or --with drag' "$scratch/cart.whirl:bare"
+refused "no effect is selected in 'two_mass_absolute'" 'docs/effects.md' two_mass_absolute
+refused 'a run without steps compares nothing' '^hint: --until 1s' "$cart" --until 0
 refused "there is no board 'mps'" '^hint: one of' "$cart" --board mps
 refused "unknown effect 'darg'" "^hint: did you mean 'drag'" "$cart" --without darg
 refused 'no scene' '' "$scratch/cart.whirl:nothing"

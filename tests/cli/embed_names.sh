@@ -27,8 +27,8 @@ says 2 'error: --header goes with --as c' derive thomson_a --header "$scratch/x.
 says 2 'hint: --as c --header FILE' derive thomson_a --as latex --header "$scratch/x.h"
 [ ! -e "$scratch/x.h" ]
 verdict $? "nothing is written then"
-says 2 'error: --header takes a file: standard output has the C' derive thomson_a --as c --header -
-says 2 'error: --header takes a file: standard output has the C' derive thomson_a --as c --header=
+says 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header -
+says 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header=
 says 2 '/nonexistent/x.h: error: cannot be written: No such' derive thomson_a --as c --header /nonexistent/x.h
 says 2 "$scratch: error: cannot be written: Is a directory" derive thomson_a --as c --header "$scratch"
 [ ! -e /dev/full ] || says 1 '/dev/full: error: cannot be written: No space' derive thomson_a --as c --header /dev/full

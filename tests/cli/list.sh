@@ -127,7 +127,7 @@ same "all but one" "ball_bounces --with all --without air" "ball_bounces --with 
 same "none but one, whatever the order" "ball_in_air --with ceiling --without all" "ball_in_air --without air,floor --with ceiling"
 same "none" "ball_in_air --without=all" "ball_in_air --without floor,air"
 same "the ledger is not among all" "ball_bounces --without all --with ledger" "ball_bounces --without floor --with ledger"
-says 'which\?' derive ball_bounces --with all --without all --as c
+says 'contradict each other' derive ball_bounces --with all --without all --as c
 says 'names .all. twice' derive ball_bounces --with all,all --as c
 
 # --- conserve ----------------------------------------------------------------------------------------------
@@ -151,7 +151,7 @@ done
 "$whirl" sweep "$scratch/slide.whirl:kept" --without conserve --with drag --over x=1..2:2 --csv - --quiet >"$scratch/one" 2>"$scratch/err"
 "$whirl" sweep "$scratch/slide.whirl:moved" --with drag --over x=1..2:2 --csv - --quiet 2>>"$scratch/err" | cmp -s - "$scratch/one" && [ -s "$scratch/one" ]
 verdict $? "and swept so"
-says 'a scene says itself what it conserves' derive "$scratch/slide.whirl:kept" --with conserve --as c
+says '--with takes effects, not .conserve.' derive "$scratch/slide.whirl:kept" --with conserve --as c
 for word in all conserve none ledger; do
     printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\neffect %s { V += 1 [N]*x }\n' "$word" >"$scratch/word.whirl"
     says "^.*word.whirl:4:8: error: '$word' is a reserved word" derive "$scratch/word.whirl"
@@ -172,7 +172,7 @@ says '.--name. is no name|is no name' derive thomson_a --as c --name 1x
 says 'is no name' derive thomson_a --as c --name=
 says 'is no name' derive thomson_a --as c --name 'a b'
 says 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
-says 'there twice' derive thomson_a --as c --name a --name b
+says 'given twice' derive thomson_a --as c --name a --name b
 says "'int' is a word of C" derive thomson_a --as c --name int
 says 'error: --name goes with --as octave or c' derive thomson_a --name other
 

@@ -65,14 +65,14 @@ verdict $? "a mass of nothing: no run, and the others are there" "$scratch/words
 "$whirl" map $spring --over=m=0..1:2 --over=step=10..20[ms]:2 --csv "$scratch/n.csv" --quiet >"$scratch/out" 2>&1 && [ ! -s "$scratch/out" ] &&
     [ "$(tr -d '\r' <"$scratch/n.csv" | grep -c '^0,0.0[12],none,,,$')" -eq 2 ] && [ "$(wc -l <"$scratch/n.csv")" -eq 5 ]
 verdict $? "in rows: no time, no energy" "$scratch/n.csv"
-refused 1 'error: no pair has a run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
-refused 1 'error: no pair has a run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
+refused 1 'error: no pair can be run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
+refused 1 'error: no pair can be run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
 
 # --- what is refused --------------------------------------------------------------------------------------------------------
 refused 2 'usage: whirl map'
-refused 2 'two --over are wanted, there is none' $spring
-refused 2 'two --over are wanted, there is one' $spring "$steps"
-refused 2 "two --over, not also 'm=1..2:2'" $spring "$steps" "$places" --over m=1..2:2
+refused 2 'a map needs two --over: there is none' $spring
+refused 2 'a map needs two --over: there is one' $spring "$steps"
+refused 2 "a map has two --over: 'm=1..2:2' is a third" $spring "$steps" "$places" --over m=1..2:2
 for bad in 'k=1..2' 'k=:3' '=1..2:3' 'k=1...2:3' '' 'k' 'k=1..2:x' 'k=1..2:0' 'k=1..2:1' 'k=1..2:-3' 'k=1..2:1.5' 'k=-1..2:3,log' \
     'k=0..2:3,log' 'k=nan..2:3' 'k=1..inf:3' 'k=1..nan:3' 'nothing=1..2:3' 'x=1..m:3' 'k=1..2:3,lin' 'k=1..2 [kg]:3' 'k=1..2:99999999999999'; do
     refused 2 'error: ' $spring "$steps" --over "$bad"
@@ -84,11 +84,11 @@ refused 2 'error: .*swept already' $spring "$places" "$places"
 refused 2 "'k' is swept by --over and given by --set" $spring "$steps" "$places" --set 'k = 3'
 refused 2 "'x' is swept by --over and given by --start" $spring "$steps" --over x=1..2:2 --start x=3
 refused 2 "'step' is swept by --over and given by --step" $spring "$steps" "$places" --step 1ms
-refused 2 '1000000 pairs, at most 250000' $spring --over k=1..2:1000 --over x=1..2:1000
-refused 2 'pairs, at most 250000' $spring --over k=1..2:999999 --over x=1..2:999999
+refused 2 '1000000 pairs exceed the limit of 250000' $spring --over k=1..2:1000 --over x=1..2:1000
+refused 2 'pairs exceed the limit of 250000' $spring --over k=1..2:999999 --over x=1..2:999999
 refused 2 'this would take about .* minutes: 105 pairs' $spring "$places" --over step=1e-9..1e-3:21,log
-refused 2 'hint: fewer pairs, .*; or --effort [0-9.e+]*$' $spring "$steps" "$places" --until 1e7s
-refused 2 "belongs to the effect 'rail_drag', which takes no part" epicyclic_from_rest --over=b=1..2:3 "$steps"
+refused 2 'hint: use fewer pairs, .*; or --effort [0-9.e+]*$' $spring "$steps" "$places" --until 1e7s
+refused 2 "belongs to the effect 'rail_drag', which is not selected" epicyclic_from_rest --over=b=1..2:3 "$steps"
 refused 2 "there is no number 'fixed'" $spring "$steps" "$places" --number fixed
 refused 2 'is not defined here' tests/mechanisms/lorenz.whirl "$steps" --over x=1..2:2 --method leapfrog
 refused 2 'there is no file and no built-in scene' nothing "$steps" "$places"

@@ -61,7 +61,7 @@ field() { awk -F, -v n="$1" '{ printf "%.9g", $n }' "$scratch/row"; }
 # The step that follows no event is a part of the mean, the mean no more than the longest, and that no more than declared.
 contacts() { # SCENE HORIZON RATE
     choose "$1" --error 0.1 --horizon "$2" --rate "$3" --clock 1000MHz
-    if [ $? -eq 1 ] && grep -qE 'nothing moves|none that could be trusted' "$scratch/out" "$scratch/err"; then
+    if [ $? -eq 1 ] && grep -qE 'nothing moves|no reliable reference' "$scratch/out" "$scratch/err"; then
         echo "ok - $1: no reference, and nothing is promised"
         return
     fi

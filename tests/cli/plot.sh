@@ -160,7 +160,7 @@ sed -n 's/^  whirl //p' "$scratch/err" | (cd "$scratch" && while read -r line; d
 verdict $? "whose commands do" "$scratch/said"
 rm -f "$scratch/no.svg"
 for name in k "x'"; do
-    refused "--y is there twice" "--y \"a, $name\"" plot "$model" --y a --y="$name" "$out"
+    refused "--y is given twice" "--y \"a, $name\"" plot "$model" --y a --y="$name" "$out"
 done
 refused "choose what --plot draws" "--plot picture.svg" run "$model" --y x
 refused "no figure is called '999'" '`whirl list --figures` lists them' figure 999

@@ -245,8 +245,8 @@ none "RAM" '^  [0-9]* bytes of flash and' --error 1e-3 --rate 200Hz --ram 20B
 none "error" '^  an error of ' --error 1e-13 --rate 200Hz --clock 1MHz
 for effort in 4e5 8e5; do
     "$whirl" choose --predict "$scratch/pendulum.whirl" --effort $effort --error 1e-8 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq 1 ] && grep -q '^nothing fits of the steps that were tried: raise --effort$' "$scratch/out" &&
-        grep -q '; finer steps of [1-9][0-9]* take more than their share of --effort' "$scratch/out"
+    [ $? -eq 1 ] && grep -q '^nothing fits among the tried steps: raise --effort$' "$scratch/out" &&
+        grep -q '; for [1-9][0-9]* settings, finer steps exceed their share of --effort' "$scratch/out"
     verdict $? "settings that take more than --effort $effort are counted" "$scratch/out"
 done
 # Named methods take the place of the default ones, and the same effort gives the same table again.
@@ -340,7 +340,7 @@ for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
     echo "$step $inside ${rate%Hz}" | awk '{ off = $1 * $2 * $3 - 1; exit !(off < 1e-12 && off > -1e-12) }'
     verdict $? "a period of $rate takes whole steps" "$scratch/out"
 done
-asked 1 'nothing fits of the steps that were tried: raise --effort' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
+asked 1 'nothing fits among the tried steps: raise --effort' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
 asked 2 'more than any step' "$odd:odd_rings" --error 1e-2 --rate 1e15Hz
 asked 2 'not one period' "$odd:odd_rings" --error 1e-2 --rate 1e-15Hz
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz
@@ -357,7 +357,7 @@ eval "\"$whirl\" $again --quiet --csv $scratch/again.csv" && [ "$(wc -l <"$scrat
 verdict $? "a line with blanks runs" "$scratch/out"
 # where no one limit would do, all of them are told
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-3 --rate 100Hz --clock 1kHz --flash 1KB --ram 20B
-grep -q 'bytes of flash and .* of RAM with the stack' "$scratch/out" && ! grep -q 'nothing that was tried' "$scratch/out"
+grep -q 'bytes of flash and .* of RAM with the stack' "$scratch/out" && ! grep -q 'no tried setting' "$scratch/out"
 verdict $? "and what all of them would have to be" "$scratch/out"
 # contacts: no price, and it says why, and what can be had instead
 for board in mps2-an386 atmega328p host; do

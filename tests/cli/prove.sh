@@ -187,7 +187,7 @@ verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
 refused 'the stop changes the equations' carriage_stop
 refused 'the hold changes the equations' thomson_magnet
 refused 'the friction changes the equations' incline_slides
-refused 'abs of what moves cannot be enclosed' epicyclic_from_rest --with air_drag
+refused 'abs of a moving quantity has no enclosure' epicyclic_from_rest --with air_drag
 refused 'a number above zero is wanted' epicyclic_from_rest --within X=-1mm
 refused 'a number above zero is wanted' epicyclic_from_rest --within X=0
 refused "'Y' is unknown" epicyclic_from_rest --within Y=1mm
@@ -198,7 +198,7 @@ for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
     refused 'error: --tolerance takes a number from 1e-15 to 1' epicyclic_from_rest --tolerance "$bad"
     refused 'error: --effort takes a number from 10000 to 1e+15' epicyclic_from_rest --effort "${bad%2}x"
 done
-refused '--csv is there twice' epicyclic_from_rest --csv a --csv b
+refused '--csv is given twice' epicyclic_from_rest --csv a --csv b
 refused 'error: the run alone, of .* steps, would take about' thomson_a --until 1e6s
 refused 'or --effort [0-9.e+]*$' thomson_a --until 1e6s
 refused 'one scene at a time' thomson_a thomson_b

@@ -53,7 +53,7 @@ for k in 1 2 3; do
     { sed -n "$((lines + 1))p" "$scratch/many1.csv" && tail -n 1 "$scratch/many1.csv"; } | head -n 1 >>"$scratch/shard$k.csv"
     cp "$scratch/shard$k.csv" "$scratch/more"
     many --shard $k/3 --csv "$scratch/shard$k.csv" >/dev/null 2>"$scratch/err"
-    [ $? -eq 2 ] && grep -q "its row 33[0-9][0-9] is not this sweep's" "$scratch/err" &&
+    [ $? -eq 2 ] && grep -q "row 33[0-9][0-9] is not from this sweep" "$scratch/err" &&
         cmp -s "$scratch/more" "$scratch/shard$k.csv"
     verdict $? "a row more in the file of shard $k is refused" "$scratch/err"
 done
@@ -185,7 +185,7 @@ scene ends_at_c { start x' = 1 [m/s]; until 1 [s] }
 END
 ends() { "$whirl" sweep "$scratch/ends.whirl" --over 'c=0.5..2:4' --measure y "$@"; }
 check "a measure that is no number fails" status 1 ends --measure 'max(sqrt((c - x)/1 [m]))'
-check "a measure that is no number: which" grep -q "point 1 (c=0.5): what the measure 'max(sqrt((c - x)/1 \[m\]))' takes is not a finite number" "$scratch/said"
+check "a measure that is no number: which" grep -q "point 1 (c=0.5): the expression of the measure 'max(sqrt((c - x)/1 \[m\]))' is not a finite number" "$scratch/said"
 check "a measure that is no number: empty" test "$(tr -d '\r' <"$scratch/rows" | grep -c '^0.5,,,$')" -eq 1
 check "a condition that is no number fails" status 1 ends --with latch
 check "a condition that is no number: which, and when" grep -q 'point 1 (c=0.5): in the step after t = 0.499 s the condition of this hold is not a finite number: hold y while sqrt' "$scratch/said"

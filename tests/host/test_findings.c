@@ -730,7 +730,7 @@ static void test_stopped(void) {
         char wanted[200];
         snprintf(wanted, sizeof wanted,
                  "whirl sweep: interrupted after %u of 9 points; their rows are kept\n"
-                 "hint: the same command goes on from there\n",
+                 "hint: repeat the command to continue from there\n",
                  rows);
         TEST_ASSERT_EQUAL_STRING(wanted, s.err);
         TEST_ASSERT_EQUAL_INT(EXIT_INTERRUPTED, s.code);

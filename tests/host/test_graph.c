@@ -670,11 +670,12 @@ static void expect_refused(const char *formula, const char *name) {
     FILE *out = alloc_text(&told, &length);
     diags_flush(r.errors, out);
     alloc_text_end(out);
-    snprintf(wanted, sizeof wanted, "x.whirl:6:%d: error: %s of what moves cannot be enclosed\n",
+    snprintf(wanted, sizeof wanted,
+             "x.whirl:6:%d: error: %s of a moving quantity has no enclosure\n",
              (int)(strstr(formula, name) - formula) + 9, name);
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     TEST_ASSERT_NOT_NULL(
-        strstr(told, "hint: only smooth functions that are enclosed can be proved about"));
+        strstr(told, "hint: use whirl trust, which estimates; a proof needs smooth functions"));
     free(told);
     close_text();
 }
@@ -710,7 +711,7 @@ TEST(reader, outputs) {
     FILE *out = alloc_text(&told, &length);
     diags_flush(r.errors, out);
     alloc_text_end(out);
-    const char wanted[] = "x.whirl:7:14: error: an output of what moves cannot be enclosed\n";
+    const char wanted[] = "x.whirl:7:14: error: an output of a moving quantity has no enclosure\n";
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     free(told);
     close_text();

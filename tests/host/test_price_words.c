@@ -270,7 +270,7 @@ TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
         TEST_ASSERT_NOT_NULL(strstr(out.text, want));
         TEST_ASSERT_TRUE(shown <= 12 && (made.count > 12 || shown == made.count));
         TEST_ASSERT_TRUE(made.count <= 12 || shown >= 4);
-        snprintf(want, sizeof want, "errs less; %d are shown, --all shows all\n", shown);
+        snprintf(want, sizeof want, "at the same cost; %d are shown, --all shows all\n", shown);
         (void)behind(out.text, want);
         free(out.text);
     }
@@ -292,7 +292,7 @@ TEST(price_words, tables_of_nothing_say_why) {
     char *text = table_of_nothing(&p.trial, &made);
     (void)behind(text, "\nno setting has a row: 0 settings; 3 without a price here: a reason\n");
     /* z rests and has no relative error; the two references agree as reported */
-    (void)behind(text, "\n  left out    stays at zero but for rounding: z, z'\n");
+    (void)behind(text, "\n  left out    zero except for round-off: z, z'\n");
     const char *at = behind(text, "the two agree within ");
     double number;
     (void)said_number(at, &number);
@@ -315,7 +315,7 @@ TEST(price_words, tables_of_nothing_say_why) {
     free(p.trial.reference[0]->why);
     p.trial.reference[0]->why = alloc_words("nobody knows");
     text = table_of_nothing(&p.trial, NULL);
-    (void)behind(text, "\n              none that could be trusted: nobody knows\n");
+    (void)behind(text, "\n              no reliable reference: nobody knows\n");
     (void)behind(text, "\nno front: without a reference no error is known\n");
     TEST_ASSERT_NULL(strstr(text, "the two agree"));
     free(text);

@@ -235,10 +235,11 @@ static const char three_dots[] = " has three dots in a row\n";
 static const char count_wrong[] =
     ": the COUNT after the last ':' must be a whole number from 1 to 999999999999, ',log' may follow\n";
 static const char single[] = ": a single point needs FROM = TO\n";
-static const char no_log[] = ": a logarithmic range takes two ends above zero, or two below\n";
+static const char no_log[] =
+    ": both ends of a logarithmic range must be above zero, or both below\n";
 static const char no_numbers[] = ": FROM and TO must be numbers\n";
 static const char not_finite[] = ": FROM and TO must be finite numbers\n";
-static const char one_unit[] = ": one end has a unit and the other has not\n";
+static const char one_unit[] = ": one end has a unit and the other has none\n";
 static const char no_step[] = ": step must be above zero\n";
 static const char twice[] = ": it is swept already\n";
 
@@ -564,7 +565,8 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
     errors_catch();
     const int code = resumable_csv_open(&sh, &d.settings);
     snprintf(wanted, sizeof wanted,
-             "%s: error: %s\nhint: another --csv keeps it; --fresh overwrites it\n", path, why);
+             "%s: error: %s\nhint: use another --csv to keep it, or --fresh to overwrite it\n",
+             path, why);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told); /* once */
@@ -666,7 +668,7 @@ TEST(sheet, rows_of_others) {
             snprintf(text + strlen(text), 40, "%u,0.%u,1\r\n", (unsigned)d.settings.rows / 3U + 1U,
                      (unsigned)d.settings.rows % 3U);
         }
-        snprintf(why, sizeof why, "its row %u is not this sweep's",
+        snprintf(why, sizeof why, "row %u is not from this sweep",
                  c % 5 == 4 ? (unsigned)d.settings.rows + 1U : row + 1U);
         const size_t length = strlen(d.whole) + (c % 5 == 3   ? 1
                                                  : c % 5 == 4 ? strlen(text + strlen(d.whole))
@@ -681,7 +683,7 @@ TEST(sheet, too_few_fields) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 10)); c++) {
         draw_sheet();
         d.settings.measures++;
-        expect_refused(d.whole, strlen(d.whole), fingerprint, "its row 1 is not this sweep's");
+        expect_refused(d.whole, strlen(d.whole), fingerprint, "row 1 is not from this sweep");
     }
     close_folder();
 }
@@ -702,7 +704,7 @@ TEST(sheet, settings_of_others) {
         char wanted[200];
         resumable_csv sh;
         draw_sheet();
-        expect_refused(d.whole, strlen(d.whole), others[i], "it belongs to another sweep");
+        expect_refused(d.whole, strlen(d.whole), others[i], "the file belongs to another sweep");
         errors_catch();
         (void)resumable_csv_open(&sh, &d.settings);
         snprintf(wanted, sizeof wanted, "  there: %s\n  here:  %s\n", there[i], here[i]);
@@ -711,7 +713,7 @@ TEST(sheet, settings_of_others) {
     }
     draw_sheet();
     expect_refused(d.whole, strlen(d.whole), NULL,
-                   "it is no sweep's: there is no FILE.sweep beside it");
+                   "the file is not from a sweep: there is no FILE.sweep beside it");
     for (unsigned c = 0; c < 6U; c++) { /* alone, with its own rows, with other rows */
         draw_sheet();
         d.settings.header = "m,r,X,Z\r\n";
@@ -719,7 +721,7 @@ TEST(sheet, settings_of_others) {
         const size_t rows = d.end[d.settings.rows] - d.end[0];
         memcpy(other + strlen(other), d.whole + d.end[0], c % 3U == 1U ? rows : 0);
         strcat(other, c % 3U == 2U ? "9,9,9,9,9\r\n" : "");
-        expect_refused(other, strlen(other), fingerprint, "its header is another sweep's");
+        expect_refused(other, strlen(other), fingerprint, "the header is that of another sweep");
     }
     close_folder();
 }

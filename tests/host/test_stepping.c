@@ -264,12 +264,14 @@ TEST(stepping, failed) {
     list = (gauged){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
                   "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
-                  &w, "what the measure '1/x' takes is not a finite number throughout", "");
+                  &w, "the expression of the measure '1/x' is not a finite number at every step",
+                  "");
     /* each is finite, their sum is not */
     list = (gauged){MEASURE_MEAN, "large", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
                   "scene s { step 1 [ms]; until 0.1 [s] }\n",
-                  &w, "the measure 'large' is not a finite number: what it takes is too large", "");
+                  &w, "the measure 'large' is not a finite number: its expression is too large",
+                  "");
 }
 
 /* x' = x^2 from 1/t1 is 1/(t1 - t): it ends in the step of t1 or the next. Also a root undefined from t1 on, reported

@@ -266,7 +266,7 @@ TEST(sweep, measures_inside_are_told) {
         TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
         TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);
         TEST_ASSERT_NOT_NULL(
-            strstr(told, "hint: take it as it is, and reckon with the column afterwards\n"));
+            strstr(told, "hint: measure it alone, and compute with the column afterwards\n"));
         free(told);
         close_sample();
     }
