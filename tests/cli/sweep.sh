@@ -239,7 +239,7 @@ drift() { "$whirl" sweep "$scratch/rotor.whirl" --over "a'=1e-7..1e-1 [rad/s]:4,
 check "slow angles: 0 with --strict=off" status 0 drift --strict=off
 check "slow angles: how many, and the first" \
     grep -q "note: 2 of 4 points have a component whose steps are below its resolution .*digits\]; first: point 1 (a'=1e-07)\$" "$scratch/said"
-check "slow angles: with a way out" grep -q '^hint: .whirl run. of the point tells what would do' "$scratch/said"
+check "slow angles: with a way out" grep -q '^hint: run the point with .whirl run.: it prints a remedy' "$scratch/said"
 check "slow angles: a note alone is no failure" status 0 \
     "$whirl" sweep "$scratch/rotor.whirl" --over "a'=1e-4..1e-4 [rad/s]:1" --measure a --number float
 check "slow angles: a note alone" grep -q 'note: 1 of 1 points .*digits' "$scratch/said"
