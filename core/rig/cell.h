@@ -16,9 +16,9 @@ extern "C" {
     X(WH_LOAD_OK, "ok") \
     X(WH_LOAD_SATURATED, "saturated") \
     X(WH_LOAD_DISCONNECTED, "disconnected") \
-    /* converted at another time than its stamp */ \
+    /* converted at another time than its time stamp */ \
     X(WH_LOAD_LATE, "late") \
-    /* the converter has no new value: the last one again */ \
+    /* no new value: the converter repeats the last one */ \
     X(WH_LOAD_REPEATED, "repeated")
 
 #define WH_LOAD_NAME(name, words) name,
@@ -28,10 +28,10 @@ typedef enum wh_load_status { WH_LOAD_ROWS(WH_LOAD_NAME) WH_LOAD_STATUSES } wh_l
 typedef struct wh_cell_config {
     wh_real newton_per_count; /* negative for a cell mounted in reverse */
     wh_real offset_N;         /* reading without force */
-    /* delay of filter and converter: the stamp's time less that of the force */
+    /* delay of filter and converter: from the force to the time stamp */
     uint32_t delay_ticks;
-    uint32_t period_ticks; /* between samples */
-    int32_t raw_max;       /* counts of a full-scale load, either sign: saturated */
+    uint32_t period_ticks; /* ticks between two samples */
+    int32_t raw_max;       /* counts at full scale, either sign: the sample is saturated */
 } wh_cell_config;
 
 typedef struct wh_load {
@@ -42,8 +42,8 @@ typedef struct wh_load {
 
 #define wh_load_text WH_NAME(wh_load_text)
 
-/* The force of a sample of `raw` counts, stamped `ticks`, with the hardware's `status`. At full scale it is saturated,
- * for any status. */
+/* The force of a sample of `raw` counts with the time stamp `ticks` and the hardware's `status`. A sample at full scale
+ * is saturated, whatever its status. */
 WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,
                                wh_load_status status) {
     wh_load load;

@@ -10,17 +10,17 @@
 /* Time stamps of the rig are counts of a 1 MHz timer, 32 bits, wrapping. */
 #define WH_RIG_TICKS_PER_S 1000000U
 
-/* From a stamp to a later one, s; less than 71.6 minutes. */
+/* Seconds from a time stamp to a later one; less than 71.6 minutes. */
 WH_SHARED wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* The same, negative to an earlier stamp; less than 35.8 minutes. */
+/* Seconds between two time stamps, negative if `to` is earlier; less than 35.8 minutes. */
 WH_SHARED wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Is a later stamp more than most_s after this one? */
+/* Is now_ticks more than most_s after the earlier stamp then_ticks? */
 WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real most_s) {
     return wh_rig_since_s(then_ticks, now_ticks) > most_s;
 }
@@ -30,8 +30,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_DEG_PER_RAD WH_R(57.29577951308232)
 #define WH_RIG_LBF_PER_N WH_R(0.22480894309971047)
 
-/* Of both sets: arm 0.152 lb, 7.25 in long, discs 0.15 lb; centres of the discs 6.5 in from the shaft, or disc_m metres
- * if they are moved. */
+/* Both sets of arm and disc: arm 0.152 lb, 7.25 in long; disc 0.15 lb. The discs' centres are 6.5 in from the shaft, or
+ * disc_m metres if they are moved. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 
@@ -41,8 +41,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
      WH_R(0.45359237))
 #define WH_RIG_UNBALANCE_KGM WH_RIG_UNBALANCE_AT_KGM(WH_RIG_DISC_RADIUS_M)
 
-/* Of all rotating parts: two sets, the arm a slender rod, the discs points; 5e-4 kg m^2 of motor, couplings and shafts,
- * which is assumed. */
+/* Inertia of all rotating parts: two sets with the arm as a slender rod and the disc as a point, and an assumed 5e-4 kg
+ * m^2 of motor, couplings and shafts. */
 #define WH_RIG_INERTIA_AT_KGM2(disc_m) \
     (WH_R(2.0) * \
          (WH_R(0.152) * (WH_R(17.520833333333332) * WH_R(0.0254) * WH_R(0.0254)) + \
@@ -55,10 +55,10 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 
-/* Damping of a turn's mean speed: the torque line, and 0.001 N m s of the bearings. */
+/* Damping of a turn's mean speed: the slope of the torque line, and 0.001 N m s of the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
 
-/* Supply of the torque line above. */
+/* Supply voltage of the torque line above. */
 #define WH_RIG_RATED_V WH_R(24.0)
 
 #define WH_RIG_GRAVITY_MPS2 WH_R(9.80665)
@@ -75,10 +75,10 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
  * (docs/rig.md). Set-points stay a sixth above that, because the loop dips. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
-/* With gravity's torque fed forward to the motor. */
+/* The same limit if gravity's torque is fed forward to the motor. */
 #define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
 
-/* Range of the motor's supply, in parts of the rated voltage. */
+/* Range of the motor's supply, as multiples of the rated voltage. */
 #define WH_RIG_SUPPLY_LEAST WH_R(0.45)
 #define WH_RIG_SUPPLY_MOST WH_R(1.55)
 

@@ -12,15 +12,15 @@ extern "C" {
 typedef struct wh_drive_config {
     wh_real proportional_V_per_radps; /* volts per rad/s of error */
     wh_real integral_V_per_rad;       /* volts per second, per rad/s of error */
-    wh_real ramp_radps2;              /* fastest change of the set-point, > 0; */
-    wh_real
-        gentle_radps; /* below this a quarter of it: a dip of the loop must not stop the rotor */
+    wh_real ramp_radps2;              /* fastest change of the set-point, > 0 */
+    wh_real gentle_radps; /* below this speed the ramp is a quarter as steep: a dip of the loop must
+                       * not stop the rotor */
 } wh_drive_config;
 
 typedef struct wh_drive {
-    wh_real target_radps;   /* where the ramp goes */
-    wh_real setpoint_radps; /* present value */
-    wh_real integral_V;     /* the integral part; from 0 to the supply */
+    wh_real target_radps;   /* final set-point of the ramp */
+    wh_real setpoint_radps; /* present set-point */
+    wh_real integral_V;     /* integral part of the voltage, from 0 to the supply */
 } wh_drive;
 
 #define wh_drive_start WH_NAME(wh_drive_start)
@@ -38,7 +38,7 @@ void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);
 wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
                       wh_real most_V, wh_real step_s);
 
-/* True when the set-point has arrived. */
+/* True when the set-point has reached the target. */
 bool wh_drive_at_target(const wh_drive *drive);
 
 #ifdef __cplusplus

@@ -36,11 +36,12 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
         return;
     }
-    /* a sensor that fires twice running is passed in the opposite direction */
+    /* if a sensor fires twice in succession, the second passage is in the opposite direction */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
         swing->forward =
-            true; /* backwards it cannot get over the top: a pulse was lost, and it turns */
+            true; /* a rotor that swings backwards cannot get over the top: a pulse was lost, and
+                   * the rotor turns */
         swing->swings = false;
         swing->kept = 0;
         swing->passed = 0;
@@ -65,7 +66,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
 
 #define STEP_TICKS 8000
 
-/* A step towards the next pulse. False: the pulse is reached. */
+/* A step towards the next pulse. Returns false when the pulse is reached. */
 static bool advance(wh_swing *swing) {
     const int32_t left = (int32_t)(swing->kept_ticks[swing->at] - swing->ticks);
     if (left == 0) {
@@ -85,13 +86,14 @@ static bool advance(wh_swing *swing) {
 
 /* --- passes -------------------------------------------------------------------------------------------- */
 
-/* The angle from the bottom that is `lead` after a sensor's pulse (at the slot's leading edge) on the way forwards. */
+/* The angle of the rotor from the bottom when it passes a sensor forwards: its pulse comes `lead` earlier, at the slot's
+ * leading edge. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Back to the first passage of the bottom, the start for later pulses and for earlier ones. */
+/* Returns to the first passage of the bottom, where the passes over the later and over the earlier pulses begin. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(
@@ -101,7 +103,7 @@ static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor,
 
 static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
                        wh_swing *swing) {
-    wh_real left[WH_NORMAL_UNKNOWNS]; /* to the guess */
+    wh_real left[WH_NORMAL_UNKNOWNS]; /* displacement from the guess */
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
@@ -133,7 +135,7 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* A slower rotor stops within a swing or two, by a friction that is unknown. */
+/* Limit on the slowest amplitude: a slower rotor stops within a swing or two, by a friction that is unknown. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -152,7 +154,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
     const wh_real off = wh_free_angle(stands(rotor, swing, sensor, lead) - way->q_rad);
     if (!(WH_ABS(off) < FAR_RAD)) {
-        if (swing->at < swing->first) { /* did it get over the top? */
+        if (swing->at < swing->first) { /* has the rotor got over the top? */
             return false;
         }
         swing->strays++;
@@ -175,7 +177,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
-    /* with more unknowns than pulses there is no misfit */
+    /* if there are more unknowns than pulses, there is no misfit */
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
@@ -196,13 +198,14 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
         result->why = WH_SWING_SIDES;
     } else {
         result->why =
-            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* NaN too */
+            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* also for
+                                                                                       * NaN */
     }
 }
 
 #define FOREIGN WH_R(9.0)
 
-/* Gauss's step, limited for each unknown to its guess's uncertainty. Returns the next piece. */
+/* Gauss's step. Each unknown moves at most by the uncertainty of its guess. Returns the next piece of the work. */
 static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
@@ -228,10 +231,11 @@ static wh_swing_piece move(wh_swing *swing) {
     return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
 }
 
-/* At a pulse: on to the next, or back to the first passage and on to the pulses before it. */
+/* After a pulse: goes on to the next one, or back to the first passage and on to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
-    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* before the first: wraps */
+    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* wraps before the first
+                                                                    * pulse */
     if (take(config, rotor, swing) && next < swing->kept) {
         swing->at = next;
     } else if (later && swing->first > 0) {
@@ -242,7 +246,7 @@ static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, w
     }
 }
 
-#define STEPS 3U /* of the equation */
+#define STEPS 3U /* integration steps per piece of the work */
 
 static WH_CALLED void work(const wh_swing_config *config, const wh_rotor_config *rotor,
                            wh_swing *swing) {
@@ -323,7 +327,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
     const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
     const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
     const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
-    wh_real before = h; /* it turns back */
+    wh_real before = h; /* the rotor turns back within the step */
     wh_real after = WH_R(0.0);
     wh_real ratio = WH_R(1.0);
     rotor->rate_radps = rate + h * slowed;
@@ -331,7 +335,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
         before = -rate / slowed;
         after = h - before;
         ratio = (pulled + sign * cause[WH_FREE_FRICTION]) / slowed;
-        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* friction holds it there */
+        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* friction keeps the rotor at rest */
         rotor->rate_radps = ratio * slowed * after;
     }
     const wh_real both = ratio * before + after;
@@ -376,7 +380,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Round-off of a diagonal's prior 1 after the rows have made it large. */
+/* Least pivot: the prior 1 of a diagonal entry may be lost in round-off after the rows have made the entry large. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {

@@ -43,7 +43,7 @@ extern "C" {
 
 typedef struct wh_normal {
     wh_real matrix[WH_NORMAL_UNKNOWNS]
-                  [WH_NORMAL_UNKNOWNS]; /* its lower triangle; then its factors */
+                  [WH_NORMAL_UNKNOWNS]; /* lower triangle of the matrix; then of its factor */
     wh_real right[WH_NORMAL_UNKNOWNS];  /* right side; then the solution */
     /* sum of squared residuals over their variances at the guess; the solution reduces it */
     wh_real misfit;
@@ -55,18 +55,18 @@ typedef struct wh_normal {
 #define wh_normal_solve WH_NAME(wh_normal_solve)
 #define wh_normal_deviation WH_NAME(wh_normal_deviation)
 
-/* Only the prior: each unknown is `guess`, with a standard deviation of 1. */
+/* Begin with the prior alone: each unknown is `guess`, with a standard deviation of 1. */
 void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS]);
 
-/* A measurement: `off` is the sum of row times unknowns, with this weight (one over its variance). */
+/* Add a measurement: the sum of row times unknowns is `off`, with this weight (the inverse of its variance). */
 void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
                    wh_real weight);
 
-/* First the factors, some 1,000 instructions; then the unknowns, into normal->right. */
+/* Factor the matrix (some 1,000 instructions), then solve: the unknowns are in normal->right. */
 void wh_normal_factor(wh_normal *normal);
 void wh_normal_solve(wh_normal *normal);
 
-/* After the solution: the standard deviation of an unknown. */
+/* Standard deviation of an unknown, after the factorization. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
 
 /* === the rotor =============================================================================== */
@@ -105,20 +105,20 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-/* The unknowns' places. */
+/* Indices of the unknowns. */
 enum wh_swing_unknown {
     WH_SWING_Q = WH_FREE_Q,
     WH_SWING_RATE = WH_FREE_RATE,
     WH_SWING_GRAVITY = WH_FREE_GRAVITY,
     WH_SWING_FRICTION = WH_FREE_FRICTION,
     WH_SWING_DRAG = WH_FREE_DRAG,
-    WH_SWING_PLACE = WH_FREE_CAUSES, /* of sensor 1; then of sensor 2 */
+    WH_SWING_PLACE = WH_FREE_CAUSES, /* place of sensor 1; sensor 2's follows */
 };
 
 #define WH_SWING_SENSORS 2U
-#define WH_SWING_TURNING 6U /* pulses stored from before the swing, */
-#define WH_SWING_PULSES 36U /* and in all */
-#define WH_SWING_LAST 10U   /* of sensor 1's last */
+#define WH_SWING_TURNING 6U /* pulses stored from before the swing */
+#define WH_SWING_PULSES 36U /* pulses stored in all */
+#define WH_SWING_LAST 10U   /* times stored of sensor 1's last pulses */
 
 /* Pieces of the work: before a pulse or at it, the equations in two, another pass, another guess, the end. */
 typedef enum wh_swing_piece {
@@ -147,49 +147,49 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    wh_real lead_rad;  /* pulses come this far before the sensor, from either side */
-    wh_real most_rad;  /* sensors are within this of their positions, at 95 % */
-    wh_real jitter_s;  /* of the pulses, standard deviation */
-    wh_real rough_rad; /* further error of a pulse, ditto: a coupling's twist */
+    wh_real lead_rad;  /* a pulse comes this far before its sensor, from either side */
+    wh_real most_rad;  /* a sensor is within this of its nominal position, at 95 % */
+    wh_real jitter_s;  /* jitter of the pulses, standard deviation */
+    wh_real rough_rad; /* further error of a pulse, standard deviation: a coupling's twist */
     wh_real floor_rad; /* calibration, 95 %: slot, lead, friction that differs with the direction */
-    wh_real wide_rad;  /* limit of a useful interval */
+    wh_real wide_rad;  /* widest useful interval */
     wh_real off_rad; /* limit of sensor 1's error and its interval: beyond, results are doubtful */
-    unsigned swings_least; /* half ones */
+    unsigned swings_least; /* least number of half swings */
 } wh_swing_config;
 
 typedef struct wh_swung {
     wh_swing_why why;
-    wh_real place_rad[WH_SWING_SENSORS]; /* when found: the sensor's position, */
+    wh_real place_rad[WH_SWING_SENSORS]; /* position of each sensor, if found */
     wh_real half_rad[WH_SWING_SENSORS];  /* half-widths of the intervals, 95 % */
     unsigned swings;                     /* half swings used */
 } wh_swung;
 
 typedef struct wh_swing {
     wh_swung result;
-    bool free;    /* motor off, its leads open, since the last step */
-    bool any;     /* there was a pulse, */
-    bool forward; /* passed this way, */
+    bool free;    /* the motor is off with open leads since the last step */
+    bool any;     /* there was a pulse */
+    bool forward; /* the last pulse's direction */
     uint8_t sensor;
-    bool swings;          /* the rotor has passed sensor 1 backwards: at kept[first], */
+    bool swings;          /* the rotor has passed sensor 1 backwards, first at kept[first] */
     wh_swing_piece piece; /* the next piece of the work */
     unsigned first;
-    unsigned passed; /* and its later passages, stored or not */
+    unsigned passed; /* number of later passages of sensor 1, stored or not */
     unsigned kept;
-    unsigned start; /* guesses before this one that failed */
+    unsigned start; /* number of earlier guesses that failed */
     unsigned pass;
     unsigned at;     /* the next pulse */
-    unsigned fits;   /* pulses used in this pass, */
-    unsigned strays; /* that cannot be, */
-    /* and their number for each sensor: a swing seen by sensor 1 alone could be its mirror image */
+    unsigned fits;   /* pulses used in this pass */
+    unsigned strays; /* impossible pulses in this pass */
+    /* pulses used of each sensor: a swing seen by sensor 1 alone could be its mirror image */
     unsigned fits_of[WH_SWING_SENSORS];
-    uint32_t ticks;                     /* of `way` */
+    uint32_t ticks;                     /* time of `way` */
     wh_real soft_rad2;                  /* variance added to the pulses' own */
     wh_free_rotor way;                  /* the rotor during a pass */
-    uint32_t last_ticks[WH_SWING_LAST]; /* sensor 1's, the newest first */
+    uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
     wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place and q' at the first passage, g, f, c, sensor
                                     * positions, */
-    wh_real guess[WH_NORMAL_UNKNOWNS];  /* as they were guessed, */
-    wh_real within[WH_NORMAL_UNKNOWNS]; /* and their standard deviations */
+    wh_real guess[WH_NORMAL_UNKNOWNS];  /* guess of x */
+    wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];
     uint8_t kept_sensor[WH_SWING_PULSES];
     wh_normal normal; /* equations of this pass, in units of `within` */
@@ -197,21 +197,21 @@ typedef struct wh_swing {
 
 /* === the first guess ========================================================================= */
 
-#define WH_SWING_STARTS 3U /* guesses, one after the other */
+#define WH_SWING_STARTS 3U /* guesses that are tried, one after the other */
 
 #define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
 #define wh_swing_guess WH_NAME(wh_swing_guess)
 
-/* Near the top, guesses of the amplitude are useless, because it depends steeply on times: a pass begins after such
- * swings. */
+/* Near the top, guesses of the amplitude are useless, because it depends steeply on times. So a pass begins after the
+ * swings near the top. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
 
-/* x and its uncertainty, with which the regression begins; swing->start counts the guesses. */
+/* Sets x and its uncertainty, from which the regression begins; swing->start counts the guesses. */
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 
 /* === the evaluation ========================================================================== */
 
-/* 0, possible in a small chip's build: swings are not evaluated. */
+/* A small chip's build may set 0: swings are then not evaluated. */
 #ifndef WH_RIG_SWINGS
 #define WH_RIG_SWINGS 1
 #endif
@@ -221,12 +221,12 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 #define wh_swing_doubt WH_NAME(wh_swing_doubt)
 #define wh_swing_text WH_NAME(wh_swing_text)
 
-/* A pulse of sensor 0 or 1 as it comes, in order of time. */
+/* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Every control step. `swings`: the rotor turned forwards, or has swung out by now, after a run, and the motor's leads
- * have been open since then. When they are closed, the rotor rests if `rests`; otherwise it was stopped, and the swing
- * was not free. While wh_swing_works(), each step at rest does a bounded piece of the work. */
+/* Call it every control step. `swings`: the rotor turned forwards or has swung out after a run, and the motor's leads
+ * have been open since then. When they are closed, the rotor is at rest if `rests`; otherwise it was stopped, and the
+ * swing was not free. While wh_swing_works(), each step at rest does a bounded piece of the work. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 
@@ -236,7 +236,7 @@ WH_INLINE bool wh_swing_works(const wh_swing *swing) { return swing->result.why 
 /* If sensor 1 was found off its position, a good result becomes doubtful: its phase has the same error. */
 void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_measured *measured);
 
-/* In words, for consoles. */
+/* The outcome in words, for consoles. */
 const char *wh_swing_text(wh_swing_why why);
 
 #ifdef __cplusplus

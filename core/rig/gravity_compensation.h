@@ -20,14 +20,14 @@ typedef struct wh_compensation_config {
     uint32_t
         lead_ticks; /* from now to the middle of the time for which the voltage will be applied */
     wh_real fade_s; /* fade-in time; 0: at once */
-    wh_real most;   /* limit, in parts of the rated voltage, >= 0 */
+    wh_real most;   /* limit, as a multiple of the rated voltage, >= 0 */
 } wh_compensation_config;
 
 typedef struct wh_compensation {
-    wh_real part; /* faded in, 0 to 1; 0 to begin with */
+    wh_real part; /* share that is faded in, from 0 to 1; initially 0 */
 } wh_compensation;
 
-/* For the rig of eccentric.whirl. */
+/* The configuration for the rig of eccentric.whirl. */
 #define WH_COMPENSATION_STANDARD \
     { \
         .weight_Nm = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2, .stall_Nm = WH_RIG_STALL_NM, \
@@ -38,8 +38,9 @@ extern const wh_compensation_config wh_compensation_standard;
 
 #define wh_compensation_step WH_NAME(wh_compensation_step)
 
-/* One control step of step_s seconds, after the observer's: the voltage to add to the drive's, in parts of the rated
- * voltage. 0 while the observer is not valid or a number is NaN; then it fades in again. */
+/* One control step of step_s seconds; call it after the observer's step. Returns the voltage to add to the drive's, as a
+ * multiple of the rated voltage. It is 0 while the observer is not valid or a number is NaN; then the voltage fades in
+ * again. */
 wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensation *compensation,
                              const wh_observer *observer, uint32_t now_ticks, wh_real step_s);
 

@@ -33,14 +33,15 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
 #define LONGER \
-    WH_R(1.02) /* slowing of a coasting turn: only the last two intervals of a swing have it */
-#define FASTER WH_R(1.01) /* gain of all faster turns together */
-#define ALTERNATE_PAIR 4U /* alternating pulses over two turns of a sensor, */
-#define ALTERNATE_RISE 6U /* and over three */
-#define ALONE_PAIR 2U     /* the same for one that fires alone */
+    WH_R(1.02) /* slowing of a coasting rotor's turn: in a swing only the last two intervals slow
+                * so much */
+#define FASTER WH_R(1.01) /* speed gain over all successive faster turns */
+#define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
+#define ALTERNATE_RISE 6U /* alternating pulses that show three turns */
+#define ALONE_PAIR 2U     /* pulses of a sensor that fires alone and show two turns */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-#define ALONE_SURE 6U /* more than the jitter at the hanging position */
+#define ALONE_SURE 6U /* more pulses than jitter makes at the hanging position */
 
 static uint8_t one_more(uint8_t count) {
     return (uint8_t)(count < ALONE_SURE ? count + 1U : count);
@@ -50,7 +51,7 @@ static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
     return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;
 }
 
-/* Compare a turn with the one before, both without an extra pulse. */
+/* Compares a turn with the previous one; neither contains an extra pulse. */
 static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes, unsigned sensor,
                      uint32_t before_ticks) {
     wh_off *off = &guard->off;

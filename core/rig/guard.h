@@ -37,34 +37,37 @@ typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
 #undef WH_TRIP_NAME
 
 typedef struct wh_guard_config {
-    wh_real target_min_radps; /* smallest set-point, see docs/rig.md; with gravity fed forward, */
+    wh_real target_min_radps; /* smallest set-point (docs/rig.md) */
     wh_real target_min_fed_radps;
     wh_real target_max_radps;    /* largest */
     wh_real limit_radps;         /* largest speed, mean of a turn */
-    wh_real ripple;              /* excess speed within a turn, as a fraction, at the limit */
-    wh_real over;                /* excess over the speed that the rotor is led to, as a fraction */
-    wh_real climb;               /* rise of a turn's speed at two marks running, as a fraction, */
-    wh_real climb_start_radps2;  /* or by this while the rotor is taken over, */
-    wh_real climb_behind_radps2; /* or by this while it is slower than the set-point by more */
-    wh_real behind_radps;        /* than this, */
-    wh_real climb_there_radps2;  /* and otherwise this */
+    wh_real ripple;              /* excess speed within a turn at the limit, as a fraction */
+    wh_real over;                /* excess over the speed that the drive commands, as a fraction */
+    wh_real climb;               /* largest rise of a turn's speed at two successive marks, as a
+                                  * fraction */
+    wh_real climb_start_radps2;  /* largest rise while the loop takes the rotor over */
+    wh_real climb_behind_radps2; /* largest rise while the rotor is slower than the set-point by
+                                  * more than behind_radps */
+    wh_real behind_radps;        /* see climb_behind_radps2 */
+    wh_real climb_there_radps2;  /* largest rise otherwise */
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
     uint32_t lost_max;          /* pulses that may be lost in a run */
     unsigned doubt_max;         /* see wh_pulses */
-    uint32_t rejected_max;      /* and rejected */
-    wh_real silence_max_s;      /* longest time without a pulse while the loop is closed */
-    wh_real slow_silence_max_s; /* and while the rotor starts */
+    uint32_t rejected_max;      /* pulses that may be rejected in a run */
+    wh_real silence_max_s;      /* longest time without a pulse in closed loop */
+    wh_real slow_silence_max_s; /* longest time without a pulse while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
     /* a load that changes by less than this times the speed's square is constant */
     wh_real load_still_kgm;
-    uint32_t stuck_pulses; /* slot pulses during a constant load: stuck */
+    uint32_t stuck_pulses; /* slot pulses during a constant load after which the load cell is
+                            * stuck */
     wh_real supply_min_V;
     wh_real supply_max_V;
-    wh_real rest_s; /* without a pulse for this long: at rest */
-    /* each turn of a braked rotor is slower than the last by at least this, */
+    wh_real rest_s; /* the rotor rests if no pulse comes for this long */
+    /* each turn of a braked rotor must be slower than the previous one by this */
     wh_real braked_radps;
-    wh_real hand_radps; /* and a hand turns it no faster than this */
+    wh_real hand_radps; /* fastest rotor that a hand can turn */
 } wh_guard_config;
 
 /* Checks of the pulses while the motor is off, or brakes, independent of the commands. A turn is the time between two
@@ -86,17 +89,18 @@ typedef struct wh_guard_config {
  *   stopped by friction only the last two do. */
 typedef struct wh_off {
     bool released;
-    bool doubted;      /* by pulses of one sensor alone, */
-    bool asks;         /* or of both in turn: the next pulse shows whether it swings */
-    uint8_t sensor;    /* of the last pulse, from 1; 0: no pulse yet */
-    uint8_t alternate; /* successive pulses with a sensor other than the one before's, */
-    uint8_t alone;     /* or was */
+    bool doubted;      /* the brake was released on pulses of one sensor alone */
+    bool asks;         /* it was released on pulses of both sensors in turn: the next pulse shows
+                        * if the rotor swings */
+    uint8_t sensor;    /* sensor of the last pulse, 1 or 2; 0: no pulse yet */
+    uint8_t alternate; /* successive pulses of alternating sensors */
+    uint8_t alone;     /* successive pulses of the same sensor */
     struct wh_off_turns {
-        uint32_t ticks;       /* of the last pulse, */
-        uint32_t turn_ticks;  /* since the one before; 0: no such pulse */
-        uint32_t first_ticks; /* of the turn before they got faster */
-        uint8_t faster;       /* successive turns that were faster than the last, */
-        uint8_t longer;       /* or clearly slower */
+        uint32_t ticks;       /* time of the last pulse */
+        uint32_t turn_ticks;  /* time from the previous pulse to the last one; 0: no such pulse */
+        uint32_t first_ticks; /* time of the last turn before the turns got faster */
+        uint8_t faster;       /* successive turns that were faster than the previous one */
+        uint8_t longer;       /* successive turns that were clearly slower */
         bool seen;
     } of[WH_SPEED_SENSORS];
 } wh_off;
@@ -106,13 +110,13 @@ typedef struct wh_guard {
     bool quiet;     /* no pulse for rest_s: latched, since times wrap */
     bool load_good; /* the last load sample was ok, and is not old: latched, since times wrap */
     uint32_t pulses_seen;
-    uint32_t pulse_ticks;     /* of the last pulse, accepted or not; at first, the start */
+    uint32_t pulse_ticks;     /* time of the last pulse, accepted or not; at first, the start */
     uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
-    uint32_t rejected_before; /* or rejected */
-    uint32_t load_ticks;      /* of the last load sample; at first, the start */
-    uint32_t load_pulses;     /* pulses taken by then */
-    uint32_t still_pulses;    /* samples with a new pulse since the load last changed, */
-    wh_real still_N;          /* and where to */
+    uint32_t rejected_before; /* pulses already rejected then */
+    uint32_t load_ticks;      /* time of the last load sample; at first, the start */
+    uint32_t load_pulses;     /* pulses taken until that sample */
+    uint32_t still_pulses;    /* number of samples with a new pulse since the load last changed */
+    wh_real still_N;          /* the load after that change */
     wh_off off;
 } wh_guard;
 
@@ -126,16 +130,18 @@ typedef struct wh_guard {
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that loop and shaft can bear, with gravity `fed` forward or not; false for NaN. */
+/* True for set-points that the loop and the shaft can bear, with gravity fed forward if `fed`; false for NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that is led to at most limit_radps. It is faster by `over`, and by
- * `falls` times the gain of a fall from the top. From rest at the bottom gravity adds nothing. */
+/* The fastest interval between two pulses of a rotor that the drive leads to at most limit_radps. Its speed exceeds that
+ * by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity adds nothing. */
 #define WH_GUARD_LIGHTER \
-    WH_R(1.5) /* a rotor of half the configured inertia falls so, with some margin */
+    WH_R(1.5) /* a rotor with half the configured inertia gains so much in a fall, with some
+               * margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
-/* Limit on the rise of a turn's speed, given how far the speed is below the one it is led to. Above it, the rotor slows. */
+/* Limit on the rise of a turn's speed; behind_radps is how far the speed is below the commanded one. A speed above the
+ * commanded one must fall. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -148,14 +154,15 @@ WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real b
 /* Stop for this reason, unless the rig already has one. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
 
-/* The motor begins to drive: earlier pulses no longer count. */
+/* The motor begins to drive: forget the checks of pulses with the motor off. */
 void wh_guard_drives(wh_guard *guard);
 
-/* A pulse of sensor 0 or 1 while the motor is off; `brakes`: the enable is on. Trips, or releases the brake. */
+/* A pulse of sensor 0 or 1 while the motor is off. `brakes`: the enable is on. The pulse may trip the rig, or release
+ * the brake. */
 void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                         unsigned sensor, uint32_t ticks);
 
-/* Each step, in every state, with the total number of pulses: does the rotor rest? */
+/* Checks for rest, in each step and every state. pulses_ever is the total number of pulses. */
 WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
                               uint32_t now_ticks) {
     if (pulses_ever != guard->pulses_seen) {
@@ -168,12 +175,13 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Each step, in every state: over-speed. It is a turn above the limit, two successive pulse intervals above the bound, or a
- * turn that at two successive marks is faster than the drive could make it. `reason` is the trip: WH_TRIP_OVERSPEED, or
- * WH_TRIP_RUNS_ON with the motor off. With the motor off, a sensor that fires repeatedly may swing in its slot, and only
- * alternating pulses are turns: at least `alternate` of them running, 0 while the motor drives. */
-#define WH_GUARD_BRAKES 1U /* the enable is on: react at once */
-#define WH_GUARD_COASTS 6U /* it is off: the turns that one false pulse corrupts have passed */
+/* Checks for over-speed, in each step and every state. Over-speed is a turn above the limit, two successive pulse
+ * intervals above the bound, or a turn that at two successive marks is faster than the drive could make it. `reason` is
+ * the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. With the motor off, a sensor that fires repeatedly
+ * may swing in its slot: only alternating pulses are then turns, at least `alternate` in succession (0 while the motor
+ * drives). */
+#define WH_GUARD_BRAKES 1U /* with the enable on: react at once */
+#define WH_GUARD_COASTS 6U /* with the enable off: after the turns that one false pulse corrupts */
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
     const wh_speed *speed = &pulses->speed;
@@ -181,7 +189,7 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
         return;
     }
     /* one early pulse may be a disturbance, two are a speed */
-    const bool sure = !pulses->waits || pulses->fast > 0; /* nothing takes it back */
+    const bool sure = !pulses->waits || pulses->fast > 0; /* no later pulse can withdraw it */
     /* one early pulse may be a disturbance, and a load that vanishes lets the speed rise; both at once are a trip */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
@@ -193,7 +201,7 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* While the motor drives: lost, false and doubtful pulses, and silence for longer than silence_max_s. */
+/* Checks while the motor drives: lost, false and doubtful pulses, and silence longer than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
@@ -204,7 +212,7 @@ WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* While the motor may drive. NaN is out of range. */
+/* Checks the supply while the motor may drive. NaN is out of range. */
 WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
     return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
 }
@@ -221,8 +229,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* measured in turns, not in time: the load of a jammed rotor is constant as well. At most one pulse a sample: when
-     * a controller is late, the waiting pulses are older than the samples */
+    /* A constant load is measured in turns, not in time, because the load of a jammed rotor is also constant. At most
+     * one pulse per sample counts: when a controller is late, the waiting pulses are older than the samples. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
@@ -237,7 +245,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
 /* True while load samples arrive. */
 WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
                                    uint32_t now_ticks) {
-    /* signed: a stamp may be later than the step's own reading of the timer */
+    /* signed: a time stamp may be later than the step's own reading of the timer */
     return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
            config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
 }

@@ -11,7 +11,7 @@
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
-/* This many equal samples running are no changing load: without noise, not even the peak at 100 rpm gives so many. */
+/* So many equal samples in succession are no changing load: without noise, not even the peak at 100 rpm gives so many. */
 #define FROZEN_SAMPLES 8U
 
 /* An outlier differs by more than six standard deviations of the residual, and by more than the effect of a speed
@@ -19,7 +19,7 @@
 #define OUTLIER_DEVIATIONS WH_R(6.0)
 #define OUTLIER_PART WH_R(0.02)
 
-/* A turn's time changed by more than this part: the turn does not count, and does not serve to estimate the inertia. */
+/* A turn does not count, and is not used to estimate the inertia, if its time changed by more than this part. */
 #define STEADY_PART 64U
 #define STILL_PART 256U
 
@@ -44,7 +44,7 @@ void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
 /* --- marks -------------------------------------------------------------------------------------- */
 
 static WH_CALLED void close_turn(wh_lockin *lockin, uint32_t ticks) {
-    if (lockin->stage != WH_LOCKIN_WAITS) { /* a cell that stopped in the middle of a turn */
+    if (lockin->stage != WH_LOCKIN_WAITS) { /* the load cell stopped in the middle of a turn */
         lockin->skipped++;
         return;
     }
@@ -100,7 +100,7 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
-/* Drop samples older than the turn, except for the last of them; at most a fixed number. */
+/* Drop samples older than the turn, except for the last of them; at most WH_LOCKIN_STALE_AT_ONCE. */
 static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
         if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
@@ -133,7 +133,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* either no turn will need them, or the turn is slower than any measured one */
+    /* either no turn will need the samples, or the turn is slower than any measured one */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -149,7 +149,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
 
 /* --- one turn ----------------------------------------------------------------------------------- */
 
-/* The last node's weight: half the distance to each of its neighbours. */
+/* Sets the last node's weight: half the distance between its neighbours. */
 WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
     const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
@@ -161,7 +161,7 @@ WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
-/* First half of a node's work, its place: the load was force_N at this time of the turn. */
+/* First half of a node's work: its place. At this time of the turn the load was force_N. */
 static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lockin_place place) {
     wh_lockin_node *node = &lockin->placed;
     node->force_N = force_N;
@@ -174,7 +174,7 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     lockin->place = place;
 }
 
-/* Second half: its weight. Marks lie between two samples. */
+/* Second half of a node's work: its weight. Marks lie between two samples. */
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
@@ -221,7 +221,7 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     return lockin->taken_N + part * (later_N - lockin->taken_N);
 }
 
-/* The next node of the turn, if its sample is there. */
+/* Places the next node of the turn, if its sample has come. */
 static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
@@ -251,7 +251,7 @@ static void place_next(wh_lockin *lockin) {
     place_node(lockin, ticks, force_N, place);
 }
 
-/* A few half nodes; true when the turn is finished. */
+/* Does `halves` half nodes; returns true when the turn is finished. */
 static bool take_samples(wh_lockin *lockin, unsigned halves) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         drop_stale(lockin, lockin->next.begin_ticks);
@@ -295,7 +295,7 @@ static wh_turn_fault fault_of(const wh_cell_config *cell, const wh_lockin *locki
     return lockin->expects ? WH_TURN_OK : WH_TURN_FIRST;
 }
 
-/* The turn is finished: from its sums to its orders, and to its result. */
+/* Ends a turn: computes its orders from the sums, and its result. */
 static void end_sums(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     weigh_last(lockin, lockin->last.theta_rad, lockin->last.part);
@@ -346,7 +346,7 @@ static void begin_turn(wh_lockin *lockin) {
 /* --- pieces ------------------------------------------------------------------------------------- */
 
 #if WH_RIG_SMALL_PIECES
-/* All pieces at once, or one after the other: true after the last. */
+/* Does one piece, or all at once; returns true after the last. */
 static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece++;
     if (lockin->piece < pieces) {
@@ -432,7 +432,7 @@ WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config
         }
         return done;
     }
-    if (done) { /* if one stage is finished, the next follows */
+    if (done) { /* when a stage is finished, the next one follows */
         lockin->stage = (wh_lockin_stage)(lockin->stage + 1);
     }
     return false;

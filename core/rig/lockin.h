@@ -58,12 +58,12 @@ typedef struct wh_repeats {
 #define wh_repeats_merge WH_NAME(wh_repeats_merge)
 #define wh_repeats_power_N2 WH_NAME(wh_repeats_power_N2)
 
-/* The residual at an angle of about one turn, times the angle it represents. */
+/* Adds the residual at an angle, multiplied by the angle that it represents. theta_rad is within about one turn. */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
     const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
     if (!(WH_ABS(bin) < WH_R(3.0) * bins)) {
-        return; /* NaN, for example */
+        return; /* for example NaN */
     }
     repeats->bin_N[(uint32_t)(int32_t)bin % WH_REPEATS_BINS] += residual_Nrad;
 }
@@ -76,15 +76,15 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
 
 /* A small chip's build may set these: it has less memory, and less time in a control step. */
 #ifndef WH_LOCKIN_SAMPLES
-#define WH_LOCKIN_SAMPLES 384U /* that can wait: a turn at 100 rpm, 2 ms a sample, and a quarter */
+#define WH_LOCKIN_SAMPLES 384U /* waiting samples: 1.25 turns at 100 rpm, one per 2 ms */
 #endif
-#define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes worked on in one control step, */
-#define WH_LOCKIN_STALE_AT_ONCE 8U  /* and samples dropped that belong to no turn */
+#define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes per control step */
+#define WH_LOCKIN_STALE_AT_ONCE 8U  /* samples that belong to no turn, dropped per control step */
 
-/* Why a turn does not count: X(name, words). */
+/* Reasons why a turn does not count: X(name, words). */
 #define WH_TURN_ROWS(X) \
     X(WH_TURN_OK, "ok") \
-    /* no earlier turn to compare it with */ \
+    /* there is no earlier turn to compare the turn with */ \
     X(WH_TURN_FIRST, "first") \
     X(WH_TURN_GAP, "load samples are missing") \
     X(WH_TURN_OUTLIERS, "too many outliers") \
@@ -102,22 +102,22 @@ typedef struct wh_lockin_orders {
 } wh_lockin_orders;
 
 typedef struct wh_lockin_turn {
-    uint32_t begin_ticks; /* sensor 1's mark */
+    uint32_t begin_ticks; /* time of sensor 1's mark */
     uint32_t turn_ticks;
     wh_turn_fault fault;
-    bool split_seen; /* sensor 2's mark was there */
+    bool split_seen; /* sensor 2's mark was seen */
     uint16_t samples;
     uint16_t outliers;
-    uint32_t split_ticks;     /* sensor 2's mark, when seen */
+    uint32_t split_ticks;     /* time of sensor 2's mark, if seen */
     wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
-    wh_real mean_N;           /* over the time */
+    wh_real mean_N;           /* mean over the time */
     wh_real residual_N;       /* rms after orders 0 to 2 */
     wh_real at_mark_N[2];     /* load at each sensor's mark */
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
-    WH_LOCKIN_WAITS, /* for a mark; lockin->piece counts a stage's finished pieces, if it has
-                      * several */
+    WH_LOCKIN_WAITS, /* waits for a mark; lockin->piece counts the finished pieces of a stage
+                      * with several */
     WH_LOCKIN_SHAPES,
     WH_LOCKIN_CORRECTS,
     WH_LOCKIN_RESHAPES,
@@ -136,14 +136,14 @@ typedef enum wh_lockin_place {
 
 /* A point of the load's curve within the turn. */
 typedef struct wh_lockin_node {
-    wh_real part; /* of the turn's time */
+    wh_real part; /* share of the turn's time */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real rest_N;         /* less the prediction */
-    wh_lockin_orders waves; /* factors of each order's coefficient there */
+    wh_real rest_N;         /* force minus the prediction */
+    wh_lockin_orders waves; /* factor of each order's coefficient at this node */
 } wh_lockin_node;
 
-/* Small members come first: a processor's short instructions reach no further. */
+/* Small members come first, because a processor's short instructions reach only them. */
 typedef struct wh_lockin {
     wh_lockin_stage stage;
     uint8_t piece;
@@ -151,14 +151,14 @@ typedef struct wh_lockin {
     /* the turn in progress: since this mark */
     bool open;
     bool split_seen;
-    bool taken; /* a sample was accepted, */
-    bool any;   /* and one at all */
+    bool taken; /* a sample was taken from the queue */
+    bool any;   /* a sample was accepted into the queue */
     bool expects;
     wh_lockin_place place;
     uint32_t begin_ticks;
     uint32_t begin_quarter;
     uint32_t split_ticks;
-    uint32_t skipped; /* turns without both their marks */
+    uint32_t skipped; /* turns without both marks */
 
     /* samples that wait, the oldest first; the last one taken; the newest */
     uint16_t first;
@@ -180,14 +180,14 @@ typedef struct wh_lockin {
     wh_lockin_orders sum;
     wh_real square;
     wh_real mean;
-    wh_real widest;     /* part between two nodes */
-    wh_real before_rad; /* of the node before the last, */
+    wh_real widest;     /* widest gap between two nodes, as a share of the turn */
+    wh_real before_rad; /* angle of the node before the last */
     wh_real before_part;
-    wh_lockin_node last;   /* and the last one, whose weight depends on the next */
-    wh_lockin_node placed; /* unless `place` is nowhere */
+    wh_lockin_node last;   /* the last node; its weight depends on the next */
+    wh_lockin_node placed; /* the node in work, unless `place` is nowhere */
     wh_repeats repeats;    /* valid until the next turn's sums begin */
 
-    wh_lockin_turn turn; /* the last finished one */
+    wh_lockin_turn turn; /* the last finished turn */
     wh_turn_angle angle;
     wh_real force_N[WH_LOCKIN_SAMPLES];
     uint32_t ticks[WH_LOCKIN_SAMPLES];
@@ -204,24 +204,25 @@ typedef struct wh_lockin {
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 
-/* Begin again, except for the counters: in a control step, where clearing the samples' memory would take too long. */
+/* Begin again without resetting the counters. For use in a control step, in which clearing the samples' memory would
+ * take too long. */
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
-/* Sensor 0 or 1 was passed at `ticks`, the rotor having made `quarter` quarter turns (wrapping). */
+/* The rotor passed sensor 0 or 1 at `ticks`, after `quarter` quarter turns (wrapping). */
 void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
 
-/* Gravity is fed forward from now on, or no longer: see wh_turn_angle_feed(). If that changes, the turn in progress
- * does not count. */
+/* Tells whether gravity is fed forward from now on: see wh_turn_angle_feed(). If that changes, the turn in progress does
+ * not count. */
 void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
 
 /* The count of quarter turns has restarted: the turn in progress does not count. */
 void wh_lockin_gap(wh_lockin *lockin);
 
-/* A sample of the load, in order of time. A sample that is not ok, or not newer than the last, is left out. */
+/* Take a sample of the load, in order of time. A sample that is not ok, or not newer than the last one, is left out. */
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
-/* A bounded piece of the work, once a control step. `halves` half nodes of a turn's sums, or WH_LOCKIN_HALVES_AT_ONCE
- * if the step has no other work. Returns true if lockin->turn is new. */
+/* Does a bounded piece of the work, once a control step: `halves` half nodes of a turn's sums, or
+ * WH_LOCKIN_HALVES_AT_ONCE if the step has no other work. Returns true if lockin->turn is new. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
 

@@ -54,7 +54,7 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 /* Pieces of merging turns to a result: the last is the verdict. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Pieces before them: for a turn, merging its repeating part; at the record's end, one of its harmonics each. */
+/* Pieces before the merging: for a turn, its repeating part; at the record's end, one harmonic per piece. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -162,10 +162,11 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Four times the variance of a mean with triangular weights: 2/3 of the samples' over a block's number of them. */
+/* Four times the variance of a mean with triangular weights, which is 2/3 of the samples' variance divided by a block's
+ * number of samples. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
-/* A block is full: the mean of this one and the one before, with triangular weights. */
+/* A block is full: takes the mean of this block and the previous one, with triangular weights. */
 static void end_block(wh_tare *tare) {
     if (tare->count > WH_TARE_BLOCK) {
         const wh_real mean = (tare->before_N + tare->falls_N) / (wh_real)WH_TARE_BLOCK;

@@ -40,8 +40,8 @@ typedef struct wh_tare {
         rises_N; /* this block's sum with rising and with falling weights; the last block's, rising */
     wh_real falls_N;
     wh_real before_N;
-    uint32_t means; /* triangular, */
-    wh_real slow_N; /* their mean, and sum of squared deviations */
+    uint32_t means; /* number of triangular means */
+    wh_real slow_N; /* mean of the triangular means, and sum of squared deviations */
     wh_real slow_N2;
 } wh_tare;
 
@@ -65,32 +65,32 @@ typedef struct wh_measure_config {
     wh_cell_config cell;
     wh_tare_config tare;
     wh_result_config result;
-    wh_real record_s;     /* whole turns within this time are measured, */
-    wh_real record_turns; /* or within the time of this many turns if that is longer */
+    wh_real record_s;     /* whole turns within this time are measured */
+    wh_real record_turns; /* or within the time of this many turns, if that is longer */
 } wh_measure_config;
 
 typedef struct wh_rig_result {
     wh_measured force;    /* the load's once-per-turn part: see result.h */
-    wh_real tare_N;       /* reading at rest */
-    wh_real tare_error_N; /* its standard error */
+    wh_real tare_N;       /* the cell's reading at rest */
+    wh_real tare_error_N; /* standard error of tare_N */
     wh_real low_N;        /* peaks of the whole record, without tare */
     wh_real high_N;
-    wh_real volts; /* at the record's end */
-    uint32_t lost; /* pulses */
+    wh_real volts; /* the motor's voltage at the record's end */
+    uint32_t lost; /* lost pulses */
     uint32_t rejected;
 } wh_rig_result;
 
 typedef struct wh_measure {
     bool records;
-    bool adds;            /* before `due`: the turn itself */
+    bool adds;            /* the turn itself must be added before the pieces in `due` */
     bool peaks;           /* low_N and high_N are valid */
     bool ends;            /* the record's last turn is finished */
     uint8_t due;          /* pieces of work outstanding from the last turn, or the record's end */
-    uint32_t begin_ticks; /* of the record, */
+    uint32_t begin_ticks; /* time of the record's begin */
     wh_real record_s;     /* record's duration */
-    uint32_t skipped_before; /* turns, when the record began */
+    uint32_t skipped_before; /* skipped turns when the record began */
     wh_tare tare;
-    wh_merge merge;       /* of the record */
+    wh_merge merge;       /* turns of the record */
     wh_rig_result result; /* grows with each turn of the record */
     wh_lockin lockin;     /* lockin.turn: the last turn's load */
 } wh_measure;
@@ -109,11 +109,11 @@ void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 /* A confirmed mark, in order of time. */
 void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
 
-/* A sample: of the tare, or of a turning rotor. */
+/* Take a load sample: of the tare, or of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* A bounded piece of the work, once a control step; `halves` half nodes of a turn's sums. Work that cannot be split is
- * done if `halves` is WH_LOCKIN_HALVES_AT_ONCE or more. */
+/* Does a bounded piece of the work, once a control step, with `halves` half nodes of a turn's sums. Work that cannot be
+ * split is done if `halves` is WH_LOCKIN_HALVES_AT_ONCE or more. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
 /* The record begins now, at a speed > 0; an earlier record's turns are dropped. */
@@ -123,8 +123,8 @@ void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_
 /* True during the record, at `ticks`. */
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
 
-/* After the record's time, each control step until it returns true: then its last turn is finished, and all are merged
- * again. result.force.turns is then 0 if no turn was usable. */
+/* Call it each control step after the record's time until it returns true: then the record's last turn is finished, and
+ * all turns are merged again. If no turn was usable, result.force.turns is 0. */
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
 
 #ifdef __cplusplus

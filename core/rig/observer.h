@@ -34,34 +34,35 @@ typedef struct wh_observer_config {
     /* the motor's stage: a voltage below the motor's own makes no torque, instead of a braking one */
     bool freewheels;
     wh_real mark_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor */
-    /* at a mark of each sensor, of its innovation e (rad), n = speed in turns a second: */
+    /* Corrections at a mark of each sensor, from its innovation e (rad); n is the speed in turns per second: */
     wh_real angle_gain[WH_OBSERVER_SENSORS];       /* angle += gain e */
     wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_OBSERVER_SENSORS]; /* torque += gain e n^2, N m */
-    wh_real torque_most_Nm;                        /* limit on its size */
-    wh_real trusted_rad;    /* innovations up to this, at this many successive marks, */
-    uint32_t trusted_marks; /* make it valid; one larger innovation makes it invalid */
+    wh_real torque_most_Nm;                        /* largest magnitude of the torque */
+    wh_real trusted_rad;    /* trusted_marks successive innovations up to this make the observer
+                             * valid */
+    uint32_t trusted_marks; /* see trusted_rad; one larger innovation makes the observer invalid */
     wh_real lost_rad;       /* above this the observer restarts; < pi */
-    wh_real slowest_radps;  /* speeds at which it starts, > 0 */
+    wh_real slowest_radps;  /* slowest speed at which the observer starts, > 0 */
     wh_real fastest_radps;
     uint32_t silence_ticks; /* the state is unknown after this time without a mark */
 } wh_observer_config;
 
 typedef struct wh_observer {
     bool valid;       /* angle and speed are reliable */
-    bool runs;        /* started: the scene follows the rotor */
+    bool runs;        /* the observer has started: the scene follows the rotor */
     bool marked;      /* there was a mark since the restart */
-    wh_status status; /* of wh_observer_start(); if not WH_OK, never valid */
-    wh_state state;   /* its time is `ticks` */
+    wh_status status; /* result of wh_observer_start(); if not WH_OK, the observer is never valid */
+    wh_state state;   /* state of the scene at the time `ticks` */
     uint64_t memory[(WH_MEMORY_BYTES(1, 2, 0) + 7U) / 8U];
     uint32_t ticks;
-    uint32_t step_ticks;    /* of the scene */
+    uint32_t step_ticks;    /* one step of the scene */
     wh_real torque_Nm;      /* the disturbance: torque on the rotor that the scene does not model */
-    wh_real innovation_rad; /* at the last mark: rotor's angle less the scene's */
-    wh_real since_mark_rad; /* turned since the last mark */
-    uint32_t mark_ticks;    /* it, when marked */
+    wh_real innovation_rad; /* rotor's angle minus the scene's, at the last mark */
+    wh_real since_mark_rad; /* angle turned since the last mark */
+    uint32_t mark_ticks;    /* time of the last mark, if marked */
     unsigned mark_sensor;
-    uint32_t good_marks; /* running */
+    uint32_t good_marks; /* number of successive trusted marks */
 } wh_observer;
 
 /* For the rig of eccentric.whirl; the caller fills in the scene and mark_rad. The gains were chosen for rotors of half
@@ -96,22 +97,23 @@ extern const wh_observer_config wh_observer_standard;
 wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
                             uint32_t now_ticks);
 
-/* Advance to now_ticks (less than a step of the scene remains for wh_observer_phase()), with the motor's drive since the
- * last call, a fraction of the rated voltage. A call more than WH_OBSERVER_STEPS_MOST steps of the scene late restarts it. */
+/* Advance to now_ticks, in whole steps of the scene: wh_observer_phase() covers the remaining part of a step. `drive` is
+ * the motor's drive since the last call, as a fraction of the rated voltage. A call that is more than
+ * WH_OBSERVER_STEPS_MOST steps late restarts the observer. */
 #define WH_OBSERVER_STEPS_MOST 8U
 #define WH_OBSERVER_STEPS_AT_ONCE 2U /* steps in one call: several calls make up for a delay */
 void wh_observer_step(const wh_observer_config *config, wh_observer *observer, uint32_t now_ticks,
                       wh_real drive);
 
-/* Sensor 0 or 1 was passed at `ticks`, a control step or two ago at most; the rotor turns forwards. */
+/* The rotor passed sensor 0 or 1 forwards at `ticks`, at most a control step or two ago. */
 void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                       uint32_t ticks);
 
-/* Restart, for a caller that knows that marks are wrong. */
+/* Restart the observer. For a caller that knows that marks are wrong. */
 void wh_observer_forget(wh_observer *observer);
 
-/* The angle at a time some milliseconds from the last step, extrapolated linearly: within 3e-5 rad after a ms at 60
- * rad/s^2. As a phase (angle.h), and -pi ... pi. Meaningful while valid. */
+/* The angle at a time some milliseconds after the last step, extrapolated linearly: the error is within 3e-5 rad after 1
+ * ms at 60 rad/s^2. As a phase (angle.h), or between -pi and pi. Meaningful while the observer is valid. */
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);
 

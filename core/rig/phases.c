@@ -29,7 +29,7 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-#define JUMP_S WH_R(0.5) /* in steps, because its first turn's speed is old, for this time */
+#define JUMP_S WH_R(0.5) /* so long the measured speed may jump: its first turn is old */
 
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
@@ -56,7 +56,8 @@ static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
-        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* for example, gravity cannot be fed */
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* for example because gravity cannot be
+                                                         * fed forward */
     }
     return allowed && wh_drive_at_target(&run->drive);
 }
@@ -76,7 +77,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
         return;
     }
     run->volts = scene->config->spin_up_V;
-    /* pulses so far are that jitter, and old */
+    /* the pulses so far come from that jitter, and are old */
     wh_pulses_forget(scene->pulses);
     wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
@@ -136,8 +137,8 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     }
 }
 
-/* A single turn, because the trip must come before a runaway drive is fast. 2 rpm are six times the error of a turn at
- * 330 rpm with 120 us of jitter. */
+/* The speed of a single turn trips, because the trip must come before a runaway drive is fast. The band of 2 rpm is six
+ * times the error of a turn at 330 rpm with 120 us of jitter. */
 static bool record(wh_run *run, const wh_run_scene *scene) {
     see_turn(run, &scene->pulses->speed);
     const wh_real off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);

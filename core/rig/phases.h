@@ -31,20 +31,21 @@ typedef enum wh_rig_phase { WH_PHASE_ROWS(WH_PHASE_NAME) WH_PHASES } wh_rig_phas
 typedef struct wh_run_config {
     wh_real step_s; /* time between control steps */
     wh_drive_config drive;
-    wh_real rated_V;         /* rated supply of the rig, */
-    wh_real no_load_radps;   /* and the motor's speed at it without load */
-    wh_real drag_V;          /* voltage that friction takes, about */
-    wh_real spin_up_V;       /* at first, */
-    wh_real spin_up_V_per_s; /* and rising at this rate, up to the voltage of rated_V */
+    wh_real rated_V;         /* rated supply of the rig */
+    wh_real no_load_radps;   /* the motor's speed without load at the rated supply */
+    wh_real drag_V;          /* approximate voltage that friction takes */
+    wh_real spin_up_V;       /* first voltage of the spin-up */
+    wh_real spin_up_V_per_s; /* rate at which it rises, up to rated_V */
     wh_real take_over_radps; /* the loop closes at this speed */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    wh_real settle_band_radps; /* of a turn, or of the mean of WH_RUN_TURNS */
+    wh_real settle_band_radps; /* band of a turn's speed, or of the mean of WH_RUN_TURNS */
     wh_real settle_s;          /* time within the band */
-    wh_real settle_max_s;      /* to get there */
+    wh_real settle_max_s;      /* longest time until the speed stays in the band */
     wh_real short_max_s;       /* longest time with a supply too low for the set-point */
-    wh_real record_band_radps; /* of each turn, meanwhile */
-    wh_real slow_radps;        /* ramp down to this speed (or keep a slower one), then motor off */
+    wh_real record_band_radps; /* band of each turn's speed during the record */
+    wh_real slow_radps;        /* speed at which the ramp down ends and the motor goes off; a
+                                * slower set-point is kept */
 } wh_run_config;
 
 /* While the rig settles, the mean speed of turns that overlap by half decides: two and a half turns in all. A jitter s
@@ -54,21 +55,21 @@ typedef struct wh_run_config {
 
 typedef struct wh_run {
     wh_rig_phase phase;
-    uint32_t since_ticks;  /* the phase began */
-    uint32_t band_ticks;   /* speed has been within the band since */
-    uint32_t closed_ticks; /* the loop was closed */
-    uint32_t ample_ticks;  /* the supply has been enough since */
+    uint32_t since_ticks;  /* time at which the phase began */
+    uint32_t band_ticks;   /* time since which the speed has been in the band */
+    uint32_t closed_ticks; /* time at which the loop was closed */
+    uint32_t ample_ticks;  /* time since which the supply has been sufficient */
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
-    wh_real off_radps; /* motor off: no faster than this */
+    wh_real off_radps; /* upper bound on the speed while the motor is off */
     /* motor on: upper bound on the speed remaining from an earlier set-point, at the last pulse. A drive stage that
      * does not brake cannot slow the rotor as fast as a set-point falls */
     wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
-    uint32_t turns;                   /* seen while it settles and records, */
-    uint32_t turns_taken;             /* the last one with this pulse; */
-    wh_real turn_radps[WH_RUN_TURNS]; /* the last of them, */
-    wh_real mean_radps;               /* and their mean */
+    uint32_t turns;                   /* number of turns seen while the run settles and records */
+    uint32_t turns_taken;             /* number of pulses taken at the last of these turns */
+    wh_real turn_radps[WH_RUN_TURNS]; /* speeds of the last turns */
+    wh_real mean_radps;               /* mean of turn_radps */
     wh_drive drive;
 } wh_run;
 
@@ -94,20 +95,20 @@ typedef struct wh_run_scene {
 #define wh_run_needs_V WH_NAME(wh_run_needs_V)
 #define wh_phase_text WH_NAME(wh_phase_text)
 
-/* Begin a run to target_radps > 0, with the tare. */
+/* Begin a run to target_radps > 0; it begins with the tare. */
 void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
 /* Another target, in any phase before WH_PHASE_RAMP_DOWN: the record so far is dropped. */
 void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
-/* Motor off, from any phase: WH_PHASE_OFF. */
+/* Switch the motor off, from any phase: the phase becomes WH_PHASE_OFF. */
 void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
 
 /* One control step. Trips if a phase takes too long or meets an invalid condition. Returns true in the step in which
  * the record is finished and measured. */
 bool wh_run_step(wh_run *run, const wh_run_scene *scene);
 
-/* Does the motor drive; is the loop closed? */
+/* Does the motor drive? Is the loop closed? */
 WH_INLINE bool wh_run_drives(const wh_run *run) {
     return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
@@ -127,7 +128,7 @@ typedef struct wh_setpoint {
 } wh_setpoint;
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
-/* The voltage for a steady speed. */
+/* The voltage that a steady speed needs. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
 /* The phase in words, for consoles, by wh_text_add(). WH_PHASES is a motor that brakes when it is off

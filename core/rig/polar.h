@@ -29,8 +29,8 @@ WH_SHARED wh_wave wh_wave_of(wh_real rad) { return wh_wave_at(wh_phase_from_rad(
  * rotate the frame until y vanishes. angle_rad: -pi ... pi. (0, 0) gives 0 and 0. */
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 
-/* The same in pieces: the initial angle, then WH_POLAR_ROUNDS rounds. Initially |t| <= 1, and each round takes it to
- * about its fifth power: four are plenty. */
+/* wh_polar() in pieces: the initial angle, then WH_POLAR_ROUNDS rounds. Initially |t| <= 1, and each round takes it to
+ * about its fifth power: four rounds are plenty. */
 #define WH_POLAR_ROUNDS 4U
 wh_real wh_polar_begin(wh_real x, wh_real y);
 void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);

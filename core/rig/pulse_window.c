@@ -4,10 +4,10 @@
 #include "datasheet.h"
 
 #define SETTLE_WINDOW WH_R(0.03)
-#define RAMP_WINDOW WH_R(0.12) /* until the first confirmed mark */
-#define RECORD_PART WH_R(0.8)  /* of the speed error that the record allows */
-#define FIRST_PART WH_R(0.8)   /* of the commanded speed: from rest it takes time to reach it */
-#define SLOW_RADPS WH_R(16.0)  /* a pulse or two of a braked rotor are slower */
+#define RAMP_WINDOW WH_R(0.12) /* window until the first confirmed mark */
+#define RECORD_PART WH_R(0.8)  /* share of the speed error that the record allows */
+#define FIRST_PART WH_R(0.8)   /* of the commanded speed, which a rotor at rest reaches late */
+#define SLOW_RADPS WH_R(16.0)  /* a braked rotor is slower than this for its last pulse or two */
 
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks) {
@@ -22,7 +22,7 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
         setpoint.jumps ? guard->climb_start_radps2
                        : wh_guard_climb_radps2(guard, setpoint.setpoint_radps - speed->turn_radps,
                                                wh_run_is_closed(run));
-    /* it falls as the rotor does, and rises only with the commanded speed: a runaway drive does not raise it */
+    /* this bound falls as the rotor does, and rises only with the commanded speed: a runaway drive does not raise it */
     run->left_radps = speed->known && speed->turn_radps < setpoint.limit_radps
                           ? speed->turn_radps
                           : setpoint.limit_radps;
@@ -31,8 +31,6 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
                          : (phase == WH_PHASE_SETTLE ? SETTLE_WINDOW : RAMP_WINDOW);
 }
 
-/* With the motor off, only gravity can make the rotor faster than between its last two pulses. A sensor that fires
- * twice running swings in its slot or has missed a pulse: the speed is then unknown. */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks) {
     static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
@@ -43,7 +41,7 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
     const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
-    /* over an undriven interval: before, it may have gained speed */
+    /* the interval must be undriven: a driven rotor may have gained speed */
     const bool coasted = (int32_t)(pulses->speed.ticks - run->since_ticks) >= 0;
     if (coasted && moved < run->off_radps * passed_s) {
         run->off_radps = moved / passed_s;
@@ -51,8 +49,8 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* Only while it brakes: one that swings freely passes the sensors to and fro, and no interval is a speed. And only
-     * at sensor 1: a rotor that failed at the top falls a quarter turn back to sensor 0, which looks like three
+    /* Only while the motor brakes: a rotor that swings freely passes the sensors to and fro, and no interval is a speed.
+     * And only at sensor 1: a rotor that failed at the top falls a quarter turn back to sensor 0, which looks like three
      * quarters forward. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;

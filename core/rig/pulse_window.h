@@ -12,14 +12,15 @@ extern "C" {
 #define wh_pulse_window_set WH_NAME(wh_pulse_window_set)
 #define wh_pulse_window_off WH_NAME(wh_pulse_window_off)
 
-/* Before the pulse captured at `ticks`: set its bounds and window, and the rotor's remaining speed by then. `open`: the
- * enable is off, and a light rotor slows faster than one that a motor brakes. */
+/* Call it before the pulse captured at `ticks` is taken, with the motor on. Sets the pulse's bounds and window, and the
+ * upper bound on the speed that remains from an earlier set-point. `open`: the enable is off; a light rotor then slows
+ * faster than one that a motor brakes. */
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks);
 
-/* Before that, with the motor off. Only gravity can make the rotor faster than between its last two pulses. A sensor
- * that fires twice running swings in its slot or has missed a pulse: the speed is then unknown. `brakes`: a rotor that
- * almost rests stays so. */
+/* Call it before that, with the motor off. Only gravity can make the rotor faster than between its last two pulses. If a
+ * sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is then unknown.
+ * `brakes`: a rotor that almost rests stays slow. */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 

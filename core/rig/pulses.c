@@ -3,13 +3,13 @@
 
 #include "datasheet.h"
 
-#define TWICE_PART WH_R(0.5) /* of a turn, within which a sensor sees the slot only once */
+#define TWICE_PART WH_R(0.5) /* share of a turn within which a sensor sees the slot only once */
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
-#define DOUBT 2U              /* of a false pulse */
-#define SUDDEN WH_R(1.6)      /* times the bound */
-#define SURE_PART WH_R(0.125) /* of a turn, after which no pulse can withdraw the last one */
+#define DOUBT 2U              /* doubt that a false pulse adds */
+#define SUDDEN WH_R(1.6)      /* multiple of the bound */
+#define SURE_PART WH_R(0.125) /* share of a turn after which no pulse can withdraw the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
@@ -25,7 +25,7 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Time of a pulse before the end of a turn since its sensor's last one, ticks; 0 if unknown. */
+/* How much earlier a pulse comes than a turn after its sensor's last pulse, ticks; 0 if unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -70,7 +70,7 @@ static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) 
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
-/* Excess of a turn's speed over the permitted rise: a disturbance causes only one of two in succession. */
+/* Excess of a turn's speed over the permitted rise. A disturbance causes it at only one of two successive pulses. */
 static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
@@ -78,7 +78,8 @@ static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
 }
 
-/* The speed after this pulse. The replaced one is the speed without it, or before the last one if that is withdrawn. */
+/* Accepts a pulse that gives the speed `after`. pulses->before was set to the speed without this pulse, or without the
+ * withdrawn last one. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
@@ -92,7 +93,7 @@ static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *aft
     pulses->speed = *after;
 }
 
-/* The speed with one more pulse. False: impossible. */
+/* Computes the speed with one more pulse. Returns false if the pulse is impossible. */
 static bool with(const wh_speed *speed, const wh_pulse *pulse, wh_speed *after) {
     *after = *speed;
     return wh_speed_pulse(after, pulse->sensor, pulse->ticks);
@@ -109,13 +110,14 @@ static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *
     accept(pulses, pulse, after);
 }
 
-/* A false pulse. Apart from bounces, disturbances are rare; if they are frequent, the speed is wrong. */
+/* Counts a false pulse. Apart from bounces, disturbances are rare: if they are frequent, the speed is wrong. */
 static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->rejected++;
     pulses->doubt += doubt;
 }
 
-/* The pulse after a suspect: accept the suspect? Not if rejecting is likely, and likelier than both being true. */
+/* Decides about a suspect when the next pulse comes. The suspect is rejected if that is likely, and likelier than both
+ * pulses being true. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
@@ -140,7 +142,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
-/* The last pulse's sensor again, within a part of a turn of this many ticks. */
+/* True if the last pulse's sensor fires again within this part of a turn of `turn` ticks. */
 static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part,
                                  wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;
@@ -148,7 +150,7 @@ static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse,
            (wh_real)(pulse->ticks - last->ticks) < part * turn;
 }
 
-/* A pulse that cannot follow the last one: is the last one false? */
+/* Handles a pulse that cannot follow the last one: perhaps the last one is false. */
 static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
     wh_speed instead;
     reject(pulses, soon_after(pulses, pulse, BOUNCE_PART, turn) ? 0U : DOUBT);
@@ -194,7 +196,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
-    /* a rotor that should slow down and does not is early, too */
+    /* a rotor that should slow down and does not also counts as early */
     if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
         pulses->alert = true;
     }

@@ -27,34 +27,34 @@ typedef struct wh_pulse {
 typedef struct wh_mark {
     wh_pulse pulse;
     uint32_t quarter; /* the rotor's position, quarter turns, wrapping */
-    bool gap;         /* the number of turns before it is unknown */
+    bool gap;         /* the number of turns before this mark is unknown */
 } wh_mark;
 
 typedef struct wh_pulses {
-    bool suspects; /* `suspect` is one */
+    bool suspects; /* `suspect` is a suspect */
     bool waits;    /* the last pulse is unconfirmed */
     bool alert;    /* the last pulse was a little early: the next early one is no disturbance */
-    /* the rotor almost rests, undriven: one interval far beyond the bound counts as two; set by the caller */
+    /* the rotor almost rests without drive: one interval far beyond the bound counts as two. Set by the caller */
     bool slow;
-    wh_real bound_radps;  /* faster intervals are not expected; ditto. 0: no bound */
-    wh_real window;       /* a pulse may be early by this part of a turn; ditto */
-    wh_real climb_radps2; /* limit on the rise of a turn's speed per second; ditto */
-    /* excess of the turn's speed over that limit, else 0: with the last pulse, */
-    wh_real climb_radps;        /* with the last pulse, */
-    wh_real climb_before_radps; /* and with the one before */
+    wh_real bound_radps;  /* faster intervals are not expected; 0: no bound. Set by the caller */
+    wh_real window;       /* share of a turn by which a pulse may be early. Set by the caller */
+    wh_real climb_radps2; /* limit on the rise of a turn's speed per second. Set by the caller */
+    /* excess of the turn's speed over that limit, else 0: */
+    wh_real climb_radps;        /* at the last pulse */
+    wh_real climb_before_radps; /* at the previous pulse */
     unsigned fast;              /* successive intervals beyond the bound */
-    /* successive pulses with a sensor other than the one before's: none for a rotor that swings */
+    /* number of successive pulses of alternating sensors: 0 for a rotor that swings */
     unsigned alternate;
-    /* grows by two with each doubtful pulse and shrinks by one with each that fits */
+    /* grows by two with each doubtful pulse and shrinks by one with each expected one */
     unsigned doubt;
     uint32_t rejected; /* false pulses */
     wh_pulse suspect;
     wh_mark last;       /* pulse */
     wh_speed speed;     /* from the accepted pulses */
-    wh_speed before;    /* the same without the last one */
-    wh_speed suspected; /* the same with the suspect */
+    wh_speed before;    /* the speed without the last pulse */
+    wh_speed suspected; /* the speed with the suspect */
     unsigned marks;
-    wh_mark mark[WH_PULSES_MARKS]; /* sure, not yet taken */
+    wh_mark mark[WH_PULSES_MARKS]; /* confirmed marks, not yet taken */
 } wh_pulses;
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)
@@ -65,16 +65,17 @@ typedef struct wh_pulses {
 /* Begin with unknown state. impossible_radps as for wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
 
-/* Restart. */
+/* Restart with unknown state; the counters stay. */
 void wh_pulses_forget(wh_pulses *pulses);
 
 /* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
-/* The same if there may be one. */
+/* wh_pulses_mark() after its quick check. */
 bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
 
-/* The next mark confirmed by now; false without one. Call it until it returns false, each control step. */
+/* Take the next mark that is confirmed by now. Returns false if there is none. Call it in each control step until it
+ * returns false. */
 WH_INLINE bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
     return (pulses->waits || pulses->marks > 0) && wh_pulses_sure(pulses, now_ticks, mark);
 }

@@ -7,16 +7,17 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Remaining part of gravity with feed: above it the feed is wrong or misses the arms, and the torque on them is unknown. */
+/* Largest remaining part of gravity with feed. Above it the feed is wrong or misses the arms, and the torque on them is
+ * unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* The speed's swing, in addition to the phase's error. If the rotor's damping is not the configured one, the split
- * makes 1/sqrt(2) of it an error of the phase. */
+/* Tolerance of the speed's swing, in addition to the phase's error. If the rotor's damping is not the configured one,
+ * the split makes 1/sqrt(2) of this an error of the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* In one of 100,000 results, noise alone exceeds these multiples of its variance. The first is for the sum of squares
- * of the eight coefficients of four harmonics, the second for the two of the third (chi-squared). A nonlinearity or a
- * torque twice a turn is all in the third. */
+/* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared). The first is for the sum
+ * of squares of the eight coefficients of four harmonics, the second for the two of the third harmonic. A nonlinearity,
+ * or a torque twice a turn, is all in the third harmonic. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
@@ -31,7 +32,7 @@
 #define REPEATS_CELL WH_R(1e-4)
 #define REPEATS_STEP WH_R(0.012)
 
-/* Effect of the marks' angular jitter on the force in a turn, in parts of that angle. */
+/* Effect of the marks' angular jitter on the force in a turn, as a multiple of that angle. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -59,7 +60,8 @@ static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_tick
     merge->jitters++;
 }
 
-/* Second differences of each sensor's marks: of the turns' times, if a turn follows another. */
+/* Adds the second differences of each sensor's marks, which are differences of the turns' times, if a turn follows
+ * another. */
 static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
         merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
@@ -144,7 +146,7 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
 
 /* --- their mean --------------------------------------------------------------------------------- */
 
-/* Square of the phase's half-width from the marks, beyond the part visible in the turns' scatter. */
+/* Square of the phase's half-width due to the marks, without the part that is visible in the turns' scatter. */
 static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
@@ -201,7 +203,7 @@ WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
     }
 }
 
-/* Scatter along the mean and across it, stored in the halves for now. */
+/* Scatter along the mean and across it, stored in the fields for the half-widths for now. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -330,9 +332,9 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
 
 /* --- verdict ------------------------------------------------------------------------------------ */
 
-/* Difference of the speed's swing according to the load from the reference's. The swing is a vector of size E in the
- * direction psi - gamma. Over the rotor's own angle the force's second order is 3/2 E/(1 + 3/2 E^2) of its first, in
- * that direction. An error vector of the reference's swing appears once more with the weight of 1/2, together 2. After
+/* Difference between the speed's swing according to the load and the reference's swing. The swing is a vector of size E
+ * in the direction psi - gamma. Over the rotor's own angle, the force's second order is 3/2 E/(1 + 3/2 E^2) times its
+ * first, in that direction. An error of the reference's swing appears once more with the weight 1/2, together 2. After
  * subtracting twice the first order's phase, the result hardly depends on a delay, and not on the cell's gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {

@@ -57,47 +57,50 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 
 typedef struct wh_result_config {
     wh_real mount_factor; /* force relative to that on a fixed mount: 1; carriage: 1/(1 + ratio) */
-    wh_real amplitude_floor; /* calibration, 95 %: as a part of the force, */
-    wh_real phase_floor_rad; /* of the sensors' positions and the delays; 0: uncalibrated */
-    wh_real
-        amplitude_off; /* a force is doubtful if it differs from the expected one by this part, */
-    wh_real amplitude_wrong; /* or refused */
-    wh_real phase_off_rad;   /* the same for its phase */
+    wh_real amplitude_floor; /* calibration of the amplitude, 95 %: as a part of the force; 0:
+                              * uncalibrated */
+    wh_real phase_floor_rad; /* calibration of the sensors' positions and the delays, 95 %; 0:
+                              * uncalibrated */
+    wh_real amplitude_off;   /* a force that differs from the expected one by more than this part is
+                        * doubtful */
+    wh_real amplitude_wrong; /* a force that differs by more than this part is refused */
+    wh_real phase_off_rad;   /* a phase that differs by more than this is doubtful */
     wh_real phase_wrong_rad;
-    wh_real residual_large; /* in parts of the expected force */
-    wh_real mean_off;       /* the same */
-    wh_real inertia_off;    /* in parts of the rotor's configured inertia, either way */
+    wh_real residual_large; /* large residual, as a part of the expected force */
+    wh_real mean_off;       /* large mean, as a part of the expected force */
+    wh_real inertia_off;    /* large deviation of the inertia, as a part of the configured one,
+                             * either way */
 } wh_result_config;
 
 /* Turns merged so far; zeros: no turns. */
 typedef struct wh_merge {
-    bool follows; /* the last turn was used: the next one's differences count */
+    bool follows; /* the last turn was used: differences to the next turn count */
     bool split_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
-    uint32_t split_turns; /* turns averaged in at_mark_N[1] */
-    wh_real jitter_s2;    /* sum of squares of second differences of marks, */
-    uint32_t jitters;     /* their number */
-    uint32_t first_ticks; /* a turn's time: of the first, and of the last that was used */
+    uint32_t split_turns; /* number of turns averaged in at_mark_N[1] */
+    wh_real jitter_s2;    /* sum of squares of the marks' second differences */
+    uint32_t jitters;     /* number of these second differences */
+    uint32_t first_ticks; /* times of the first and of the last used turn */
     uint32_t last_ticks;
     uint32_t split_turn_ticks;
     uint32_t begin_ticks;
     uint32_t split_ticks;
-    wh_real repeats_N2; /* squared amplitudes of the harmonics that were evaluated, summed; */
-    wh_real third_N2;   /* of the third */
+    wh_real repeats_N2; /* sum of the squared amplitudes of the evaluated harmonics */
+    wh_real third_N2;   /* squared amplitude of the third harmonic */
     wh_repeats repeats;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
-    wh_real second_N[2];   /* of twice the angle: cosine, sine */
-    wh_real scatter_N2[3]; /* sums of squares about them: in phase, both, quadrature */
+    wh_real second_N[2];   /* components of twice the angle: cosine, sine */
+    wh_real scatter_N2[3]; /* sums of squares about the means: in phase, product, quadrature */
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;
     wh_real swing_rad;
     wh_real turn_s;
-    wh_real turn_s2; /* sum of squares about its mean */
+    wh_real turn_s2; /* sum of squares about the mean */
     wh_real at_mark_N[2];
 } wh_merge;
 
@@ -109,26 +112,25 @@ typedef struct wh_measured {
     uint32_t left_out;
     uint32_t outliers;
     wh_real speed_radps;
-    wh_real scatter_radps; /* of the turns' speeds, standard deviation */
-    wh_real mean_N;        /* over time, less the tare */
+    wh_real scatter_radps; /* standard deviation of the turns' speeds */
+    wh_real mean_N;        /* mean over time, minus the tare */
     wh_real amplitude_N;
     wh_real amplitude_half_N; /* half-width of the interval, 95 % */
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
-    wh_real expected_N; /* amplitude expected from masses, speed and mount */
-    wh_real residual_N; /* rms after orders 0 to 2 */
-    wh_real
-        repeats_N; /* of it, harmonics 3 to 6 that repeat each turn: root of the sum of squares, or
-                    * the third's */
+    wh_real expected_N;      /* amplitude expected from masses, speed and mount */
+    wh_real residual_N;      /* rms after orders 0 to 2 */
+    wh_real repeats_N;       /* repeating part of the residual, harmonics 3 to 6: root of the sum of
+                    * squares, or the third's */
     wh_real repeats_limit_N; /* limit from noise and a healthy rig */
-    wh_real jitter_s;        /* of the marks, standard deviation */
+    wh_real jitter_s;        /* jitter of the marks, standard deviation */
     wh_real inertia_kgm2;
     wh_real swing_off_rad; /* error of the speed's swing according to the load, as a vector */
     wh_real left_part;     /* remaining part of gravity, either way, if it is fed forward; else 0 */
-    wh_real at_mark_N[2];  /* the tare taken off */
+    wh_real at_mark_N[2];  /* load at each sensor's mark, minus the tare */
 } wh_measured;
 
-/* Half-widths for 95 % before calibration: of a commercial load cell and sensors as mounted. */
+/* Half-widths for 95 % before calibration, for a commercial load cell and sensors as mounted. */
 #define WH_UNCALIBRATED_PART WH_R(0.005)
 #define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
 
@@ -147,11 +149,11 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
 #define wh_why_text WH_NAME(wh_why_text)
 #define wh_quality_text WH_NAME(wh_quality_text)
 
-/* Add a turn; `angle` as used for it. A turn that does not count breaks the series. */
+/* Add a turn; `angle` is the one with which it was evaluated. A turn that does not count breaks the series. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle);
 
-/* Evaluate a harmonic of the repeating part, once each, WH_REPEATS_FIRST to WH_REPEATS_LAST: after the last turn. */
+/* Evaluate a harmonic of the repeating part, each once after the last turn: WH_REPEATS_FIRST to WH_REPEATS_LAST. */
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 /* Means and half-widths; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted. */
@@ -160,16 +162,17 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    wh_measured *measured);
 
 #define WH_MERGE_MEAN_PIECES (WH_RIG_SMALL_PIECES ? 6U : 2U)
-/* The same in pieces, each once, in their order: 0 ... WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last. */
+/* wh_merge_mean() in pieces. Call each once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the
+ * last. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
 
-/* Evaluate the speed's swing according to the load, the repeating part, and the turns' scatter: after wh_merge_mean(). */
+/* After wh_merge_mean(): evaluate the speed's swing according to the load, the repeating part, and the turns' scatter. */
 void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
                       const wh_turn_angle *angle, wh_measured *measured);
 
-/* Quality and reason, after both. */
+/* After wh_merge_compare(): decide on quality and reason. */
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 

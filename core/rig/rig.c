@@ -28,7 +28,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
     (void)wh_observer_start(&config->observer, &rig->observer,
-                            now_ticks); /* it is then never valid */
+                            now_ticks); /* on an error the observer is never valid */
     enter(rig, WH_RIG_IDLE, now_ticks);
     /* the rotor's earlier speed is unknown */
     rig->run.off_radps = config->guard.limit_radps;
@@ -50,7 +50,7 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-/* The enable is on, at 0 V: until the pulses show a rotor that does not slow down, or the stop input is pressed. */
+/* The enable stays on at 0 V until the pulses show a rotor that does not slow down, or the stop input is pressed. */
 static bool brakes(const wh_rig *rig) {
     return rig->brakes && rig->run.phase == WH_PHASE_OFF && !rig->guard.off.released;
 }
@@ -128,7 +128,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
-/* Upper bound on the present speed: the last turn of an accelerating rotor is old. */
+/* Upper bound on the present speed. It is needed because the last turn of an accelerating rotor is old. */
 static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_real turn_radps = rig->pulses.speed.turn_radps;
     const wh_real limit_radps =
@@ -230,7 +230,7 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
 
 /* --- the guard, in every state ------------------------------------------------------------------- */
 
-/* At a slow speed silence is measured in turns: two lost pulses leave nearly two. */
+/* At a slow speed, silence is measured as an angle: two lost pulses leave nearly two turns without a pulse. */
 #define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
@@ -273,7 +273,8 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        wh_guard_trip(guard, WH_TRIP_STALLED); /* or no sensor sees it: it must not get fast */
+        wh_guard_trip(guard, WH_TRIP_STALLED); /* or no sensor sees the rotor, which must then
+                                                * not get fast */
     }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
@@ -293,7 +294,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
-/* The pulse after a suspect costs as much as two: the observer catches up in the next step. */
+/* The pulse after a suspect costs as much computing time as two: the observer catches up in the next step. */
 static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
     return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
 }
@@ -306,7 +307,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
     if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
-        rig->loads++; /* two of its steps cost as much as one more sample */
+        rig->loads++; /* two steps of the observer cost as much as one more sample */
     }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
@@ -334,7 +335,7 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
 
 /* --- states -------------------------------------------------------------------------------------- */
 
-/* Motor off: the rotor rests if no pulses come. */
+/* Motor off: waits until no pulses come, so the rotor rests. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool tripped = rig->state == WH_RIG_TRIPPED;
     const wh_real passed_s =
@@ -357,7 +358,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     }
 }
 
-/* More pulses than jitter makes: a person turns the rotor. */
+/* Most pulses that jitter makes: if there are more, a person turns the rotor. */
 #define ARMED_PULSES_MOST 2U
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
@@ -389,8 +390,9 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     }
 }
 
-/* Half nodes of a turn's sums for which there is time. A late controller finds samples, and the observer's steps, of
- * more than one step, and in the next none. If a mark may be confirmed, and the rotor is observed, there is less time. */
+/* The number of half nodes of a turn's sums for which this step has time. If the controller is late, a step finds the
+ * samples and observer steps of more than one step, and the next step finds none. If a mark may be confirmed while the
+ * rotor is observed, there is less time. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -401,7 +403,8 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
 }
 
-/* A pulse is work enough for one step, and so is a mark: it waits, unless pulses come so fast that marks would be lost. */
+/* A step does not process a mark if it has processed a pulse. But if this many marks wait, they would be lost: then it
+ * does. */
 #define MARKS_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -419,7 +422,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->loads = 0;
 }
 
-/* Before the timer wraps. */
+/* Keeps the result's age before the timer wraps. */
 static void age(wh_rig *rig, uint32_t now_ticks) {
     if (now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
         rig->result_ticks += WH_RIG_TICKS_PER_S;
@@ -427,7 +430,7 @@ static void age(wh_rig *rig, uint32_t now_ticks) {
     }
 }
 
-/* Motor off: the rotor swings out after a run, or has; its swing is evaluated. */
+/* Motor off: the rotor swings out after a run, or has done so, and its swing is evaluated. */
 static void swing(const wh_rig_config *config, wh_rig *rig) {
     const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
     wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
@@ -466,7 +469,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     live(config, rig, inputs);
-    follow_trip(config, rig, inputs); /* before the sums, which are then useless */
+    follow_trip(config, rig, inputs); /* before the sums, which a trip makes useless */
     if (rig->run.phase != phase) {
         rig->busy = true;
     }
@@ -522,7 +525,8 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                                                                           : WH_REFUSED_VOLTAGE;
 }
 
-/* Rest, and the cause removed. With unreliable pulses, rest is a matter of time. */
+/* A trip can be cleared when the rotor rests and the cause is removed. With unreliable pulses, the rotor is assumed to
+ * rest after a time. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
     if (!rig->at_rest || !rig->guard.quiet) {
@@ -596,7 +600,8 @@ uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks) {
 
 #define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
 
-/* Four pulses of alternating sensors: the ticks between them, the newest first, and the sensor of the last. */
+/* Finds the last four pulses, if their sensors alternate: the ticks between them, the newest first, and the sensor of
+ * the last. */
 static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
     *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
     const uint32_t *newest = rig->heard_ticks[*last];
@@ -633,8 +638,9 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
 /* A whole turn at 3,200 rpm: the fastest motor of the settings (2,000 rpm) at the highest supply turns slower. */
 #define STORM_TICKS 18750U
 
-/* The direction: forwards, from sensor 1 to sensor 2 is a quarter turn, backwards three quarters. It must take longer
- * than both ways back, because a starting rotor changes its speed. Pulses faster than any rotor show no direction. */
+/* Do the sensors' pulses come in the wrong order? Forwards, the rotor takes a quarter turn from sensor 1 to sensor 2,
+ * backwards three quarters. That time must exceed both times back, because a starting rotor changes its speed. Pulses
+ * faster than any rotor show no direction. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -647,8 +653,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* The rotor starts or was just taken over: the commanded voltage leads it, not yet the loop. A falling bound then shows
- * after two further pulses. */
+/* While the rotor starts, or was just taken over, the commanded voltage determines its speed, not yet the loop. A
+ * falling bound then shows after two further pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {

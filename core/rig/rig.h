@@ -23,7 +23,7 @@ extern "C" {
 
 /* === a trip's record, as bytes the same on every processor; readable after a reset =========== */
 
-/* Given to wh_rig_start() after a reset, it is latched again. */
+/* The record of a trip. Given to wh_rig_start() after a reset, it is latched again. */
 typedef struct wh_trip_record {
     wh_trip trip;
     wh_rig_phase phase;
@@ -38,10 +38,10 @@ typedef struct wh_trip_record {
 #define wh_trip_record_put WH_NAME(wh_trip_record_put)
 #define wh_trip_record_get WH_NAME(wh_trip_record_get)
 
-/* Into bytes[WH_TRIP_RECORD_BYTES]. */
+/* Write a record into bytes[WH_TRIP_RECORD_BYTES]. */
 void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
 
-/* False if the bytes are no record: another length, or an unknown trip or phase. */
+/* Read a record. Returns false if the bytes are no record: another length, or an unknown trip or phase. */
 bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length);
 
 /* === a control step's inputs ================================================================= */
@@ -54,8 +54,8 @@ typedef struct wh_rig_inputs {
     uint32_t now_ticks;
     wh_real supply_V;
     bool stop_pressed;
-    wh_stop_by stop_by;     /* when it is */
-    bool clock_is_fallback; /* too inexact for a speed */
+    wh_stop_by stop_by;     /* source of the stop, if pressed */
+    bool clock_is_fallback; /* the clock is too inaccurate for a speed */
     bool watchdog_has_cut;
 } wh_rig_inputs;
 
@@ -66,7 +66,7 @@ typedef struct wh_rig_order {
 
 /* === the controller ========================================================================== */
 
-#define WH_RIG_ORDERS_MOST 4U /* posted between two control steps */
+#define WH_RIG_ORDERS_MOST 4U /* orders that can be posted between two control steps */
 
 /* When gravity's torque is fed forward to the motor. This removes the ripple of the speed, and with it gravity's part
  * of the load's peaks. */
@@ -76,7 +76,7 @@ typedef enum wh_compensation_when {
     WH_COMPENSATION_ALWAYS
 } wh_compensation_when;
 
-/* 0, possible in a small chip's build: observer.scene is NULL, and gravity is never fed forward. */
+/* A small chip's build may set 0: observer.scene is NULL, and gravity is never fed forward. */
 #ifndef WH_RIG_FEEDS
 #define WH_RIG_FEEDS 1
 #endif
@@ -92,14 +92,15 @@ typedef struct wh_rig_config {
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for rest after a trip */
-    wh_real rest_max_s;    /* with the motor off, to come to rest */
+    wh_real rest_max_s;    /* longest time to come to rest with the motor off */
     /* the motor brakes at a run's end and after `stop`; otherwise it coasts, as after a trip and the stop input */
     bool stop_brakes;
     /* a completed run always coasts, and its swing gives the sensors' positions; `stop` may brake */
     bool swings;
     bool host_loss_stops; /* a run ends when the giver of orders is lost; otherwise it goes on */
-    uint32_t host_max_s;  /* lost: silent for this long; 0: never (the console's) */
-    uint32_t settings;    /* hash of its settings (core/station/conf.h); 0: no settings */
+    uint32_t host_max_s;  /* time of silence after which the giver of orders counts as lost; 0:
+                           * never (on the console) */
+    uint32_t settings;    /* hash of the settings (core/station/conf.h); 0: no settings */
 } wh_rig_config;
 
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
@@ -109,10 +110,10 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
-/* Small members come first: a processor's short instructions reach no further. */
+/* Small members come first, because a processor's short instructions reach only them. */
 typedef struct wh_rig {
     wh_rig_state state;
-    bool brakes; /* the motor, when switched off */
+    bool brakes; /* the motor brakes when it is switched off */
     /* for this run: the observer follows the rotor, and once it is valid gravity is fed forward */
     bool fed;
     /* a pulse or a mark is work enough for one step: other work waits for the next */
@@ -120,34 +121,34 @@ typedef struct wh_rig {
     bool decides;  /* a pulse of this step came after a suspect */
     uint8_t loads; /* samples since the last step: with more than one the step has less time */
     bool rested;   /* motor off, and the rotor rests or the wait is over */
-    /* no pulses; if they are unreliable, after the longest wait */
+    /* no pulses come; if pulses are unreliable, the longest wait is over */
     bool at_rest;
     bool has_result;    /* of run number `runs`: false from `start` to the end of its record */
-    wh_rig_end ended;   /* the run */
-    wh_rig_event asked; /* the last order processed, */
-    wh_refusal answer;  /* and the answer to it */
+    wh_rig_end ended;   /* how the last run ended */
+    wh_rig_event asked; /* last processed order */
+    wh_refusal answer;  /* answer to the last processed order */
     wh_run run;
     wh_guard guard;
-    uint32_t answers;     /* so many were */
-    uint32_t since_ticks; /* the state began */
-    uint32_t observed;    /* pulses that the observer has seen */
+    uint32_t answers;     /* number of processed orders */
+    uint32_t since_ticks; /* time at which the state began */
+    uint32_t observed;    /* number of pulses that the observer has seen */
     uint32_t pulses_ever;
-    uint32_t pulses_before; /* `arm` */
+    uint32_t pulses_before; /* number of pulses at `arm` */
     uint32_t runs;          /* starts since the reset */
-    uint32_t settings;      /* config->settings of the result, */
-    uint32_t result_s;      /* whole seconds since it was finished, up to */
-    uint32_t result_ticks;  /* this time */
-    /* of each sensor the last pulse and the one before, accepted or not */
+    uint32_t settings;      /* config->settings when the result was measured */
+    uint32_t result_s;      /* age of the result in whole seconds at result_ticks */
+    uint32_t result_ticks;  /* time for which result_s is valid */
+    /* times of each sensor's last pulse and the one before, accepted or not */
     uint32_t heard_ticks[WH_SPEED_SENSORS][2];
     wh_compensation compensation;
-    wh_rig_command command; /* since the last step */
+    wh_rig_command command; /* command of the last step */
     wh_pulses pulses;
-    wh_trip_record record; /* of the latched trip */
+    wh_trip_record record; /* record of the latched trip */
     unsigned orders;
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
-    wh_rig_result result; /* if has_result; stays until the next start */
-    wh_swing swing;       /* of the last run that ended in one: swing.result */
+    wh_rig_result result; /* the last result, if has_result; stays until the next start */
+    wh_swing swing;       /* swing of the last run that ended in one: swing.result */
     wh_measure measure;
 } wh_rig;
 
@@ -177,28 +178,29 @@ extern const wh_rig_config wh_rig_standard;
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* The same for consoles and telemetry, with a number of its own for a motor that brakes. */
+/* wh_rig_stage() for consoles and telemetry, with a number of its own for a motor that brakes. */
 #define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
 
-/* Either in words. */
+/* Either number in words. */
 const char *wh_rig_stage_text(unsigned stage);
 
-/* The mean speed of the last whole turn, or 0 at rest. False if unknown: before the first turn, or for a rotor that
- * swings (its pulses do not alternate). */
+/* The mean speed of the last whole turn, or 0 at rest. Returns false if the speed is unknown: before the first turn, or
+ * if the rotor swings (its pulses do not alternate). */
 bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 /* Seconds since the result was finished. */
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* The guard's trip or its likely cause, in the step that trips. Part of wh_rig_step(). */
+/* The guard's trip, or the trip's likely cause if that is known, in the step that trips. Part of wh_rig_step(). */
 wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
 
-/* Sensors on the loading-train axis and a quarter turn later. Their pulses come when the arms are lead_rad before them. */
+/* Configure sensors on the loading-train axis and a quarter turn later. Each pulse comes when the arms are lead_rad
+ * before the sensor. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
-/* A brushed motor's torque line: each > 0. */
+/* The torque line of a brushed motor; both numbers are > 0. */
 typedef struct wh_rig_motor {
     wh_real stall_Nm;      /* torque at standstill and the rated voltage */
     wh_real no_load_radps; /* speed without load at the rated voltage */
@@ -215,17 +217,19 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 /* Limit pulses to the speed without load at the highest supply. Call it again after a change of guard.supply_max_V. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
-/* Idle, motor off, for any motion of the rotor; or tripped, if `before` (may be NULL) is the record of a trip. */
+/* Start in the idle state, motor off, for any motion of the rotor. If `before` is the record of a trip (it may be NULL),
+ * start tripped. */
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
                   const wh_trip_record *before);
 
-/* An order for the next control step. False: WH_RIG_ORDERS_MOST are waiting. rig->answer gives the result. */
+/* Post an order for the next control step. Returns false if WH_RIG_ORDERS_MOST orders are waiting. rig->answer gives the
+ * result. */
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
-/* A slot pulse of sensor 0 or 1, captured at `ticks`. */
+/* Take a slot pulse of sensor 0 or 1, captured at `ticks`. */
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
-/* A load sample as the hardware gives it: counts, stamped `ticks`, and its status. */
+/* Take a load sample as the hardware gives it: counts, their time stamp `ticks`, and their status. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
 
@@ -244,8 +248,8 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
  * by X = S/(M + m) at any speed. */
 
 typedef struct wh_carriage {
-    wh_real disc_m; /* centres of the discs, from the shaft */
-    wh_real ratio;  /* m/M; 0: too heavy to move */
+    wh_real disc_m; /* distance of the discs' centres from the shaft */
+    wh_real ratio;  /* m/M; 0: the carriage is too heavy to move */
 } wh_carriage;
 
 #define wh_carriage_mount WH_NAME(wh_carriage_mount)

@@ -18,7 +18,7 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {
     *speed = (wh_speed){.impossible_radps = impossible_radps};
 }
 
-/* Counting of quarter turns restarts at this sensor. */
+/* Restarts the count of quarter turns at this sensor. */
 static void begin(wh_speed *speed, unsigned sensor) {
     speed->running = true;
     speed->quarter = sensor;
@@ -26,7 +26,7 @@ static void begin(wh_speed *speed, unsigned sensor) {
     speed->seen[1] = false;
 }
 
-/* Move to the next position of this sensor: 1 or 3 quarters, or the whole turn. False: that would be too fast. */
+/* Moves to the next position of this sensor: 1 or 3 quarters on, or a whole turn. Returns false if that would be too fast. */
 static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;

@@ -21,13 +21,14 @@ typedef struct wh_speed {
     bool seen[WH_SPEED_SENSORS]; /* seen_ticks and seen_quarter are valid */
     wh_real impossible_radps;    /* a pulse that would need a higher speed is rejected */
     wh_real turn_radps;          /* mean over the last whole turn; valid when known */
-    wh_real interval_radps;      /* mean since the pulse before the last, 0 after a gap; ditto */
+    wh_real interval_radps;      /* mean since the pulse before the last, 0 after a gap; valid
+                                  * when known */
     uint32_t ticks;              /* time of the last pulse taken */
-    uint32_t quarter;            /* rotor's position then, quarter turns, wrapping */
+    uint32_t quarter;            /* rotor's position at the last pulse, quarter turns, wrapping */
     uint32_t taken;              /* pulses taken */
-    uint32_t lost;               /* missing pulses */
+    uint32_t lost;               /* number of missing pulses */
     uint32_t restarts;           /* gaps after which `quarter` restarted */
-    uint32_t rejected;           /* pulses that cannot be */
+    uint32_t rejected;           /* number of impossible pulses */
     uint32_t seen_ticks[WH_SPEED_SENSORS];
     uint32_t seen_quarter[WH_SPEED_SENSORS];
 } wh_speed;

@@ -51,7 +51,7 @@ const wh_rig_config wh_rig_standard = {
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),
-              /* half of 2 pi c/I, of six times the inertia */
+              /* half of 2 pi c/I with six times the inertia */
               .braked_radps =
                   WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
               .hand_radps = RPM(60.0)},

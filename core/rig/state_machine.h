@@ -29,8 +29,8 @@ extern "C" {
     X(WH_EVENT_SET, "set")             /* value: another set-point, rad/s */ \
     X(WH_EVENT_STOP, "stop")           /* motor off at once */ \
     X(WH_EVENT_CLEAR, "clear")         /* the trip is understood and its cause removed */ \
-    X(WH_EVENT_HOST_LOST, "host lost") /* the giver of orders is gone: as configured */ \
-    X(WH_EVENT_DONE, "done")           /* the run is through */ \
+    X(WH_EVENT_HOST_LOST, "host lost") /* the giver of orders is gone: handled as configured */ \
+    X(WH_EVENT_DONE, "done")           /* the run is complete */ \
     X(WH_EVENT_RESTED, "rested")       /* the rotor rests */ \
     X(WH_EVENT_EXPIRED, "expired")     /* armed for too long */ \
     X(WH_EVENT_TRIP, "trip")           /* the guard has a reason to stop */
@@ -90,7 +90,7 @@ typedef struct wh_rig_transition {
 #define wh_refusal_text WH_NAME(wh_refusal_text)
 #define wh_rig_end_text WH_NAME(wh_rig_end_text)
 
-/* From the table. An unknown event or state is refused. */
+/* Look up the table. An unknown event or state is refused. */
 wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event);
 
 /* In words, for consoles, by wh_text_add(). */

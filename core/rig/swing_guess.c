@@ -6,7 +6,8 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* sin(A/2), from half a swing's time over that of a small one, 2/pi K(sin(A/2)): A = 0, 30, ... 120, 150, 165, 175 deg. */
+/* sin(A/2) from the ratio of half a swing's time to that of a small one, 2/pi K(sin(A/2)). The table has A = 0, 30, ...
+ * 120, 150, 165, 175 deg. */
 static wh_real sine_of_time(wh_real time) {
     static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
                                     WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
@@ -49,7 +50,7 @@ static WH_CALLED unsigned next_of(const wh_swing *swing, unsigned at) {
     return next;
 }
 
-/* Time from the first passage of the bottom to the next, over that of half a small swing. */
+/* Time from the first passage of the bottom to the next one, divided by that of half a small swing. */
 static wh_real first_time(const wh_swing *swing, wh_real root) {
     const unsigned next = next_of(swing, swing->first);
     const unsigned last = next < swing->kept ? next : swing->kept - 1U;

@@ -14,7 +14,7 @@
 /* The first splits correct an inertia with a large error, by Newton's method; later ones are averaged. */
 #define SPLITS_TO_FIND 3U
 
-/* Limit to `most`, either way; also for NaN. */
+/* Limits value to -most ... most; NaN gives most. */
 static wh_real within(wh_real value, wh_real most) {
     return value < most ? value > -most ? value : -most : most;
 }
@@ -24,7 +24,7 @@ static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
-/* The swing's addition to base + phi at u with this sine and cosine. */
+/* The swing's addition to base + phi at the angle u, given its sine and cosine. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
     return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
@@ -49,7 +49,7 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) 
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
-    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed, or arms without mass */
+    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed mount, or arms without mass */
         angle->twice_rad = WH_R(0.0);
         return;
     }
@@ -140,7 +140,7 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 }
 #endif
 
-/* u's waves at the turn's begin and at the split are known. */
+/* Computes the split from u's sine and cosine at the turn's begin and at the split. */
 WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
                            wh_wave from, wh_wave to) {
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
@@ -152,7 +152,7 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* of the swing, with the lag that follows from the inertia: d psi = tan psi dE / E */
+    /* derivative with respect to the swing, with the lag that follows from the inertia: d psi = tan psi dE / E */
     const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;

@@ -36,34 +36,35 @@
 extern "C" {
 #endif
 
-/* 1 on a chip whose float product takes 200 cycles: one half node in a control step, and work that is one piece
- * elsewhere is split over several steps without a sample. The same numbers. */
+/* 1 on a chip whose float product takes 200 cycles. A control step then does one half node, and work that is one piece
+ * elsewhere is split over several steps without a sample. The results are the same. */
 #ifndef WH_RIG_SMALL_PIECES
 #define WH_RIG_SMALL_PIECES 0
 #endif
 
 typedef struct wh_rotor_config {
     wh_real unbalance_kgm;     /* S */
-    wh_real gravity_mps2;      /* within the arms' plane; 0: it lies level */
+    wh_real gravity_mps2;      /* gravity in the arms' plane; 0: the plane is level */
     wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
     wh_real damping_Nms;       /* c */
     wh_real damping_tolerance; /* relative error of c, at 95 % */
     wh_real fed_tolerance_rad; /* error of the angle at which gravity is fed, at 95 % */
-    wh_real inertia_kgm2;      /* to begin with */
+    wh_real inertia_kgm2;      /* initial inertia */
     wh_real mark_rad[2];       /* angle theta of the arms at a pulse of each sensor */
-    wh_real yields_kgm2;       /* D, with no gravity; 0: the mount is fixed */
+    wh_real yields_kgm2;       /* D, only without gravity; 0: the mount is fixed */
     wh_real yields_tolerance;  /* relative error of D or I, at 95 % */
 } wh_rotor_config;
 
 #define WH_TURN_ANGLE_PATIENCE 32U /* turns over which the inertia is averaged */
 
 typedef struct wh_turn_angle {
-    wh_real inertia_kgm2; /* as found so far */
+    wh_real inertia_kgm2; /* present estimate of the inertia */
     bool fed;
-    wh_real stall_Nm_per_V; /* while fed; */
-    wh_real held_V;         /* the drive's voltage less the feed: updated by the drive's caller */
+    wh_real stall_Nm_per_V; /* the motor's torque per volt at standstill, while fed */
+    wh_real held_V;         /* the drive's voltage without the feed: updated by the drive's
+                             * caller */
     wh_real part;           /* estimated part of gravity that remains: 1 without feed */
-    uint32_t splits;        /* turns behind the estimate of inertia or part */
+    uint32_t splits;        /* number of turns in the estimate of inertia or part */
     wh_real whole_rad;      /* E of the whole gravity */
     wh_real cut;            /* part of S g that a motor with feed cannot brake */
     wh_real swing_rad;      /* E */
@@ -71,14 +72,14 @@ typedef struct wh_turn_angle {
     wh_real begin_rad;      /* u at the turn's begin */
     wh_real base_rad;
     wh_real twice_rad;   /* A */
-    wh_real second_sine; /* of sin 2u and cos 2u */
+    wh_real second_sine; /* coefficients of sin 2u and cos 2u */
     wh_real second_cosine;
     wh_real base_per_split; /* derivative of base_rad with respect to the split, with its lag */
-    wh_real base_per_lag;   /* and to a lag with the split fixed; */
-    /* and to a swing a quarter turn after E, which the split attributes to E */
+    wh_real base_per_lag;   /* derivative of base_rad with respect to the lag at a fixed split */
+    /* derivative with respect to a swing a quarter turn after E, which the split attributes to E */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
-    wh_wave split_from; /* of u, at the turn's begin and at the split */
+    wh_wave split_from; /* sine and cosine of u at the turn's begin and at the split */
     wh_wave split_to;
 #endif
 } wh_turn_angle;
@@ -95,16 +96,16 @@ typedef struct wh_turn_angle {
 /* Forget the estimates. */
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
-/* From now on gravity is fed forward, or no longer: its remaining part is estimated again, the inertia stays. Without a
- * change nothing happens. stall_Nm_per_V > 0: the motor's torque at standstill. */
+/* Tells whether gravity is fed forward from now on. After a change, gravity's remaining part is estimated again, and the
+ * inertia stays. stall_Nm_per_V > 0: the motor's torque at standstill per volt. */
 void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
 
-/* The angle's shape at a mean speed > 0, with the present estimate of the inertia. Bounded work; each call improves
- * begin_rad, and from turn to turn little remains to improve. */
+/* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded; each
+ * call improves begin_rad, and little remains to improve from turn to turn. */
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
 #if WH_RIG_SMALL_PIECES
-/* The same in pieces, each once, in their order: 0 ... WH_TURN_ANGLE_SHAPES - 1. */
+/* wh_turn_angle_shape() in pieces. Call each once, in order: 0 to WH_TURN_ANGLE_SHAPES - 1. */
 #define WH_TURN_ANGLE_SHAPES 3U
 void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
                                wh_real speed_radps, unsigned piece);
@@ -115,7 +116,7 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split);
 
 #if WH_RIG_SMALL_PIECES
-/* The same in two pieces: first its waves, then the correction. */
+/* wh_turn_angle_split() in two pieces: first the waves, then the correction. */
 void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split);
 wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
                                  wh_real split);
