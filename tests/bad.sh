@@ -1,5 +1,6 @@
 #!/bin/sh
-# bad.sh FOLDER: write each broken text of tests/bad to a file of its own in FOLDER. In an archive, a line "=== NAME" stands before each.
+# bad.sh FOLDER: writes each broken text of tests/bad to a file of its own in FOLDER. In an archive a line "=== NAME"
+# precedes each text.
 set -eu
 folder=${1:?usage: bad.sh FOLDER}
 mkdir -p "$folder"

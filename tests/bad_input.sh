@@ -1,8 +1,7 @@
 #!/bin/sh
-# bad_input.sh WHIRL: every text of tests/bad must be refused by WHIRL with exit status 2 and a message: where it is
-# derived; effect_mass_*, whose fault is what the scene is with, where that is run.
-#
-# With the sanitizers' build of whirl any slip in memory or arithmetic shows as another exit status.
+# bad_input.sh WHIRL: WHIRL refuses every text of tests/bad with exit status 2 and a message. Texts named derive* are
+# derived; texts named effect_mass_* are run. With the sanitizers' build, a memory or arithmetic error shows as another exit
+# status.
 set -u
 
 whirl=${1:?usage: bad_input.sh WHIRL}

@@ -1,5 +1,5 @@
-# checks.sh: what the scripts of tests/cli share, to be sourced. $whirl is the program under test, $scratch a folder
-# that is gone at the end; a script ends with `exit $failed`.
+# checks.sh: shared functions of the scripts in tests/cli, to be sourced. $whirl is the program under test, $scratch a
+# folder that is deleted at the end. A script ends with `exit $failed`.
 set -u
 
 whirl=${WHIRL:-build/whirl}
@@ -8,8 +8,8 @@ trap 'rm -rf "$scratch"' EXIT
 failed=0
 checks=0
 
-# verdict STATUS WHAT [FILE]: "ok" if STATUS is 0; else "not ok", with the first lines of FILE, or of what was said
-# on standard error, if the script keeps it in $scratch/err.
+# verdict STATUS WHAT [FILE]: prints "ok" if STATUS is 0. Otherwise prints "not ok" with the first lines of FILE or, without
+# FILE, of $scratch/err, where the script keeps standard error.
 verdict() {
     checks=$((checks + 1))
     if [ "$1" -eq 0 ]; then
@@ -29,7 +29,7 @@ check() {
     verdict $? "$what" "$scratch/check"
 }
 
-# await COMMAND...: until it succeeds. It fails after ten minutes, which a busy machine does not need.
+# await COMMAND...: repeats the command until it succeeds. Fails after ten minutes, more than a busy machine needs.
 await() {
     tries=0
     until "$@"; do
@@ -38,7 +38,7 @@ await() {
         sleep 0.02
     done
 }
-# has_bytes COUNT FILE; has_worked HUNDREDTHS PROCESS: of a second of processor time, or it has ended
+# has_bytes COUNT FILE: is FILE that long? has_worked HUNDREDTHS PROCESS: has it used that processor time, or ended?
 has_bytes() { [ "$(wc -c 2>/dev/null <"$2" || echo 0)" -ge "$1" ]; }
 has_worked() { ! [ "$(sed 's/.*) //' "/proc/$2/stat" 2>/dev/null | awk '{ print $12 + $13 }')" -lt "$1" ] 2>/dev/null; }
 
@@ -48,7 +48,7 @@ option_rows() {
         sed 's/X([A-Z_]*, "\(.*\)", "\(.*\)", OPTIONS_\(.*\)/\1 \2 \3/; s/  / - /'
 }
 
-# options_of FILE: the options that a help text lists, each "--word" or "--word VALUE".
+# options_of FILE: prints the options that a help text lists, each as "--word" or "--word VALUE".
 options_of() {
     awk '/^  --[a-z]+ (--|[(]as)/ { words = 1 } # those of `whirl run`, by their words
         words { for (i = 1; i <= NF; i++) { if ($i ~ /^--[a-z]+$/) { print $i, "?" } } }

@@ -1,8 +1,8 @@
 #!/bin/sh
-# atmega.sh [RPM FAULTS RESETS SEED]: what is flashed onto an ATmega2560, in simavr with the rig round its pins (tests/tools/atmega.c):
-# console, a run to its result with each control step's cycles, slot edges, a storm of them, faults and resets in every state,
-# settings torn. "more" in the place of RPM: runs at four speeds, and while it is asked all the time. Images are those of
-# build/atmega2560. Prints "ok - ..." and "not ok - ..." lines.
+# atmega.sh [RPM FAULTS RESETS SEED]: tests the flashed image of an ATmega2560 in simavr, with the rig at its pins
+# (tests/tools/atmega.c): console, a run with the cycles of each control step, slot edges, a storm of edges, faults and
+# resets in every state, torn settings. "more" in place of RPM: runs at four speeds, with continuous queries. Images are in
+# build/atmega2560.
 set -u
 
 image=build/atmega2560/station.elf

@@ -1,6 +1,6 @@
 #!/bin/sh
-# avr_cycles.sh AVR_RUN FOLDER: avr_run counts the instructions and cycles that the data sheet gives, and hands on the
-# program's exit status. A call takes one cycle more where the program counter has three bytes. Says what is wrong.
+# avr_cycles.sh AVR_RUN FOLDER: avr_run counts the instructions and cycles that the data sheet gives and passes on the
+# program's exit status. On chips with a program counter of three bytes, a call takes one cycle more.
 set -u
 run=$1
 folder=$2

@@ -1,7 +1,7 @@
 #!/bin/sh
-# f405.sh [TIMES_FAULTS TIMES_RESETS SEED]: what is flashed onto an STM32F405, in QEMU's netduinoplus2: boot, console, time base,
-# slot edges through the interrupt, faults and resets of the rig in every state (tests/tools/f405.c). Images are those of
-# build/netduinoplus2. Prints "ok - ..." and "not ok - ..." lines.
+# f405.sh [TIMES_FAULTS TIMES_RESETS SEED]: tests the flashed image of an STM32F405 in QEMU's netduinoplus2: boot, console,
+# time base, slot edges by interrupt, faults and resets of the rig in every state (tests/tools/f405.c). Images are in
+# build/netduinoplus2.
 set -u
 
 images=build/netduinoplus2

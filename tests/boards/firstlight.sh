@@ -1,7 +1,7 @@
 #!/bin/sh
-# firstlight.sh BOARD: the record of first light that BOARD's image prints in the emulator: whole, with the interpreter's hashes; the
-# fields that the emulator cannot give are `none`, and named; nothing else differs than a rig that is not there. And the rule
-# that the image cannot enable the motor. Prints "ok - ..." and "not ok - ..." lines.
+# firstlight.sh BOARD: checks the record of first light that BOARD's image prints in the emulator. It is whole and has the
+# interpreter's hashes. Fields that the emulator cannot give are `none` and named, and only a missing rig causes other
+# differences. Also checks that the image cannot enable the motor.
 set -u
 
 board=$1
@@ -44,7 +44,7 @@ verdict $? "first light: what the emulator cannot give is named"
 "$whirl" firstlight "build/$board/firstlight.txt" --emulated "build/$board/firstlight.txt" >"$said" 2>&1
 [ $? -eq $wanted ] && grep -q '^stack  *- ' "$said" && grep -q "^compiler  *equal" "$said"
 verdict $? "first light: beside the emulator's record"
-# the same over a line: Enter brings the record
+# the same over a line: Enter requests the record
 if [ "$board" = netduinoplus2 ]; then
     null="-serial null"
     # shellcheck disable=SC2086 # words
@@ -58,7 +58,7 @@ if [ "$board" = netduinoplus2 ]; then
     kill $emulator
     rm -f "$said.kept"
 fi
-# an image that can is found out
+# the check finds an image that can enable the motor
 elf=build/$board/firmware.elf
 if [ "$board" = mps2-an386 ] && [ -e "$elf" ]; then
     UNDRIVEN=$elf sh boards/check_image.sh "$elf" >"$said" 2>&1

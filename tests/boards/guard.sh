@@ -1,7 +1,6 @@
 #!/bin/sh
-# guard.sh BOARD: on BOARD a store into the strip below the stack faults, at its top and at its bottom, and so does a
-# stack that grows into it; the fault is named. The images are those of tests/boards/guard_*.c, in build/BOARD. Prints
-# "ok - ..." and "not ok - ..." lines.
+# guard.sh BOARD: on BOARD, a store into the strip below the stack faults, at its top and at its bottom. So does a stack
+# that grows into the strip. The fault is named. Images are those of tests/boards/guard_*.c, in build/BOARD.
 set -u
 
 board=$1

@@ -1,7 +1,7 @@
 #!/bin/sh
-# watchdog.sh BOARD: the watchdog of BOARD, if it has one (tests/boards/watchdog.c, in build/BOARD): kicked in time it is
-# silent; left alone it interrupts not before its time and resets before three times that. In the board's own time,
-# whatever this machine does. Prints "ok - ..." or "not ok - ..." lines.
+# watchdog.sh BOARD: the watchdog of BOARD, if there is one (tests/boards/watchdog.c, in build/BOARD). If it is kicked in
+# time, it is silent. Otherwise it interrupts, not before its time, and resets before three times that, in the board's own
+# time.
 set -u
 
 board=$1

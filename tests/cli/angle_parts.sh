@@ -1,7 +1,7 @@
 #!/bin/sh
-# angle_parts.sh: outputs that hold parts and multiples of turn angles, as C for the core: the numbers that
-# `whirl run` records, to the last digit, in float and in double. Which are right, the suite angle_parts tells; its
-# made-up mechanisms are compiled here (WHIRL_RANDOM_OUTPUTS=2000 of them; half a minute).
+# angle_parts.sh: outputs with fractions and multiples of turn angles, as C for the core, give the numbers that `whirl run`
+# records, to the last digit, in float and double. The suite angle_parts checks that these are right; its random mechanisms
+# are compiled here (WHIRL_RANDOM_OUTPUTS=2000 of them; half a minute).
 . "$(dirname "$0")/../checks.sh"
 
 warnings="-std=c11 -O0 -ffp-contract=off -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"

@@ -1,13 +1,13 @@
 #!/bin/sh
-# asked_first.sh: what one process writes of all scenes, one after the other, is what a process of its own writes of each:
-# every built-in scene, and generated mechanisms of one file. (Inside one algebra: tests/host/test_asked_first.c.)
+# asked_first.sh: a process that writes all scenes one after the other writes the same as a process for each scene. Every
+# built-in scene, and generated mechanisms in one file. (Inside one algebra: tests/host/test_asked_first.c.)
 . "$(dirname "$0")/../checks.sh"
 
 mkdir "$scratch/all" "$scratch/of_file"
 "$whirl" emit-scenes "$scratch/all"
 verdict $? "all scenes are written in one go"
 
-# alone FOLDER TARGET...: the names of files in FOLDER that `derive --as c` writes differently
+# alone FOLDER TARGET...: prints the files in FOLDER that `derive --as c` writes differently.
 alone() {
     for file in "$1"/*.c; do
         name=$(basename "$file" .c)

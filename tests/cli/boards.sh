@@ -1,6 +1,6 @@
 #!/bin/sh
-# boards.sh: a board.mk that lacks something, or says it wrongly, is refused by make with the board's name: none drops
-# out unseen. Tried in a copy, with every variable of every board taken away.
+# boards.sh: make refuses a board.mk with a missing or wrong variable and names the board, so no board is dropped silently.
+# Tried in a copy of the tree, with every variable of every board removed.
 . "$(dirname "$0")/../checks.sh"
 
 tree=$scratch/tree
@@ -9,7 +9,7 @@ cp -r Makefile mk boards "$tree"
 ask() { # what make says without building anything
     MAKEFLAGS= make -s -C "$tree" "$@" help >"$scratch/out" 2>"$scratch/err"
 }
-# refused BOARD WORDS WHAT: it says both
+# refused BOARD WORDS WHAT: the message has both
 refused() {
     ask
     [ $? -ne 0 ] && grep -qF "boards/$1/board.mk: $2" "$scratch/err"

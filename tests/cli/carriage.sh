@@ -1,7 +1,7 @@
 #!/bin/sh
-# carriage.sh: the dissertation's carriage measured by the rig's firmware in the loop (I.3.2.2, I.3.5): force at the pin over the
-# weight ratio, displacement over speed and radius, against closed forms; what it is told wrongly; drawn
-# benches (three; with WHIRL_FULL twelve; BENCHES=200: so many); a Cortex-M4F.
+# carriage.sh: the rig's firmware measures the dissertation's carriage in the loop (I.3.2.2, I.3.5). Compares force at the
+# pin over the weight ratio, and displacement over speed and radius, with closed forms. Also wrong settings, a Cortex-M4F,
+# and random benches (three; twelve with WHIRL_FULL; BENCHES=200 sets the number).
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
@@ -20,7 +20,7 @@ awk 'NR == FNR { value[$1] = $2; next } { n++; d = $2 - value[$1]; if (d > 1e-9 
 verdict $? "$plant moves as carriage_free with the same drive" "$scratch/plant"
 
 # --- measuring -----------------------------------------------------------------------------------------------------------
-# measure OPTION...: "force half displacement quality turns rpm expected%", of the result that the firmware tells
+# measure OPTION...: "force half displacement quality turns rpm expected%" of the firmware's result
 measure() {
     sh tests/limit.sh 60 "$whirl" pil $plant --firmware "$build/pil_carriage" "$@" </dev/null >"$scratch/said" 2>"$scratch/err"
     awk '$1 == "speed" && !n++ { speed = $2 }
@@ -28,8 +28,8 @@ measure() {
         END { print told["amplitude"] + 0, told["amplitude_half"] + 0, told["displacement"] + 0, told["quality"] + 0, told["turns"] + 0, speed + 0 }' \
         "$scratch/said"
 }
-# The truth, for awk: the arms' mass, S, and the once-per-turn force at a mean speed of arms that run freely: their energy stays,
-# so that w^2 = C/(1 - k sin^2), C from the turn's time, and the force is S <w^2> M/(M + m).
+# The truth, for awk: the arms' mass, S, and the once-per-turn force at a mean speed. The arms run freely, so their energy
+# is constant: w^2 = C/(1 - k sin^2). C follows from the turn's time, and the force is S <w^2> M/(M + m).
 truth='
     function moment(inches) { return 2 * 0.45359237 * 0.0254 * (0.152 * 3.625 + 0.15 * inches) }
     function inertia(inches, drive) { return 2 * 0.45359237 * 0.0254 ^ 2 * (0.152 * 7.25 ^ 2 / 3 + 0.15 * inches ^ 2) + drive }
@@ -49,7 +49,7 @@ awk "$truth"'{
         n++; due = force(6.5, $1, 5e-4, $7)
         if ($5 != 0 || $6 != 10 || off($2, due) > ($1 > 0.6 ? 0.0015 : 0.0006) || $2 - due > $3 || due - $2 > $3 || $3 > 0.0064 * $2) { bad++; print "#", $0, due }
         if (n == 1) held = $2
-        # of the closed form for a constant speed: never below, and above by the ripple
+        # relative to the closed form for constant speed: never below, and above by the ripple
         part = $2 / held * (1 + $1)
         if (part < 0.9999 || part > 1.0001 + 0.06 * $1 * $1) { bad++; print "#", $0, part }
         if (n == 5 && ($2 / held < 0.75 || $2 / held > 0.755)) bad++
@@ -78,7 +78,7 @@ awk "$truth"'{ n++; if ($5 != 0 || off($4, displacement($1, 1 / 3)) > 0.001 || (
     END { exit !(n == 5 && !bad) }' "$scratch/radii" >"$scratch/err"
 verdict $? "S18, test 2: with the discs at 2 to 6.5 in it swings by S/(M + m) within 0.1 %"
 
-# The carriage itself, in the plant, and by what the report says.
+# The carriage itself, in the plant, and as the report describes it.
 measure >"$scratch/plain"
 "$whirl" run $plant --set bearing_friction=0 --start "theta'=34.5" --set enable=1 --set duty=0.577 --step 200us --until 3s --csv "$scratch/x.csv" \
     </dev/null >/dev/null 2>"$scratch/err"
@@ -89,7 +89,7 @@ close_to "$(cat "$scratch/x")" 0.0320864 2e-5 && grep -q '^  carriage, to either
 verdict $? "the plant's carriage swings by 32.09 mm, and the report says so" "$scratch/said"
 
 # --- what the firmware is told wrongly, and what cannot be ------------------------------------------------------------------
-# told QUALITY OPTION...: 0 good, 1 doubtful, 2 refused
+# told QUALITY OPTION...: the result has this quality: 0 good, 1 doubtful, 2 refused
 told() {
     wanted=$1
     shift

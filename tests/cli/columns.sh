@@ -1,5 +1,5 @@
 #!/bin/sh
-# columns.sh: `whirl run --columns` writes the numbers of --csv as plain columns, and says when it cannot.
+# columns.sh: `whirl run --columns` writes the numbers of --csv as plain columns, or an error if it cannot.
 . "$(dirname "$0")/../checks.sh"
 
 "$whirl" run epicyclic_from_rest --until 1s --every 10ms --quiet \
@@ -20,7 +20,7 @@ check "columns: a record for each 10 ms, and one at zero" test "$(wc -l <"$scrat
 check "columns: - is standard output" cmp "$scratch/run.txt" "$scratch/standard"
 check "columns: the summary then goes to standard error" grep -q '^state hash' "$scratch/summary"
 
-# refused WHAT OPTION...: exit status 2 and a word about it.
+# refused WHAT OPTION...: exit status 2 and a message that names the cause.
 refused() {
     what=$1
     shift
@@ -30,7 +30,7 @@ refused() {
 }
 refused "columns: a file that cannot be made" --columns "$scratch/missing/run.txt"
 refused "columns: not the same file as --csv" --csv - --columns -
-# The last state is recorded whatever the spacing, once.
+# The last state is recorded once, whatever the spacing.
 for every in 1 2 3 7 13 125 333 999 1000 1001 5000; do
     "$whirl" run epicyclic_from_rest --until 1s --every ${every}ms --csv - --quiet | tr -d '\r' >"$scratch/e.csv"
     [ "$(tail -n 1 "$scratch/e.csv" | cut -d, -f1)" = 1 ] && [ "$(grep -c '^1,' "$scratch/e.csv")" -eq 1 ] &&

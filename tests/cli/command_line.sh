@@ -1,6 +1,6 @@
 #!/bin/sh
-# command_line.sh: what `whirl` says and returns: help, versions, mistakes in every option, broken
-# mechanisms. Exit status 0 done, 2 bad input; errors go to standard error, with a hint where one helps.
+# command_line.sh: messages and exit status of `whirl`: help, versions, errors in every option, broken mechanisms. Exit
+# status 0: done; 2: bad input. Errors go to standard error, with a hint if one helps.
 . "$(dirname "$0")/../checks.sh"
 
 complain() {
@@ -9,8 +9,8 @@ complain() {
     failed=1
 }
 
-# says STATUS PATTERN WORD...: exit status, and a line of standard error that matches the pattern; when
-# refused, nothing goes to standard output.
+# says STATUS PATTERN WORD...: this exit status, and a line of standard error that matches the pattern. If refused, nothing
+# goes to standard output.
 says() {
     status=$1
     pattern=$2
@@ -55,7 +55,7 @@ says 2 "did you mean 'price'" help prise
 verdict $? "a mistyped command is answered by its hint, not by the whole list"
 
 # --- new and check --------------------------------------------------------------------------------------
-# A file that `new` writes has no errors, whatever its name; and what stands there stays.
+# A file that `new` writes has no errors, whatever its name. An existing file is kept.
 program=$(cd "$(dirname "$whirl")" && pwd)/$(basename "$whirl")
 for name in swing A _ x9 "$(printf '%057d' 0 | tr 0 n)"; do
     (cd "$scratch" && "$program" new "$name") >"$scratch/out" 2>"$scratch/err" && [ ! -s "$scratch/err" ] &&
@@ -73,7 +73,7 @@ done
 says 2 '^usage: whirl new' new
 says 2 '^usage: whirl check' check
 says 2 'cannot be read' check "$scratch/nothing.whirl"
-# every broken text of tests/bad is refused by its place; good ones beside it are still checked
+# every broken text of tests/bad is refused with its place; good files named beside it are still checked
 sh tests/bad.sh "$scratch/bad"
 for file in "$scratch"/bad/*; do
     "$whirl" check "$file" "$scratch/swing.whirl" >"$scratch/out" 2>"$scratch/err" </dev/null
@@ -110,7 +110,7 @@ if [ -r /proc/self/mem ]; then # a file that breaks off in reading is no shorter
 fi
 says 2 'it has more than one scene' run core/models/thomson.whirl
 says 2 'hint: name one: core/models/thomson.whirl:thomson_a ' run core/models/thomson.whirl:foo
-# of each file with several scenes these alone are named, and of each mechanism with effects all of them
+# for a file with several scenes the message names exactly these; for a mechanism, all its effects
 for file in core/models/*.whirl; do
     awk -v file="$file" '/^mechanism/ { mechanisms++; name = $2; effects = "" }
         /^effect/ { effects = effects $2 ", " }
@@ -171,7 +171,7 @@ methods_of() { # the words of the rows of core/method.h that match
 methods=$(methods_of WH_ | tr '\n' ',' | sed 's/,$//; s/,/, /g')
 of_any=$(methods_of WH_ANY_SYSTEM | tr '\n' ',' | sed 's/,$//; s/,\([^,]*\)$/ or \1/; s/,/, /g')
 says 2 "hint: one of $methods$" run thomson_a --method rk5
-# a method that the form does not have: before anything runs, with a place and a way out
+# a method that the form does not accept is refused before anything runs, with its place and a remedy
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086 # a command and its options
     says 2 "lorenz.whirl:2:7: error: semi-implicit Euler is not defined here: 'x' is of order 1" $command \
@@ -179,7 +179,7 @@ for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086
     says 2 "hint: .* choose --method $of_any$" $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 done
-# nor are accelerations that a composition cannot know
+# compositions do not accept accelerations that depend on rates
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     # shellcheck disable=SC2086
     says 2 "epicyclic.whirl:[0-9:]* error: leapfrog is not defined here: the accelerations depend on the rate of 'theta'" \
@@ -218,7 +218,7 @@ says 2 "'foo' is unknown" run thomson_a --start foo=1
 says 2 'follows from the equations' run thomson_a --start "theta1''=1"
 says 2 "unknown effect 'spin'" run thomson_a --with spin
 says 2 "unknown effect 'spin'" run thomson_a --without spin
-# what belongs to an effect is changed where that takes part
+# parameters and inputs of an effect can be changed only if the effect takes part
 for call in 'run --set b=1' 'derive --set b=1' 'sweep --over b=1..2:2' 'sweep --over X=0..0:1 --set b=1'; do
     # shellcheck disable=SC2086 # lists of words
     says 2 "'b' belongs to the effect 'rail_drag', which is not selected here" $call epicyclic_from_rest
@@ -248,10 +248,10 @@ says 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step 
 says 2 'hint: use a later until or a shorter step' run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
 prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
-# the nearest whole number of steps; the lower one of two that are as near
+# the number of steps is the nearest integer; of two that are equally near, the lower
 prints ', 1000 steps to t = 1 s' run ball_elastic --until 1.0005s --step 1ms
 prints ', 1001 steps to t = 1.001 s' run ball_elastic --until 1.0007s --step 1ms
-# what 32 bits do not hold: a year at 1 ms, 50 years at 1 ns
+# numbers of steps beyond 32 bits: a year at 1 ms, 50 years at 1 ns
 prints 'steps = UINT64_C\(31536000000\),' derive ball_elastic --as c --step 1ms --until 31536000s
 prints 'step = \{UINT64_C\(1\), UINT64_C\(1000000000\)\},' derive ball_elastic --as c --step 1ns --until 1577880000s
 prints 'steps = UINT64_C\(1577880000000000000\),' derive ball_elastic --as c --step 1ns --until 1577880000s

@@ -1,9 +1,9 @@
 #!/bin/sh
-# commands.sh: every command and every option, from their rows: that they stand in the help texts and the documents, that
-# what is listed is taken, and that what is taken makes a difference.
+# commands.sh: every command and option, from their rows: each is in the help texts and the documents, is accepted, and
+# makes a difference.
 . "$(dirname "$0")/../checks.sh"
 
-# What host/cli/commands.h declares, but for what only the project's own build calls.
+# All commands of host/cli/commands.h, except those that only the project's own build calls.
 hidden='emit-scenes|emit-settings|hashes'
 sed -n 's/^int command_\([a-z_]*\)(.*/\1/p' host/cli/commands.h | tr _ - | grep -vxE "$hidden" >"$scratch/commands"
 "$whirl" --help >"$scratch/help" 2>"$scratch/err"
@@ -34,7 +34,7 @@ while read -r command; do
     ! grep -n '.\{100\}' "$scratch/text" >"$scratch/err"
     verdict $? "its help has lines of 99 columns at most"
     options_of "$scratch/text" >"$scratch/options"
-    # all that begin a line are read; these commands have none
+    # the text reads every option at the start of a line; these commands have none
     case $command in accel | new | check) true ;; *) [ -s "$scratch/options" ] ;; esac
     verdict $? "its options are read"
     sed -n "/^## .whirl $command\`/,/^Exit status/p" docs/commands.md >"$scratch/documents"
@@ -73,7 +73,7 @@ effect wind "wind" { Q(x) += 0.2 [N] }
 scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s]; range push = -1 .. 1 [N] }
 END
 sed 's/ - 9 \[J\]\*cos(a)/ + 9 [J]*a^2/' "$scratch/plain.whirl" >"$scratch/linear.whirl"
-# which nothing drives or damps
+# a motion that nothing drives or damps
 sed '/^Q(x)/d; s/with drag; //; s/until 0.1/until 20/' "$scratch/plain.whirl" >"$scratch/free.whirl"
 sample() { # a value of that option that is not what the scene has
     case $1 in

@@ -1,10 +1,11 @@
 #!/bin/sh
-# coverage_sum.sh: what `make coverage` counts (mk/coverage/coverage.awk), on lines as gcov writes them: a line of a header once,
-# whichever object ran it; branches by the objects that have the most of a line's; other folders not at all.
+# coverage_sum.sh: the counts of `make coverage` (mk/coverage/coverage.awk) on lines as gcov writes them. A header's line
+# counts once, whichever object ran it. Branches of a line count by the objects that have most of them. Other folders do not
+# count.
 . "$(dirname "$0")/../checks.sh"
 
-# Two objects: the one ran line 3 one way, the other the other way; a third has settled one of its two conditions, and took
-# all that it has left. Line 4 ran in one, line 5 in none; line 9 is in another folder.
+# Two objects: each ran line 3 one way. In a third, one of the two conditions is constant, and all remaining branches were
+# taken. Line 4 ran in one object, line 5 in none; line 9 is in another folder.
 cat >"$scratch/text" <<'END'
         -:    0:Source:core/a.h
         -:    1:/* a comment */

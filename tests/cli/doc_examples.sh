@@ -1,6 +1,6 @@
 #!/bin/sh
-# doc_examples.sh: every ```whirl block of the documents is a complete file that derives; the C programs of
-# pages end by themselves, whatever flags they are built with. (gate-docs runs the commands of all pages.)
+# doc_examples.sh: every ```whirl block of the documents is a complete file that derives. The C programs of pages end by
+# themselves, whatever flags they are built with. (gate-docs runs the commands of all pages.)
 . "$(dirname "$0")/../checks.sh"
 
 count=0
@@ -21,7 +21,7 @@ for example in "$scratch"/*.whirl; do
     verdict $? "$name"
 done
 
-# --- a reader keeps one folder: `whirl new` of a page writes no file that README has him save.
+# --- a reader works in one folder: no page's `whirl new` writes a file that README tells the reader to save.
 for page in docs/*.md docs/howto/*.md; do
     for name in $(sed -n 's/^[$] build\/whirl new //p' "$page"); do
         ! grep -q "^\`\`\`whirl $name[.]whirl$" README.md
@@ -29,9 +29,9 @@ for page in docs/*.md docs/howto/*.md; do
     done
 done
 
-# --- the programs of pages: what stands in blocks with a file name, and the commands that derive and compile it. They end by
-# themselves, with status 0 or 1, also where the start is refused: here an object file that makes the processor flush small
-# numbers, as linking with -ffast-math does. WHIRL_FULL: twelve sets of flags. (gate-docs runs them as they are.)
+# --- the programs of pages: blocks with a file name, and the commands that derive and compile them. They end by themselves
+# with status 0 or 1, also if the start is refused: here an object file makes the processor flush small numbers, as linking
+# with -ffast-math does. WHIRL_FULL: twelve sets of flags.
 mkdir "$scratch/bin"
 real=$(command -v gcc)
 cat >"$scratch/bin/cc" <<END

@@ -1,12 +1,12 @@
 #!/bin/sh
-# docs.sh: tests/docs.sh finds every output of a page that is not what its command prints: of drawn pages with a line dropped,
-# added or with another digit, with a command that fails, and with blocks that take too long; and renews them.
+# docs.sh: tests/docs.sh finds every output in a page that differs from its command's, and renews it. Random pages have a
+# line dropped, added or with another digit, a command that fails, or blocks that take too long.
 . "$(dirname "$0")/../checks.sh"
 
 page=$scratch/page.md
 
-# draw SEED KIND: a page with three commands, each with 4 to 9 lines of two numbers as output, and what KIND does to one line:
-# right, dropped, added, digit, or word.
+# draw SEED KIND: a page with three commands, each with 4 to 9 lines of two numbers as output. One line is changed by KIND:
+# right (unchanged), dropped, added, digit, or word.
 draw() {
     awk -v seed="$1" -v kind="$2" '
         function below(n) { seed = (seed * 69069 + 12345) % 4294967296; return int(seed / 65536) % n }

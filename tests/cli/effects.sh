@@ -1,6 +1,6 @@
 #!/bin/sh
-# effects.sh: `whirl effects` at the command line: a file of one's own, units, effects that did not act, what cannot run
-# without an effect, command lines that run, errors. Its figures are compared by build/tests/host effect_subsets.
+# effects.sh: `whirl effects` at the command line: a user's file, units, effects that did not act, scenes that need an
+# effect, printed command lines, errors. build/tests/host effect_subsets checks its figures.
 . "$(dirname "$0")/../checks.sh"
 
 cat >"$scratch/cart.whirl" <<'END_OF_FILE'
@@ -66,7 +66,7 @@ done
 says '^smallest set that keeps the error: pull, buffer, far_spring, weight, lift$'
 says '^not tested, so kept: buffer, far_spring, weight, lift$'
 run=$(sed -n 's/^  whirl run/run/p' "$scratch/out")
-# what the two runs differ by, of all rows, against what the answer says
+# the differences between the two runs, over all rows, compared with the answer
 eval "\"\$whirl\" $run --csv \"\$scratch/less.csv\" --quiet" && "$whirl" run "$cart" --csv "$scratch/all.csv" --quiet
 paste -d, "$scratch/all.csv" "$scratch/less.csv" | awk -F, -v told="$(row drag)" '
     NR > 1 { off = $2 - $(NF / 2 + 2); off = off < 0 ? -off : off; most = off > most ? off : most }
@@ -88,7 +88,7 @@ ask "$cart" --error x=5mm --set c=20
 says '^  whirl run .*cart.whirl:swings --set c=20$'
 ask "$scratch/cart.whirl:bare" --with drag,pull --error x=1mm
 says '^  whirl run .*cart.whirl:bare --with pull$'
-# the line has the smallest set's effects, and names none twice: drawn effects of both scenes
+# the line has the effects of the smallest set, each once, for random effects of both scenes
 awk -v seed="${WHIRL_SEED:-47}" 'BEGIN { srand(seed); n = split("drag pull buffer far_spring weight lift", name, " ")
     for (i = 0; i < 6; i++) { with = "all"; for (k = 1; k <= n; k++) if (rand() < 0.5) with = with "," name[k]
         if (i % 3) sub(/^all,?/, "", with); print (i % 2 ? "swings" : "bare"), with } }' >"$scratch/drawn"

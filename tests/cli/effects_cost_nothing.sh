@@ -1,9 +1,8 @@
 #!/bin/sh
-# effects_cost_nothing.sh: an effect that is not called for costs nothing. Every built-in mechanism, with
-# none of its effects, becomes the same code, or at least compiles to the same object, byte for byte, as a file that
-# never mentions them; and so does every scene that calls for none. Mechanisms also for the board, if its compiler is
-# there.
-# And no effect does nothing: called for, each changes the generated code.
+# effects_cost_nothing.sh: an effect that a scene does not use costs nothing. Every built-in mechanism without its effects
+# becomes the same code, or the same object, byte for byte, as a file that never mentions them. So does every scene without
+# effects; mechanisms also for the board, if its compiler is installed. Conversely, each effect that is used changes the
+# generated code.
 . "$(dirname "$0")/../checks.sh"
 
 root=$(pwd)
@@ -14,8 +13,7 @@ without_comment() { # of generated code: the one it begins with
     sed '1,/^ \*\//d' "$1"
 }
 
-# same NAME BOARD: NAME derived from both folders' model.whirl gives the same objects, with BOARD = yes also
-# for the board.
+# same NAME BOARD: NAME derived from both folders' model.whirl gives the same objects; BOARD = yes: for the board too.
 same() {
     for side in with without; do
         "$whirl" derive "$scratch/$side/model.whirl:$1" --as c >"$scratch/$side/model.c" 2>"$scratch/errors" ||
@@ -47,7 +45,7 @@ code() {
     without_comment "$scratch/code.c"
 }
 
-# All that an effect can hold, its own input in front of the mechanism's parameters and input.
+# All that an effect can contain; its own input precedes the mechanism's parameters and input.
 cat >"$scratch/everything.whirl" <<'END'
 mechanism everything "one of each"
 coordinate X [m]
@@ -79,7 +77,7 @@ Q(X) = f
 END
 for file in core/models/*.whirl "$scratch/everything.whirl"; do
     "$whirl" list --as table "$file" >"$scratch/table" || exit 1
-    # Scenes with effects need them; those without must be in both files.
+    # Scenes with effects need them. Scenes without effects must be in both files.
     awk -F '\t' '$1 == "effect" || $1 == "scene" && $7 != "-" && $7 != "ledger" { print $5 "," $6 "d" }' \
         "$scratch/table" >"$scratch/cut"
     cp "$file" "$scratch/with/model.whirl"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# embed_fixed.sh: the program in fixed point of docs/embedding.md: built as its commands there say, and by each compiler that
-# is there, in C and C++; the interpreter's bits; on boards its step calls nothing that computes in floating point.
+# embed_fixed.sh: the fixed-point program of docs/embedding.md, built as its commands there say and by each installed
+# compiler, in C and C++, has the interpreter's bits. On boards its step calls no floating-point function.
 . "$(dirname "$0")/../checks.sh"
 
 mkdir "$scratch/hand" "$scratch/hand/build"

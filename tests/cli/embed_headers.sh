@@ -1,7 +1,7 @@
 #!/bin/sh
-# embed_headers.sh: what firmware includes compiles without a word as C11 and later and as C++11 and later, strict and
-# GNU, in float and in double, among a framework's macros; every function declared there has C's linkage; what is
-# C only says so; the core's names tell the two builds apart; no compiler gets a pragma that it does not know.
+# embed_headers.sh: headers for firmware compile without warnings as C11 and C++11 and later, strict and GNU, in float and
+# double, among a framework's macros. Functions have C linkage, headers for C only say so, names tell the two builds apart,
+# and no compiler sees an unknown pragma.
 . "$(dirname "$0")/../checks.sh"
 
 root=$(pwd)
@@ -23,7 +23,7 @@ have() { command -v "$1" >/dev/null 2>&1; }
 } >"$scratch/all.c"
 cp "$scratch/all.c" "$scratch/all.cpp"
 
-# quiet WHAT COMPILER FLAG...: succeeds, and says nothing.
+# quiet WHAT COMPILER FLAG...: succeeds without any message.
 quiet() {
     what=$1
     shift
@@ -79,11 +79,11 @@ for real in float double; do
     done
 done
 
-# names FOLDER: what its objects define for others.
+# names FOLDER: prints the names that its objects define for others.
 names() {
     nm -g --defined-only "$1"/*.o | awk 'NF == 3 && $3 !~ /^__/ { print $3 }' | sort -u
 }
-# apart: says which names of the double build do not end in _d, and which of the float build do.
+# apart: prints names of the double build that do not end in _d, and names of the float build that do.
 apart() {
     names "$scratch/float" >"$scratch/float.names"
     names "$scratch/double" >"$scratch/double.names"
@@ -103,7 +103,7 @@ apart | grep -q wh_planted
 verdict $? "a function without WH_NAME is noticed"
 rm "$scratch"/*/planted.o
 
-# Every one of them that is declared in what C++ includes is found by C++ under its name: C's linkage.
+# C++ finds every declared name under that name: C linkage.
 declared() { # declared REAL KIND: names of this build that a public header has
     # shellcheck disable=SC2086 # a list of files
     grep -how 'wh_[a-z0-9_]*' $public | sort -u >"$scratch/words"
@@ -130,7 +130,7 @@ for real in float double; do
 done
 
 # --- pragmas ----------------------------------------------------------------------------------------
-# Older compilers are asked by the number that they call themselves; avr-gcc 5.4 is one.
+# Older compilers are imitated by their version number; avr-gcc 5.4 is one.
 "$whirl" derive thomson_a --as c >"$scratch/scene.c"
 for version in 5 6 7 8 12; do
     gcc -std=c11 -U__GNUC__ -D__GNUC__=$version -w -I. -E "$scratch/scene.c" >"$scratch/preprocessed" 2>"$scratch/err"

@@ -1,15 +1,15 @@
 #!/bin/sh
-# embed_names.sh: `whirl derive --as c --header FILE`: names, units and places of a scene for C and C++, and the memory it
-# takes: exactly what wh_scene_start() asks for, for every built-in scene and for generated ones with awkward names and
-# texts, compensated or with books or neither, in float and in double. WHIRL_SEED and WHIRL_CASES change the
-# generated ones; WHIRL_FULL=1 takes three times as many.
+# embed_names.sh: `whirl derive --as c --header FILE`: names, units and places for C and C++, and the memory, which must be
+# exactly what wh_scene_start() requires. For built-in scenes and generated ones with awkward names and texts, with or
+# without compensated sums and energy balance, in float and double. WHIRL_SEED and WHIRL_CASES change the generated ones;
+# WHIRL_FULL=1 takes three times as many.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
 gen=build/gen
 flags="-ffp-contract=off -I. -I$gen -I$scratch -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror"
 
-# says STATUS PATTERN WORD...: exit status, and a matching line of standard error; what is refused says nothing else.
+# says STATUS PATTERN WORD...: exit status, and a matching line of standard error; a refusal has no other output.
 says() {
     status=$1
     pattern=$2
@@ -49,7 +49,7 @@ echo kept >"$scratch/c.c"
 [ $? -eq 2 ] && grep -q 'error: --header and standard output cannot share a file' "$scratch/err" && [ "$(cat "$scratch/c.c")" = kept ]
 verdict $? "--header and standard output cannot share a file"
 
-# A scene that C++ could not name, by the compiler's own judgement.
+# The compiler decides which scenes C++ could not name.
 for word in alignas alignof and and_eq asm bitand bitor catch char16_t char32_t class compl const_cast constexpr decltype \
     delete dynamic_cast explicit export friend mutable namespace new noexcept not not_eq nullptr operator or or_eq private \
     protected public reinterpret_cast static_assert static_cast template this thread_local throw try typeid typename \
@@ -66,8 +66,8 @@ for word in alignas alignof and and_eq asm bitand bitor catch char16_t char32_t 
 done
 verdict 0 "scenes with names that are words of C++ are refused, where a header is asked for"
 
-# And every name that a generated file has itself: refused, or without a word. What compilers and headers have is the
-# business of tests/host/test_c_names.c.
+# Names that a generated file itself uses are refused, or cause no warning. tests/host/test_c_names.c covers names of
+# compilers and headers.
 for one in "carriage_stop --with ledger" "ball_between" "thomson_b_conserved --compensated" rig_fixed; do
     # shellcheck disable=SC2086 # a scene and its options
     "$whirl" derive $one --as c
@@ -99,7 +99,7 @@ for scene in $scenes; do
     [ ! -e "$gen/$scene.h" ] || in_gen="$in_gen $scene"
 done
 
-# memory SCENE...: a program that starts each with what its header says, and with a byte less.
+# memory SCENE...: a program that starts each scene with the memory that its header states, and with a byte less.
 memory() {
     printf '#include "%s.h"\n' "$@"
     cat <<'END'

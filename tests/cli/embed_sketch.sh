@@ -1,6 +1,6 @@
 #!/bin/sh
-# embed_sketch.sh: the sketch of docs/embedding.md, in C++ with two scenes, one of them twice: built as a framework builds
-# it, run with a small host program, equal hashes. Built for boards, too, with each compiler that is there.
+# embed_sketch.sh: the sketch of docs/embedding.md in C++, with two scenes, one of them twice. It is built as a framework
+# builds it and run with a small host program; hashes are equal. Also built for boards with each installed compiler.
 . "$(dirname "$0")/../checks.sh"
 
 awk '/^```cpp$/ { into = 1; next } /^```/ { into = 0 } into' docs/embedding.md >"$scratch/body"
@@ -11,7 +11,7 @@ for scene in epicyclic_from_rest thomson_a; do
     "$whirl" derive $scene --as c --header "$scratch/$scene.h" >"$scratch/$scene.c" 2>"$scratch/err"
     verdict $? "$scene is derived"
 done
-# Nothing but what `make install` puts there is compiled with the sketch.
+# Only what `make install` installs is compiled with the sketch.
 env -u MAKEFLAGS -u MAKEOVERRIDES make -s install DESTDIR="$scratch/tree" PREFIX=/usr >"$scratch/err" 2>&1
 verdict $? "make install DESTDIR= PREFIX="
 installed=$scratch/tree/usr
@@ -74,7 +74,7 @@ done
     verdict $? "avr-g++ compiles it for an ATmega2560"
 }
 
-# The CMake project of docs/howto/firmware.md, with what is installed; and with a path that has no core.
+# The CMake project of docs/howto/firmware.md with the installed files, and with a path that has no core.
 if command -v cmake >/dev/null 2>&1; then
     mkdir "$scratch/cmake"
     for block in 'c main.c' 'cmake CMakeLists.txt'; do

@@ -1,12 +1,11 @@
 #!/bin/sh
-# emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and in double, with
-# gcc and with clang, and steps to the same bits as the interpreter, a step or many a call: for every built-in scene, every file
-# of tests/mechanisms, and scenes made for the odd corners of the operation list.
-# There are four builds, and the list of scenes is in four parts, two of an eighth. `make gate-long` compiles the first
-# by the build that programs have and the second by the one that differs most from it; WHIRL_FULL=rest (make full) the
-# other two parts by these, and the first two by the other two builds; WHIRL_FULL=1 (make full) all by all. With
-# WHIRL_FEW=1 (make sanitizers-all, where the program is what is tested) every other one is derived and interpreted, and
-# nothing compiled.
+# emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and double, with gcc and clang. It
+# steps to the interpreter's bits, with a step or many a call: every built-in scene, every file of tests/mechanisms, and
+# scenes for rare operations.
+# There are four builds and four parts of the list of scenes, two of them an eighth. `make gate-long` compiles the first
+# part by the usual build, the second by the one that differs most. WHIRL_FULL=rest compiles the other parts by these builds
+# and the first two by the other builds, WHIRL_FULL=1 all by all. WHIRL_FEW=1 derives and interprets every other scene and
+# compiles none.
 . "$(dirname "$0")/../checks.sh"
 
 compared=0
@@ -23,7 +22,7 @@ add() { # add TARGET OPTION...: what to derive and run
 for scene in $("$whirl" list | awk '$1 == "scene" { print $2 }'); do
     add "$scene" --until 0.3s
 done
-# the books leave the bits as they are, and compile
+# the energy balance leaves the bits unchanged, and compiles
 for scene in thomson_a epicyclic_conserved; do
     add "$scene" --with ledger --until 0.3s --angles lookup
     add "$scene" --with ledger --until 0.3s --compensated --method rk38
@@ -31,14 +30,14 @@ done
 for scene in thomson_a epicyclic_conserved $("$whirl" list | awk '$1 == "scene" { print $2 }' | grep -E 'ball|walk|magnet|creep'); do
     add "$scene" --with ledger --until 0.3s
 done
-# what the energy drifts by is given back
+# with --stabilized
 for scene in spherical_flight docs/hard/long.whirl:gear_turns docs/hard/long.whirl:pendulum_swings; do
     for more in "" --compensated "--angles lookup" "--method nystroem5 --compensated"; do
         # shellcheck disable=SC2086 # of words, or of none
         add "$scene" --stabilized --until 0.3s $more
     done
 done
-# compositions are refused where accelerations take rates
+# compositions are refused if accelerations depend on rates
 no_rates=$(sed -n 's/^ *X(WH_[A-Z0-9_]*, "\([a-z0-9-]*\)", .*WH_NO_RATES.*/\1/p' core/method.h)
 for method in $no_rates; do
     for more in "" --compensated "--angles lookup"; do
@@ -57,7 +56,7 @@ for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; d
     add "$scene" --until 0.2s --angles lookup --compensated
 done
 
-# tables of one angle's functions; folded, too, as where there is no FPU
+# tables of one angle's functions; also folded, as on boards without an FPU
 tabled() { # tabled FOLD TARGET OPTION...
     [ "$1" = whole ] || : >"$scratch/$((number + 1)).folded"
     shift
@@ -82,7 +81,7 @@ tabled whole epicyclic_conserved --tables cubic --with ledger
 tabled folded epicyclic_from_rest --tables cubic --start "theta'=-700"
 tabled whole epicyclic_conserved --tables cubic --cells 256 --start "theta'=-700"
 
-# The state of a mechanism's file: every value and rate something of its own.
+# The state of a mechanism's file: every value and rate has a different number.
 start_of() {
     "$whirl" accel "$1" 2>/dev/null | awk '{
         name = $1; order = gsub("\047", "", name); rate = name
@@ -153,7 +152,7 @@ mechanism bare "one length, nothing acts"
 coordinate x [m]
 T = 3 [kg]*x'^2/2
 END
-# T + V is not what the books keep here, and an input is in the energies
+# the balance here is not that of T + V, and an input is in the energies
 cat >"$scratch/w/hoop.whirl" <<'END'
 mechanism hoop "a bead on a hoop whose rate is an input"
 coordinate th [rad]
@@ -164,7 +163,7 @@ V = -0.2 [J]*cos(th)
 Q(th) = push
 stop th <= 0.7 restitution 0.5
 END
-# angles that only the books need outside sines
+# angles that only the energy balance needs outside sines
 cat >"$scratch/w/gauge.whirl" <<'END'
 mechanism gauge "a total derivative in the energies"
 coordinate a [rad]
@@ -180,7 +179,7 @@ for file in offsets outside roots first; do
     add_file "$scratch/w/$file.whirl"
     echo --compensated >>"$scratch/$number.options"
 done
-# what says where its stages stand: in books, contacts, sums of angles and systems of first order
+# methods whose stages have a time of their own: with balance, contacts, sums of angles, systems of first order
 for method in nystroem3 nystroem4 nystroem5; do
     add thomson_a --with ledger --until 0.3s --method "$method"
     add thomson_a --until 0.3s --method "$method" --compensated
@@ -310,8 +309,8 @@ done
 # --- deriving and interpreting ----------------------------------------------------------------------
 : >"$scratch/numbers"
 [ -z "${WHIRL_FEW:-}" ] || sed -i 'n;d' "$scratch/list"
-# part_of NUMBER: which part of the list it is of, 0 to 3: by no rhythm that the list has, too (Thue and Morse's of all bits and
-# of every other one); tables that are folded are so in float alone, which parts 0 and 2 are compiled in.
+# part_of NUMBER: the part of the list that it belongs to, 0 to 3, without any rhythm that the list has (Thue and Morse's
+# sequence of all bits and of every other one). Folded tables exist in float alone, which parts 0 and 2 are compiled in.
 ones() { # of NUMBER, 10 bits: odd or even
     echo $((($1 ^ $1 >> 1 ^ $1 >> 2 ^ $1 >> 3 ^ $1 >> 4 ^ $1 >> 5 ^ $1 >> 6 ^ $1 >> 7 ^ $1 >> 8 ^ $1 >> 9) & 1))
 }
@@ -345,7 +344,7 @@ while read -r number what; do
     [ -n "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || [ "$(part_of "$number")" -eq 0 ] || real=double
     "$whirl" run "$@" --number "$real" >"$scratch/$number.$real" 2>"$scratch/$number.run"
     ran=$?
-    # status 1: it diverges, and must do so after the same step in both
+    # status 1: it diverges, after the same step in both
     if [ $derived -ne 0 ] || [ $ran -gt 1 ]; then
         verdict 1 "$what: derive says $derived, run says $ran"
         sed 's/^/    /' "$scratch/errors" "$scratch/$number.run" | head -n 5
@@ -416,7 +415,7 @@ build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD NUMBERS
     done <"$scratch/$1_$3.hashes"
 }
 
-# For size, and with no constants passed into functions, as an image may be compiled: gcc warned of contacts' loops.
+# Compiled for size, without constants passed into functions, as an image may be: gcc once warned of contacts' loops.
 if [ -z "${WHIRL_FEW:-}${WHIRL_FULL:-}" ]; then
     (cd "$scratch" && grep -l 'WH_CONTACTS_OF' scene_*.c | xargs grep -l '^#define WH_COORDS [12]$' | head -n 6) >"$scratch/small"
     [ "$(wc -l <"$scratch/small")" -eq 6 ]

@@ -1,7 +1,7 @@
 #!/bin/sh
-# enclosures.sh: interval arithmetic (host/number/enclosure.h) holds what is exact, whatever compiles it: the suite of
-# build/tests/host enclosure under gcc and clang, not optimised and optimised as far as they go, with fused
-# multiplication and addition where they may; and fast-math is refused. `make test` takes two builds; WHIRL_FULL=1 all.
+# enclosures.sh: intervals (host/number/enclosure.h) contain the exact results under any compiler: build/tests/host
+# enclosure by gcc and clang, not optimised or as far as possible, with fused multiply-add if available. fast-math is
+# refused. `make test` takes two builds; WHIRL_FULL=1 all.
 . "$(dirname "$0")/../checks.sh"
 
 unity=$(dirname "$whirl")/unity
@@ -89,7 +89,7 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     holds clang -O2
     if grep -q ' fma ' /proc/cpuinfo 2>/dev/null; then
         holds gcc -O3 -march=haswell -ffp-contract=fast
-        # clang takes that above the core's pragma: whirl would not start
+        # clang prefers its flag to the core's pragma: whirl would not start
         if command -v clang >/dev/null 2>&1; then
             build clang -O3 -march=haswell -ffp-contract=fast >"$scratch/err" 2>&1
             "$scratch/program" >"$scratch/said" 2>&1

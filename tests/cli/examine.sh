@@ -11,7 +11,7 @@ says() { # says WHAT PATTERN WORD...: a line of the answer matches
     verdict $? "$what" "$scratch/out"
 }
 
-# Conserved momenta of each: what the books of a run find conserved too, for every coordinate of its own.
+# The conserved momenta of each mechanism are those that the balance of a run finds, for every coordinate.
 "$whirl" list | awk '$1 == "mechanism" { print $2 }' | while read -r name; do
     "$whirl" examine "$name" >"$scratch/out" 2>"$scratch/err"
     case $? in

@@ -1,10 +1,10 @@
 #!/bin/sh
-# families.sh: a family of boards is its own folders, and tests: without them nothing is left that names it, make builds and
-# gates what else there is, and no package is asked for that only it takes. Tried in a copy, with each family but the first.
+# families.sh: a family of boards consists of its folders and its tests. Without them nothing names it, make builds and
+# tests the others, and asks for no package that only it needs. Tried in a copy, with each family but the first.
 . "$(dirname "$0")/../checks.sh"
 
 here=$(pwd)
-# folders_of FAMILY: its folder, and every folder whose makefile includes it, or one that does.
+# folders_of FAMILY: its folder, and every folder whose makefile includes it directly or indirectly.
 folders_of() {
     found=$1
     while :; do
@@ -16,7 +16,7 @@ folders_of() {
     echo $found
 }
 
-# without FAMILY: the copy.
+# without FAMILY: makes the copy.
 without() {
     tree=$scratch/without_$1
     mkdir "$tree"
@@ -40,7 +40,7 @@ for family in avr riscv; do
     [ "$(for folder in $folders; do ls "boards/$folder/board.mk" 2>/dev/null; done | wc -l)" -ge 2 ]
     verdict $? "the folders of $family: $folders"
     without $family
-    # Pages of measured prices show the boards that they show (mk/price, mk/price.mk, mk/curves.mk).
+    # Pages of measured prices name the boards that they show (mk/price, mk/price.mk, mk/curves.mk).
     for folder in $folders; do
         ! grep -rn "boards/$folder\b" "$tree/Makefile" "$tree/mk" "$tree/boards" >"$scratch/err"
         verdict $? "nothing names boards/$folder"

@@ -1,7 +1,7 @@
 #!/bin/sh
-# faults.sh: `whirl pil --fault` and the campaign of faults: every kind is taken, what is none is refused with a hint, a
-# small campaign is the same on one process and on two, finds nothing wrong, and a run of it can be repeated by its command.
-# WHIRL_FULL: a larger one, and one in the emulator. WHIRL_FEW (sanitizers): a smaller one.
+# faults.sh: `whirl pil --fault` and the campaign of faults. Every kind is accepted, an unknown one is refused with a hint.
+# A small campaign gives the same on one process and on two, finds no violation, and its command repeats a run. WHIRL_FULL:
+# a larger campaign, and one in the emulator. WHIRL_FEW: a smaller one.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
@@ -47,9 +47,9 @@ sh tests/limit.sh 20 "$whirl" pil --replay "$scratch/none" --firmware "$build/pi
 verdict $? "a tape takes no faults"
 
 # --- what they do -----------------------------------------------------------------------------------------------------
-# told WORD FILE: what the firmware's note of that name came to
+# told WORD FILE: the value of the firmware's note of that name
 told() { sed -n "s/^it tells .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
-# run FAULTS: the rig with them
+# run FAULTS: runs the rig with them
 run() {
     # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"
@@ -82,7 +82,7 @@ verdict $? "a stop line that is broken counts as pressed" "$scratch/run"
 run stop@0.5s+10ms
 grep -aq '^STOPPED: ' "$scratch/run" && ! grep -aq armed "$scratch/run"
 verdict $? "and one that was pressed before it armed is not forgotten" "$scratch/run"
-# A controller that is late in each step while the rotor brakes, or whose orders get lost: its last word is the enable, off.
+# The controller is late in each step while the rotor brakes, or its orders are lost: the enable ends off.
 awk -v seed="$(date +%j)" 'BEGIN { srand(seed); for (i = 0; i < 4; i++) { printf "%s=%.5f %.2f\n", i % 2 ? "orders-lost" : "late",
         i % 2 ? 0.3 * rand() : 0.0021 + 0.004 * rand(), 20 + 12 * rand() } }' |
     while read -r fault speed; do
@@ -94,7 +94,7 @@ awk -v seed="$(date +%j)" 'BEGIN { srand(seed); for (i = 0; i < 4; i++) { printf
 verdict $? "a controller that is late or not heard while it brakes ends with the enable off" "$scratch/bad"
 
 # --- driven though it is off ------------------------------------------------------------------------------------------
-# off TRIPS WORD...: at 60 s the motor is off, and the trip is one of these
+# off TRIPS WORD...: at 60 s the motor is off, and the trip is one of TRIPS
 off() {
     trips=$1
     shift
@@ -108,13 +108,13 @@ off 12 --set brakes=1 --set speed=250rpm --fault supply=0.5,runaway@state=14
 off '2 10' --fault stop@9s,stuck=0.9@9s
 off '10 12' --set brakes=1 --fault stuck=0.4@state=15
 off '10 12' --fault stop@9s,stuck@9s,edge-dead:1@9s
-# a stage that obeys its enable drives nothing: it is off, and that is all
+# a stage that obeys its enable drives nothing: the motor is off, without a trip
 off 0 --set speed=250rpm --fault supply=0.5,runaway@state=14
 off 0 --fault stop@9s,runaway=0.4@9s
 off 0 --fault stop@2.1s,runaway@2.1s,edge-dead:1
 
 # --- stopped, and reset ---------------------------------------------------------------------------------------------------
-# Of each class some, at drawn instants: off at once, idle or tripped as before, and nothing starts by itself.
+# Some of each class, at random instants: off at once, idle or tripped as before, and nothing starts by itself.
 few=8
 [ -z "${WHIRL_FEW:-}" ] || few=2
 [ -z "${WHIRL_FULL:-}" ] || few=30
@@ -150,7 +150,7 @@ for words in '' '--firmware' "--firmware $build/pil_rig --runs x" "--firmware $b
     [ $? -eq 2 ] && grep -q '^usage' "$scratch/err"
     verdict $? "faults $words: refused"
 done
-# interrupted, it tells of what was done; on a machine that is busy nothing may be, yet
+# an interrupted campaign reports the runs that were done; on a busy machine this may be none
 for pause in 2 10 30; do
     sh tests/limit.sh 60 "$faults" --firmware "$build/pil_rig" --runs 100000 >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
