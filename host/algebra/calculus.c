@@ -108,7 +108,7 @@ static const poly *slope_of_tanh(algebra *a, const call *of, int which) {
     return poly_pow(a, poly_call(a, FN_COSH, of->x, NULL), -2.0);
 }
 
-/* Except at its jump. */
+/* The slope is 0, except at the jump. */
 static const poly *slope_of_sign(algebra *a, const call *of, int which) {
     (void)of;
     (void)which;

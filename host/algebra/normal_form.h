@@ -38,7 +38,7 @@ typedef enum atom_kind {
 struct atom {
     atom_kind kind;
     unsigned id;          /* for hash tables only; poly.c defines the order */
-    uint64_t rank;        /* its rank in the order of atoms: poly.c */
+    uint64_t rank;        /* rank in the order of atoms, which poly.c defines */
     const symbol *symbol; /* ATOM_SYMBOL */
     int primes;
     function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */

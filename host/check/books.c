@@ -375,7 +375,7 @@ static void find_frame(books *b) {
     }
     for (int c = 0; c < n && known; c++) {
         for (int r = -1; r < rank && !leads[c];
-             r++) { /* momentum c less its components along those with a pivot */
+             r++) { /* momentum c minus its components along the momenta with a pivot */
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
             b->frame[i] = b->frame[i] || share > FRAME_LEAST;

@@ -15,7 +15,7 @@
  * entry is positive if it adds (a motor's work, a push along a coordinate), negative if it removes (a damper, an impact).
  * An exact solution has a zero residual. */
 typedef struct book_account {
-    double level[2]; /* at the start, now */
+    double level[2]; /* at the start, and now */
     double left;     /* residual after the entries so far */
     double largest;  /* size of the largest entry */
 } book_account;
@@ -43,7 +43,7 @@ typedef struct books {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
-    double moving_J[2];  /* the same without the part odd in the rates */
+    double moving_J[2];  /* kinetic_J without the part odd in the rates */
     double stored_J[2];
     double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */

@@ -35,8 +35,8 @@
 #define ENERGY_RESIDUAL_COLUMN "energy_residual"
 
 typedef struct energy_residual {
-    bool known;          /* false: no energies, no finite ones, or no ledger of contacts */
-    book_account energy; /* the balance and its largest entry */
+    bool known; /* false: no energies, energies that are not finite, or contacts without a ledger */
+    book_account energy; /* the energy's account */
     double inputs_J;     /* entries of the energy, by source; negative: taken */
     double losses_J;
     double contacts_J;

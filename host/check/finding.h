@@ -36,9 +36,9 @@ typedef struct finding_row {
     const char *word;
     finding_severity severity;
     double limit;
-    const char *unit;   /* of the limit */
-    const char *reason; /* of the limit */
-    const char *points; /* of a sweep: "3 of 9 points ..." */
+    const char *unit;   /* unit of the limit */
+    const char *reason; /* reason for the limit */
+    const char *points; /* words for a sweep, after "3 of 9 points" */
 } finding_row;
 
 extern const finding_row finding_rows[FINDINGS];

@@ -210,7 +210,7 @@ typedef struct search {
     budget *budget;
     double part;   /* factor of the limits (run_checks.h) */
     double a_step; /* operations of a step of the run, with its checks */
-    double stages; /* of the run's method */
+    double stages; /* stages of the run's method */
     bool dear;
 } search;
 
@@ -523,7 +523,7 @@ void findings_message(FILE *out, const run_checks *v, finding_id id) {
     alloc_text_end(whole);
     const char *begin = begins[id == FINDING_APART];
     const char *at = strstr(text, begin);
-    if (at != NULL) { /* the first line, without its head and its finding's name */
+    if (at != NULL) { /* take the first line, without its beginning and the finding's name */
         char tail[40];
         at += strlen(begin);
         const size_t line = strcspn(at, "\n");

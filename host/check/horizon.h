@@ -31,8 +31,8 @@ typedef struct horizon_column {
 typedef struct horizon {
     const step_doubling *of;
     double tolerance;
-    horizon_column *column; /* [of->columns]; 0, the time, is not used */
-    bool to_the_end;        /* all columns */
+    horizon_column *column; /* [of->columns]; entry 0, the time, is unused */
+    bool to_the_end;        /* all columns are accurate to the end */
     int first;              /* the column whose accuracy ends first; -1: none before the end */
     double until_s;         /* that column's until_s, or the end */
 } horizon;

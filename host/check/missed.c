@@ -21,9 +21,9 @@ typedef struct taylor_bounds taylor_bounds;
 
 /* A value on a part of the way; NaN: unknown. */
 typedef struct form {
-    enclosure middle;       /* at the middle of the part */
-    enclosure middle_slope; /* its slope */
-    enclosure value;        /* on the part, */
+    enclosure middle;       /* value at the middle of the part */
+    enclosure middle_slope; /* slope at the middle of the part */
+    enclosure value;        /* bounds over the whole part */
     enclosure slope;
     enclosure curve;
 } form;
@@ -449,7 +449,7 @@ static void go(taylor_bounds *a, double low, double high) {
         const double most = number_most(fabs(curve[0]), fabs(curve[2]));
         const enclosure slopes_on = between(slope[0], slope[2], bend * fabs(third));
         const enclosure curves = between(curve[0], curve[2], 0.0);
-        /* the state is known to its rounding */
+        /* the state is known only up to its rounding */
         a->place[i] = (form){enclosure_about(at[1], 0), enclosure_of(slope[1]),
                              between(at[0], at[2], bend * most), slopes_on, curves};
         const form rate = {enclosure_of(slope[1]), enclosure_of(curve[1]), slopes_on, curves,
@@ -857,7 +857,7 @@ static missed_found force_passed(missed *m) {
         taylor_bounds_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {
             const enclosure value =
-                taylor_bounds_value(m->accel, i); /* an end without bounds proves nothing */
+                taylor_bounds_value(m->accel, i); /* if the end has no bounds, nothing is proved */
             const double size = enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
             m->most[i] = (end == 0 ? 0.0 : m->most[i]) + size;
         }

@@ -13,7 +13,7 @@
 typedef struct blamed {
     const image *image;
     double **state; /* [unknowns][order + 1] value, rate, ... */
-    double *input;  /* [inputs] as they start */
+    double *input;  /* [inputs] values at the start */
     double *value;  /* [blame.nodes] */
 } blamed;
 

@@ -38,9 +38,9 @@ enum { GROWTH_POINTS = 10 };
 #define GROWTH_BEYOND 1e60
 
 typedef enum growth {
-    GROWTH_ROUGH, /* it does not go on evenly: rounding, or a zero; from farther off it may */
-    GROWTH_NONE,  /* evenly, and no pole: it has a limit, or one over a root has */
-    GROWTH_POLE   /* evenly */
+    GROWTH_ROUGH, /* the growth is uneven, because of round-off or a zero; from farther away it may be even */
+    GROWTH_NONE, /* even growth, but no pole: a limit, or one over a root */
+    GROWTH_POLE  /* even growth, as at a pole */
 } growth;
 
 /* Least growth of a pole at each distance. A pole grows by 1.71, the distance to the power -9/10 by 1.62. The ratio of distances
@@ -56,11 +56,11 @@ typedef struct part {
 
 typedef struct looker {
     const pole_way *way;
-    double *sign; /* [signs] at the begin of a part, */
-    double *then; /* and at its end */
+    double *sign; /* [signs] values at the begin of a part */
+    double *then; /* [signs] values at the end of the part */
     double *value;
     double *side;  /* [GROWTH_POINTS * values] */
-    bool *done;    /* [values] it has been seen to be no pole there */
+    bool *done;    /* [values] this value has no pole at the place */
     double *touch; /* [4 * signs] */
 } looker;
 
@@ -75,7 +75,7 @@ static growth growth_of(const double *value, int stride) {
         if (isinf(now) && isfinite(before) && fabs(before) > GROWTH_BEYOND) {
             return GROWTH_POLE;
         }
-        if (!(by > 0.0) || isinf(now)) { /* or no number, or another sign */
+        if (!(by > 0.0) || isinf(now)) { /* NaN, or another sign */
             return GROWTH_ROUGH;
         }
         least = number_least(least, by);
@@ -87,7 +87,7 @@ static growth growth_of(const double *value, int stride) {
     return least > GROWS ? GROWTH_POLE : GROWTH_NONE;
 }
 
-/* The first that changes its sign in this part, or -1. */
+/* The first value that changes its sign in this part, or -1. */
 static int changes(const looker *l) {
     for (int i = 0; i < l->way->signs; i++) {
         if ((l->sign[i] < 0.0 && l->then[i] > 0.0) || (l->sign[i] > 0.0 && l->then[i] < 0.0)) {
@@ -110,7 +110,7 @@ bool pole_may_touch(const double value[static 4]) {
     return begin - falls * share <= TOUCHES * number_least(begin, end);
 }
 
-/* The first that may touch zero in this part, or -1. */
+/* The first value that may touch zero in this part, or -1. */
 static int touches(const looker *l, part p) {
     const double aside = POLE_ASIDE * (p.high - p.low);
     const double share[4] = {p.low, p.low + aside, p.high - aside, p.high};
@@ -157,7 +157,7 @@ static double least_of(const looker *l, int i, part p) {
     return 0.5 * (p.low + p.high);
 }
 
-/* The part that contains it. */
+/* Halves the part until it locates the sign change of value i. */
 static part halve(const looker *l, int i, part p) {
     const bool rises = l->sign[i] < 0.0;
     for (int k = 0; k < HALVINGS; k++) {
@@ -201,18 +201,18 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
 typedef struct spot {
     part in;
     double zero_at;
-    double nearest; /* from so near on */
-    int of;         /* the value with the sign change there, */
-    bool touches;   /* or only touches zero */
+    double nearest; /* smallest useful distance from the place */
+    int of;         /* the value with the sign change at the place */
+    bool touches;   /* the value only touches zero */
 } spot;
 
-/* Some nearest of the points, and one that is nine times as far off as the nearest. */
+/* The number of nearest points, and the index of the point that is nine times as far from the place as the nearest. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 /* Tolerance of the value at the place. */
 #define LEFT 0.05
 
-/* Does it stay off zero there, as y^2 + x^2 does? Yes if the value left after removing the square agrees
- * with the one at the place. */
+/* Does the value stay above zero at the place, as y^2 + x^2 does? It does if, without its square part, it equals the
+ * value at the place. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -228,7 +228,7 @@ static bool stands_off(double at_place, const double *over, double far) {
     return stands;
 }
 
-/* Is the place one of this spot's, as far as its own values tell? over[GROWTH_POINTS]: one over their sizes. */
+/* Is there a zero of the spot's value, judged by over[GROWTH_POINTS], the reciprocals of its sizes? */
 static bool is_there(const spot *s, const double *over) {
     const growth kind = growth_of(over, 1);
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
@@ -367,26 +367,26 @@ int pole_on(const pole_way *w) {
 
 typedef struct divisor {
     int node;      /* of the blame list; if `derived`, an operation of the books list */
-    bool of_a_tan; /* its cosine changes its sign */
+    bool of_a_tan; /* the cosine of a tangent's argument: it changes its sign at the pole */
     bool derived;
     bool leaps;    /* an event may change it at once */
-    bool bends;    /* it is no straight line over the state, and may touch zero */
-    double before; /* the step, */
-    double aside;  /* hardly on its way, */
-    double now;    /* and after it */
+    bool bends;    /* it is nonlinear in the state, and may touch zero */
+    double before; /* value before the step */
+    double aside;  /* value at POLE_ASIDE of the step's way */
+    double now;    /* value after the step */
 } divisor;
 
 typedef struct denominators {
     blamed at;
     unsigned char *is; /* [nodes] */
-    int *order;        /* [ordered] nodes that are needed for those watched, operands first */
+    int *order;        /* [ordered] nodes that the watched ones depend on, operands first */
     int ordered;
     divisor *divisor; /* [count] */
     int count;
     bool some_bend;
-    int *asked; /* [questions] those that may grow, of the image's */
+    int *asked; /* [questions] the image's questions that may grow */
     int questions;
-    vector_field *field; /* of the derived divisors; NULL without any */
+    vector_field *field; /* for derived divisors; NULL without any */
     double *slope;       /* [field->n] */
 } denominators;
 
@@ -397,8 +397,8 @@ enum {
     DIVIDES = 4U,  /* a factor of a divisor */
     OF_A_TAN = 8U, /* the argument of a tangent */
     NEEDED = 16U,
-    LEAPS = 32U, /* and on values that an event may change at once */
-    BENDS = 64U, /* and not in a straight line */
+    LEAPS = 32U, /* depends on values that an event may change at once */
+    BENDS = 64U, /* depends on the state nonlinearly */
 };
 
 /* Places are continuous at an event, unless a crossing sets them. */
@@ -419,7 +419,7 @@ static unsigned moves_of(const image *im, const diagnostics_node *n) {
     return MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
 }
 
-/* Is it nonlinear in the moving values? */
+/* Is the node nonlinear in the moving values? */
 static bool bends(const denominators *d, const diagnostics_node *n, const int *of, int count) {
     const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
     const bool second = count > 1 && (d->is[of[1]] & MOVES) != 0;
@@ -630,7 +630,7 @@ static int denominators_values(const denominators *d) {
     return d->questions + (d->field != NULL ? d->field->n : 0);
 }
 
-/* At the state that was seen last. */
+/* The value of a divisor at the last state. */
 static double denominators_value(const denominators *d, const divisor *of) {
     if (of->derived) {
         return evaluator_value(d->field->evaluator, of->node);
@@ -801,7 +801,7 @@ static bool changes_sign(const divisor *d) {
     return (d->before < 0.0 && d->now > 0.0) || (d->before > 0.0 && d->now < 0.0);
 }
 
-/* May a nonlinear one have touched zero without a change of sign? */
+/* May a nonlinear divisor have touched zero without changing its sign? */
 static bool may_touch(pole_crossing *j) {
     double state[3 * IMAGE_COMPONENTS_MAX];
     if (!j->of.some_bend) {

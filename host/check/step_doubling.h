@@ -50,7 +50,7 @@ void passages_free(passages *p);
 double passages_until_s(const passages *p, double level);
 
 typedef struct step_doubling_column {
-    double start; /* in the finer run, in the column's unit, as are: */
+    double start; /* this and the following, in the finer run and the column's unit */
     double low;
     double high;
     double rounding; /* bound on the column's round-off in the finer run */
@@ -76,8 +76,8 @@ typedef struct step_doubling_aliased {
 typedef struct step_doubling {
     image finer;         /* the finer run's image; shares the lists of the image it was made from */
     uint64_t each;       /* steps of the finer run in one step of the run */
-    uint64_t operations; /* of all steps of the finer run */
-    double left_out;     /* factor for the finer run's own error, as a part of the difference */
+    uint64_t operations; /* operations of all steps of the finer run */
+    double left_out;     /* factor on the difference that adds the finer run's own error */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
     bool
         otherwise; /* the finer run's constants are folded in another way. They are not more accurate, so ranges are the run's */

@@ -46,7 +46,7 @@ bool opening_moves(const opening *o, const records *r);
 /* Prints the sentence for a run that ends with the records' current row. `b` may be NULL. */
 void opening_print(FILE *out, const opening *o, const records *r, const books *b);
 
-/* The scene, its effects, how it was integrated. */
+/* Prints the scene, its effects, and the method. */
 void summary_head(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
 /* Prints the numbers. `b` may be NULL; `balance` is its residual. There are no timings, so equal runs have equal summaries. */

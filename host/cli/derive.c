@@ -296,7 +296,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const bool from_equations = as->shows || (has_folded(as) && !o->folded);
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
-    if (!as->runs) { /* equations and code for other programs have no tables */
+    if (!as->runs) { /* equations, and code for other programs, have no tables */
         taken.tables = TABLES_NONE;
         taken.cells = 0;
     }
@@ -354,7 +354,7 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     derive_options *o = options;
     const char *value = options_value(count, words, at, "--as", bad);
     if (value != NULL) {
-        if (options_same("matlab", value)) { /* it runs the same function file */
+        if (options_same("matlab", value)) { /* Matlab runs the same function file */
             value = "octave";
         }
         const int chosen = options_choose("derive", "form", value, forms, sizeof forms[0], FORMS);

@@ -232,7 +232,7 @@ char *read_all(const char *path, size_t *length) {
     for (;;) {
         *length += fread(text + *length, 1, size - *length - 1, in);
         if (*length < size - 1 || *length > MODEL_BYTES_MAX) {
-            break; /* the parser reports that it is too long */
+            break; /* the text is too long, which the parser reports */
         }
         size *= 2;
         text = alloc_more(text, (int64_t)size, 1);

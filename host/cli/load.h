@@ -66,7 +66,7 @@ typedef struct load_wish {
     image_use use;
     load_keep keep;
     bool conserve;       /* recover the coordinates that the scene names from their momentum */
-    const char *comment; /* contacts in words: begins each of their lines; NULL: no words */
+    const char *comment; /* begins each line about contacts in `contacts`; NULL: no such lines */
 } load_wish;
 
 typedef struct loaded {

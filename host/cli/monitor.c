@@ -223,7 +223,7 @@ static void go_on(monitor *m) {
     m->met = true;
     if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {
         m->begun = true;
-        m->wire.damaged = 0; /* from an earlier time */
+        m->wire.damaged = 0; /* damage from before the recording does not count */
     }
     if (m->dialogue.asked == DIALOGUE_LISTED && m->dialogue.was_off) {
         recording_anew(&m->recording);
@@ -336,7 +336,7 @@ static void listen(monitor *m) {
             port_close(&m->line);
             m->open = false;
             if (!was_line) {
-                return; /* a file's end, or its readable part */
+                return; /* the end of a file, or of its readable part */
             }
             fprintf(stderr, "whirl monitor: %s is gone; waiting for it\n", m->o->port);
             continue;

@@ -77,8 +77,9 @@ typedef enum option_group {
 /* A command's help text. */
 typedef struct command_usage {
     const char *head;
-    unsigned groups; /* of options in the help text: */
-    bool described;  /* one line each; else only the words, with a reference to `whirl run` */
+    unsigned groups; /* groups of options in the help text */
+    bool
+        described; /* a line for each option; else only the words, with a reference to `whirl run` */
     const char *tail;
     const char *why
         [EXITS]; /* [EXITS] the meaning of each exit status (host/base/exit.h); all NULL: omitted */

@@ -177,15 +177,15 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
                                  const grid *g, diags *errors) {
     pricing_scene *p = alloc(1, sizeof *p);
     const int points = g->count > 0 ? (int)g->points : 1;
-    *p =
-        (pricing_scene){.mechanism = of,
-                        .scene = in,
-                        .changes = changes,
-                        .grid = g,
-                        .errors = errors,
-                        .instance = alloc(points + 1, sizeof(instance *)), /* and the scene's own */
-                        .equations = alloc(points + 1, sizeof(equations *)),
-                        .source = {.points = points, .make = make, .name = name_of}};
+    *p = (pricing_scene){
+        .mechanism = of,
+        .scene = in,
+        .changes = changes,
+        .grid = g,
+        .errors = errors,
+        .instance = alloc(points + 1, sizeof(instance *)), /* one more for the scene's own place */
+        .equations = alloc(points + 1, sizeof(equations *)),
+        .source = {.points = points, .make = make, .name = name_of}};
     p->source.context = p;
     return p;
 }

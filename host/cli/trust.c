@@ -233,7 +233,7 @@ static int trust_source(const trust_options *o, source_model *from) {
     return code;
 }
 
-/* Remove the word --proved; true if it was there. */
+/* Remove the word --proved, and return true if it was present. */
 static bool take_proved(int *count, char **words) {
     for (int i = 0; i < *count; i++) {
         if (strcmp(words[i], "--proved") == 0) {

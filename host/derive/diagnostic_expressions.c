@@ -255,7 +255,7 @@ static void ask_term(maker *k, const term *t) {
     ask_value(k, where, t->right, part);
     if (differentiated) {
         snprintf(slope, sizeof slope, "the slope of %s", part);
-        if (t->kind != TERM_F) { /* its derivatives by the coordinates are not used */
+        if (t->kind != TERM_F) { /* derivatives of F by the coordinates are not used */
             ask_slopes(k, where, t->value, slope, 0);
         }
         ask_slopes(k, where, t->value, slope, 1);

@@ -579,7 +579,7 @@ static bool derive_system(equations *e, diags *errors) {
 
 static const poly **polys(int count) { return alloc(count, sizeof(const poly *)); }
 
-/* Beyond the limits of the algebra, or of walks through its results? */
+/* Do the equations exceed the limits of the algebra, or of walks through its results? */
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
         return true; /* the unvisited part of the result is missing */

@@ -45,7 +45,7 @@ typedef struct layout {
     int *angle_number; /* [unknown] turn angle, or -1 */
     int *real_number;  /* [unknown * order_room + primes] real component, or -1 */
     int order_room;
-    /* during the entry of a list: */
+    /* set while a list is entered: */
     const int *highest; /* operations of the highest derivatives by unknown, or NULL */
     const int *record;  /* operations of recorded outputs (layout.h), or NULL */
 } layout;

@@ -356,7 +356,7 @@ enum { HALVINGS_MOST = 50 };
 /* The remainder of the series after so many powers of a matrix of norm 1/2 or less is 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
-/* to = a[states * states of its columns] b, for b of as many columns as `to`. */
+/* to = a b, with the first `states` columns of a; b has as many columns as `to`. */
 static void product(const twofold *a, const twofold *b, int states, int columns, twofold *to) {
     for (int i = 0; i < states; i++) {
         for (int k = 0; k < columns; k++) {

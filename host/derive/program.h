@@ -69,7 +69,8 @@ typedef struct program {
     op_list *observe;
     contact_lists *contacts; /* NULL without contacts */
     ledger_lists *ledger;    /* NULL without a ledger */
-    bool ledger_asked;       /* by `with ledger`, --stabilized: else it only balances the run */
+    bool
+        ledger_asked; /* requested by `with ledger` or --stabilized; else the ledger only balances the run */
     const poly *integral; /* the energy integral if it is not T + V, else NULL: see equations.h */
     /* For the host's balance: the highest derivatives (by unknown). For a mechanism then T, V, input power, loss power,
      * the momenta (by unknown) and the integral, if any. */

@@ -515,7 +515,7 @@ typedef struct coefficient {
     int of; /* operation of the coefficients' list */
     coefficient_kind kind;
     int table;
-    double factor; /* of the table, or the constant */
+    double factor; /* factor of the table, or the constant itself */
     double *value; /* [TRIES] */
     double size;   /* largest absolute value at the tried angles */
 } coefficient;

@@ -46,7 +46,7 @@ typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } 
 
 static const struct {
     const char *counted; /* SCENE_ANGLES, SCENE_NAMES_OF_ANGLES */
-    const char *value;   /* KIND without primes, with one */
+    const char *value;   /* the KIND of a component without primes, and with one */
     const char *rate;
     const char *where;
 } lists[LISTS] = {

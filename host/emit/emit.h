@@ -23,7 +23,7 @@ void emit_octave_end(FILE *out, const image *im);
  * and no name of the core or the generated file. */
 bool emit_c_name_is_free(const char *name);
 
-/* Is it free of the words that only C++ reserves? */
+/* Is the name free of the words that only C++ reserves? */
 bool emit_c_name_is_free_in_cpp(const char *name);
 
 /* Can a function file of Octave and of Matlab have that name? It must be no keyword or constant of theirs, and no name

@@ -78,7 +78,9 @@ static void fixed_loss_free(fixed_loss *l) {
 static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const fixed_plan *p = l->plan;
     const int angles = p->image->angles;
-    const int moved = p->second ? p->coordinates : 0; /* by their rates, which follow them */
+    const int moved = p->second
+                          ? p->coordinates
+                          : 0; /* components with a rate as their slope; the rates follow them */
     for (int i = 0; i < moved; i++) {
         slope[i] = at[moved + i];
     }

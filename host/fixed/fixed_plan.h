@@ -44,7 +44,7 @@ typedef struct fixed_plan {
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
     bool *declared; /* [reals + inputs] the range is declared; else it is from a reference run */
     bool second;
-    int coordinates;    /* or components */
+    int coordinates;    /* for first order the number of components */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
     int cells; /* cells a turn with which no denominator was zero */

@@ -64,7 +64,7 @@ enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
 #undef IMAGE_TABLES_ONE
 extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
 
-/* Cells of such a table, for one turn: powers of two. */
+/* Least and most cells of a table for one turn, powers of two. */
 enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 
 /* How to integrate. */
@@ -135,7 +135,7 @@ typedef struct image_unknown {
     const char *text;
     place at;
     bool is_angle;           /* declared in an angle's unit */
-    bool is_length;          /* then its momentum per time is a force */
+    bool is_length;          /* its dimension is a length */
     bool conserved;          /* its momentum is constant */
     bool driven;             /* an input with a rate: it has no momentum */
     int order;               /* of its highest derivative */
@@ -184,7 +184,7 @@ typedef struct image_contact {
     int sets;
     const char *unit; /* SI, of a stop's gap; "1" for other kinds */
     place at;
-    /* In the blame list: expressions that may be undefined, and those needed only at an impact. */
+    /* Indices in the blame list: expressions that may be undefined, then those needed only at an impact. */
     int first_question, questions;
     int first_late, late;
 } image_contact;
@@ -204,8 +204,8 @@ typedef struct image_entry {
 } image_entry;
 
 typedef struct image_ledger {
-    bool kept;  /* the run has a ledger, */
-    bool asked; /* by `with ledger`: else it only balances the run */
+    bool kept;  /* the run has a ledger */
+    bool asked; /* requested by `with ledger`; else the ledger only balances the run */
     int smooth; /* continuous entries, between events */
     int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
     int accounts;       /* 1 + unknowns: the energy, then the momenta */

@@ -137,7 +137,7 @@ static int enter(op_list *t, op o) {
 }
 
 int op_list_find_binary(const op_list *t, op_code code, int a, int b) {
-    /* a product's constant goes first, whatever its number */
+    /* the constant of a product is always the first operand */
     const bool fixed_a = code == OP_MUL && t->ops[a].code == OP_CONSTANT;
     const bool fixed_b = code == OP_MUL && t->ops[b].code == OP_CONSTANT;
     const bool swapped = fixed_a != fixed_b ? fixed_b : (code == OP_ADD || code == OP_MUL) && a > b;

@@ -62,8 +62,8 @@ static matrix kernel_of(const matrix *m) {
  * may use it as it is or multiplied. */
 typedef struct unknowns {
     const op_list *of;
-    int *column; /* [2 * count] of the places, by operation, a before b; 0: none */
-    int *place;  /* [columns] 2 * operation, or that and one */
+    int *column; /* [2 * count] column of each place: by operation, operand a before b; 0: none */
+    int *place;  /* [columns] place of each column: 2 * operation for operand a, 1 more for b */
     int columns;
 } unknowns;
 
@@ -156,7 +156,7 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     case OP_CUBIC:
     case OP_SIGN:
     case OP_CALL:
-    case OP_POW: equation(u, m, 1.0, i, 0.0, 0.0); break; /* as they are */
+    case OP_POW: equation(u, m, 1.0, i, 0.0, 0.0); break; /* the operands may not be multiplied */
     }
 }
 
@@ -605,8 +605,8 @@ enum {
     FIVES = 6,     /* largest exponent of each prime */
     THREES = 3,
     SEVENS = 1,
-    REALS = 512,      /* tried numbers between one and two, */
-    VANISHING = 24,   /* and those that turn a constant into one */
+    REALS = 512,      /* tried numbers between one and two */
+    VANISHING = 24,   /* tried numbers that turn a constant into one */
     ROUNDS = 3,       /* each starts from the result of the previous one */
     PATIENCE = 150000 /* total operations of tried lists; then a round ends */
 };

@@ -459,7 +459,7 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* Half of sum i, with the doubled part once, and that part; false if the list has no such half. */
+/* *half: the sum like i, but with the doubled part only once; *part: that part. False if the list has no such sum. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);

@@ -64,8 +64,8 @@ static inline int palette_point(int i) {
 typedef struct gnuplot {
     FILE *to;      /* its commands */
     FILE *said;    /* its messages, shown after a failure */
-    FILE *drawn;   /* the picture from gnuplot, */
-    FILE *picture; /* and the final one: an SVG has a title and alternative text */
+    FILE *drawn;   /* the picture from gnuplot */
+    FILE *picture; /* the final picture: an SVG gets a title and alternative text */
     const char *file;
     const char *title;
     const char *text;

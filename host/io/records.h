@@ -16,7 +16,7 @@ typedef struct record_column {
     const char *name; /* of the unknown or output; NULL: the time */
     int unknown;      /* index of the unknown; -1 for an output */
     int primes;
-    const image_unit *unit; /* of the numbers */
+    const image_unit *unit; /* unit of the numbers */
 } record_column;
 
 typedef struct records {

@@ -75,7 +75,7 @@ static const expr *slope(parser *in, const expr *of) {
     case FN_ATAN2: /* with two arguments: below */
     case FN_MIN:
     case FN_MAX:
-    case FN_SIGN: break; /* 0, except at its jump */
+    case FN_SIGN: break; /* the slope is 0, except at the jump */
     }
     return NULL;
 }

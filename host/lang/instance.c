@@ -128,7 +128,7 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
     check_inputs(made, tree->right, all);
 }
 
-/* Count events and the values they set against their limits. */
+/* Count events, and the values that they set, and compare the counts with their limits. */
 static void count_event(const contact_statement *each, int *events, int *sets, diags *all) {
     *events += 1;
     *sets += each->set_count;
@@ -229,7 +229,7 @@ instance *instance_again(const instance *first) {
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
-#define ROUNDING 1e-9 /* of a step: rounding of unit conversions */
+#define ROUNDING 1e-9 /* round-off of unit conversions, as a part of a step */
 
 enum { WORDS_SIZE = 120 };
 
@@ -345,7 +345,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     }
 }
 
-/* "all" comes before the other names, which add or remove. */
+/* Applies "all" before the other names, which add or remove effects. */
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
     bool found = false;
     for (int i = 0; i < count && !found; i++) {

@@ -190,7 +190,7 @@ static void read_name(lexer *in, token *made) {
 static void read_string(lexer *in, token *made) {
     size_t length = 1;
     int c = at_offset(in, length);
-    bool is_clean = true; /* a carriage return was reported at the start */
+    bool is_clean = true; /* no carriage return (those were reported at the start) */
     bool is_utf8 = true;
     while (c > 0 && c != '"' && c != '\n') {
         const size_t left = in->at.source->length - in->at.offset - length;
@@ -270,7 +270,9 @@ static void read_stray(lexer *in, token *made) {
     } else {
         const char sign = (char)c;
         const int next = at_offset(in, 1);
-        const bool each = c == '.' && next > 0 && strchr("*/^", next) != NULL; /* as of matrices */
+        const bool each = c == '.' && next > 0 &&
+                          strchr("*/^", next) !=
+                              NULL; /* .*, ./ and .^ are operators of matrices in other languages */
         diag_error(in->diags, made->at,
                    each ? "an operator has no point: *, /, ^" : first_word_hint(&sign, 1),
                    "unexpected character '%c'", c);

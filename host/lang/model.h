@@ -170,7 +170,7 @@ typedef struct mechanism {
     const symbol **coordinates;
     int coordinate_count; /* coordinates, or states */
     const symbol **parameters;
-    int parameter_count; /* those of effects too */
+    int parameter_count; /* includes the parameters of effects */
     const symbol **inputs;
     int input_count;
     const symbol **outputs;

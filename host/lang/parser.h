@@ -63,7 +63,7 @@ typedef struct draft {
     bool *with;
     bool *conserve;
     builder *of;
-    int number;       /* from 1: marks the symbols that are set */
+    int number;       /* the scene's number, from 1: a mark on the symbols that are set */
     bool has_content; /* has a statement other than `use` */
     place step_at;    /* line 0: no step yet */
     place until_at;
@@ -80,7 +80,7 @@ typedef struct pending_scene {
 typedef struct parser {
     lexer lexer;
     token token;     /* the current token */
-    int parentheses; /* number of open ones: lines continue */
+    int parentheses; /* number of open parentheses, inside which lines continue */
     int nesting;
     place statement_at; /* of the current statement */
     diags *diags;

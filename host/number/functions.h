@@ -86,6 +86,7 @@ enum { FUNCTIONS = 0 FUNCTION_ROWS(FUNCTION_ONE) }; /* number of functions */
 
 #define FUNCTION_NONE ((function_id)FUNCTIONS) /* no function */
 
+/* Dimensions of the arguments: of the result. */
 typedef enum function_dimensions {
     TAKES_ANGLE,  /* a number that is an angle in radians: a number */
     TAKES_NUMBER, /* a number: a number */

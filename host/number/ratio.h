@@ -55,7 +55,7 @@ bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
  * 2^63. */
 bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count);
 
-/* The largest number that divides both; 0 of two zeros. */
+/* The largest number that divides both; 0 for two zeros. */
 uint64_t ratio_divisor(uint64_t a, uint64_t b);
 
 /* count * each, to the nearest double. */

@@ -26,7 +26,7 @@ static double fault_draw(const fault_plan *plan, fault_case *f) {
 #define TURN_RAD 6.283185307179586477
 #define INVENTED_S 0.1 /* longest interval between false pulses */
 #define SPIKES_ONE_IN 50.0
-#define TOLD_S 1e-9 /* of rounding */
+#define TOLD_S 1e-9 /* round-off of times */
 
 static bool is_of(const fault_case *f, unsigned channel) {
     const bool samples = fault_rows[f->kind].place == FAULT_SAMPLES;

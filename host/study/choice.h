@@ -20,7 +20,8 @@ typedef struct choice_wish {
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* with the stack; 0: no limit */
-    bool counts; /* answers will be counted: a prediction may exceed a limit by its error bound */
+    bool
+        counts; /* the chosen rows will be counted, so a prediction may exceed a limit by its error bound */
     const char *prices;                           /* the source of the prices, in words */
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_wish;

@@ -54,8 +54,8 @@ typedef struct gauge {
 
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
-/* `epsilon`: relative round-off of a sample. nan if the measure has no value, and for a period without a swing.
- * Infinite or nan if finite samples are too large for it; a period is then infinite. */
+/* `epsilon`: relative round-off of a sample. The result is nan if the measure has no value, or for a period without a swing.
+ * If finite samples are so large that the computation overflows, it is infinite or nan, and a period is infinite. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
