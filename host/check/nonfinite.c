@@ -112,8 +112,7 @@ static void look_here(blamed *v, const nonfinite_at *at) {
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         for (int k = 0; k < u->order && k < u->starts; k++) {
-            v->state[i][k] =
-                u->start[k]; /* a coordinate that is recovered from its momentum keeps the start */
+            v->state[i][k] = u->start[k]; /* recovered coordinates keep their start */
         }
         v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
     }

@@ -164,8 +164,7 @@ static void make_finer(step_doubling *t, const step_doubling_wish *w) {
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
-    t->finer.settings.stabilized =
-        false; /* otherwise both runs would follow the same wrong motion */
+    t->finer.settings.stabilized = false; /* else both runs follow one wrong motion */
     t->each = 1;
     t->left_out = 1.0;
     if (im->settings.matrix == MATRIX_EXACT) {

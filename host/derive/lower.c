@@ -927,8 +927,7 @@ static int sum_of(lowering *l, product *products, int count) {
         }
         with[in++] = *p;
     }
-    bool negative =
-        out > 0; /* a negative sum is subtracted, which saves the operation for its sign */
+    bool negative = out > 0; /* a negative sum is subtracted: no operation for its sign */
     for (int i = 0; i < in; i++) {
         negative = negative && with[i].coefficient < 0.0;
     }

@@ -85,9 +85,9 @@ typedef enum op_kind {
     OP_IS_PHASE,  /* b is an operation or -1 */
     OP_IS_WAVE,   /* a is a phase */
     OP_IS_UNARY,  /* a is an operation */
-    OP_IS_BINARY, /* a and b are */
-    OP_IS_CALL,   /* a is; b is, or -1 */
-    OP_IS_CELL,   /* neither is */
+    OP_IS_BINARY, /* a and b are operations */
+    OP_IS_CALL,   /* a is an operation; b is one, or -1 */
+    OP_IS_CELL,   /* neither a nor b is an operation */
     OP_IS_LOOKUP  /* a is a cell */
 } op_kind;
 
@@ -119,7 +119,7 @@ typedef struct op {
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
     const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL */
-    /* OP_PHASE: [angles] factors of the whole angle, not only its phase; or NULL. For records, never in a step. */
+    /* OP_PHASE: [angles] fractional factors, which need the whole angle and not only its phase; or NULL. Only in records. */
     const double *parts;
 } op;
 
@@ -129,10 +129,10 @@ typedef struct op_list_tables {
     int bits;       /* 2^bits cells */
     int terms;      /* numbers in a cell of one table: WH_TABLE_LINEAR, WH_TABLE_CUBIC */
     double *number; /* [2^bits][count][terms], in the list's arena */
-    double *size;   /* [count]: the largest absolute value of the table, */
-    double *off;    /* [count]: and its largest interpolation error, without round-off */
-    bool folds;     /* each is even or odd: */
-    bool *odd;      /* [count]: odd, else even */
+    double *size;   /* [count]: largest absolute value of a table */
+    double *off;    /* [count]: largest interpolation error of a table, without round-off */
+    bool folds;     /* each table is even or odd, and only half is stored */
+    bool *odd;      /* [count]: the table is odd, else even */
 } op_list_tables;
 
 typedef struct op_list {

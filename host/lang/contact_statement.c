@@ -316,7 +316,7 @@ void contact_on_system(parser *in, const contact_statement *each) {
                "'%s' does not go with state and equation", contact_word(each->kind));
 }
 
-/* Are both active whenever one of them is? */
+/* Are the two contacts active together whenever the one that belongs to an effect is active? */
 static bool always_meet(const contact_statement *a, const contact_statement *b) {
     return a->effect == b->effect || a->effect < 0 || b->effect < 0;
 }

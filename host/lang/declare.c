@@ -62,7 +62,7 @@ static const symbol *record_of(parser *in, const symbol *output) {
     return record;
 }
 
-/* Are both active whenever one of them is? */
+/* Are the two noises active together whenever the one that belongs to an effect is active? */
 static bool always_meet(const noise *a, const noise *b) {
     return a->effect == b->effect || a->effect < 0 || b->effect < 0;
 }

@@ -14,7 +14,7 @@ expr *expr_new(parser *in, expr_op op, place at) {
     return made;
 }
 
-/* Is pi in it? Then it is meant in radians. */
+/* Does the expression contain pi? Then it is meant in radians. */
 static bool has_pi(const expr *tree) {
     return tree != NULL && ((tree->op == EXPR_NUMBER && tree->number == PI) || has_pi(tree->left) ||
                             has_pi(tree->right));

@@ -23,7 +23,7 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
 
 unit_scale shown_unit(const symbol *s, int primes) {
     const unit_scale si = {1.0, 1.0, s->dim, enclosure_of(1.0)};
-    (void)primes; /* a derivative is per second: the same number */
+    (void)primes; /* a derivative has the same number, only per second */
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }
 

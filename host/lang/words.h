@@ -81,7 +81,7 @@ enum {
     DECLARES = 2,      /* declares the name after it */
     ENDS_EFFECT = 4,   /* at the beginning of a line inside an effect: its brace is missing */
     ENDS_SCENE = 8,    /* the same for a scene */
-    ENDS_WHEN = 16,    /* and for a `when` */
+    ENDS_WHEN = 16,    /* the same for a `when` */
     INTO_EFFECT = 32,  /* in a scene: the message points to an effect */
     BY_ENERGIES = 64,  /* for mechanisms given by their energies only */
     BY_EQUATIONS = 128 /* for systems given by their equations only */

@@ -24,7 +24,7 @@ typedef struct schema_field {
 typedef struct schema_channel {
     bool known;
     char name[SCHEMA_NAME];
-    uint32_t period_ticks; /* of periodic frames; 0: no period */
+    uint32_t period_ticks; /* period of periodic frames; 0: not periodic */
     schema_field once[SCHEMA_FIELDS];
     int onces;
     schema_field each[SCHEMA_FIELDS];
@@ -49,9 +49,9 @@ typedef struct recording_counts {
     uint64_t frames;
     uint64_t samples;
     uint64_t pulses;
-    uint64_t lost;         /* missing frames, */
-    uint64_t dropped;      /* of those, dropped by the rig for lack of space */
-    uint64_t lost_samples; /* by their time stamps */
+    uint64_t lost;         /* missing frames */
+    uint64_t dropped;      /* missing frames that the rig dropped for lack of space */
+    uint64_t lost_samples; /* missing samples, counted by time stamps */
     uint64_t strange;      /* frames without a known schema */
     uint64_t restarts;     /* restarts of the rig */
 } recording_counts;
@@ -72,8 +72,8 @@ typedef struct recording {
     bool ring_headed;
     recording_channel channel[SCHEMA_CHANNELS];
     bool timed;
-    uint32_t ticks;  /* ticks of the last frame, */
-    int64_t time_us; /* and its time since the first frame */
+    uint32_t ticks;  /* ticks of the last frame */
+    int64_t time_us; /* time of the last frame since the first one */
     bool expects;    /* the next sample is expected at expected_us */
     int64_t expected_us;
     int signal[2 * SCHEMA_FIELDS]; /* of the run's fields */

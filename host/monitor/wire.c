@@ -100,7 +100,7 @@ void wire_forget(wire *w) {
  * received lines may answer another program's questions. */
 static const struct {
     const char *words;
-    const char *answer; /* its beginning */
+    const char *answer; /* beginning of the answer */
 } questions[] = {{"id", "OK program="},
                  {"talk off", "OK"},
                  {"tel list", "OK rate="},
@@ -138,7 +138,7 @@ bool dialogue_answer(dialogue *d, const char *line) {
     }
     question[strcspn(question, "\n")] = '\0';
     if (strcmp(line, question) == 0) {
-        return true; /* its echo */
+        return true; /* the echo of the question */
     }
     const bool met = d->asked >= DIALOGUE_MET;
     const char *from = met ? line : strstr(line, questions[0].answer); /* after a partial frame */

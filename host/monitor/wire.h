@@ -22,8 +22,8 @@ typedef enum wire_event { WIRE_NOTHING, WIRE_TEXT, WIRE_FRAME } wire_event;
 typedef struct wire {
     uint8_t chunk[WIRE_ROOM]; /* of a frame, since the last zero */
     unsigned length;
-    bool is_text;  /* the bytes since the last zero are text, */
-    bool is_frame; /* or a frame; neither: not known yet */
+    bool is_text;  /* the bytes since the last zero are text */
+    bool is_frame; /* they are a frame; if neither, it is not known yet */
     bool too_long;
     char line[WIRE_LINE + 1]; /* text received so far; complete after WIRE_TEXT */
     unsigned columns;

@@ -110,7 +110,7 @@ static bool below(const big *a, const big *b) {
     return false;
 }
 
-/* a -= b, which is not above it */
+/* a -= b, for b <= a */
 static void take_away(big *a, const big *b) {
     uint64_t borrow = 0;
     for (int i = 0; i < a->count; i++) {

@@ -25,7 +25,7 @@ typedef struct enclosure {
     double high;
 } enclosure;
 
-/* At most the next lower double, and at least the next higher one. */
+/* A bound at or below the next lower double, and one at or above the next higher double. */
 static inline double enclosure_below(double x) {
     return x - (0x1.0000000000001p-53 * (x < 0.0 ? -x : x) + 0x1p-1074);
 }

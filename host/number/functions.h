@@ -116,7 +116,7 @@ double number_cosine(double rad);
 double number_root(double x);
 double number_power(double base, double exponent);
 
-/* Whole numbers: the next below and above, the nearest with halves away from zero, and with halves to even. */
+/* Rounding to a whole number: down, up, to nearest with halves away from zero, and to nearest with halves to even. */
 double number_floor(double x);
 double number_ceiling(double x);
 double number_nearest(double x);
@@ -130,7 +130,7 @@ double number_centred(double x, double y);
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
 
-/* The lesser and the larger of two; the other one if one is NaN. Of two zeros, a. */
+/* The lesser and the larger of two numbers. If one is NaN, the other; of two zeros, a. */
 double number_least(double a, double b);
 double number_most(double a, double b);
 

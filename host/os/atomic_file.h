@@ -28,7 +28,7 @@ void atomic_file_not_whole(void);
 /* The program's exit status: a failure if an opened file could not be written completely. */
 int atomic_file_code(int code);
 
-/* A field of CSV, quoted where RFC 4180 wants it. */
+/* Write a field of CSV, quoted if RFC 4180 requires it. */
 void atomic_file_field(FILE *out, const char *text);
 
 #endif

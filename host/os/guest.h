@@ -22,7 +22,7 @@ typedef struct guest_wish {
     int line;
     const char *image; /* an ELF file: for Arm, or a program of this machine */
     const char *board; /* QEMU's machine */
-    bool mute;         /* hide its console */
+    bool mute;         /* hide the guest's console */
     double patience_s; /* longest silence, and longest time to exit */
 } guest_wish;
 
@@ -42,7 +42,7 @@ typedef struct guest {
 typedef enum guest_heard {
     GUEST_FRAME,
     GUEST_ENDED,  /* it closed the line: it is exiting, or has died */
-    GUEST_SILENT, /* longer than the patience */
+    GUEST_SILENT, /* no message for patience_s */
     GUEST_STOPPED /* the user interrupted */
 } guest_heard;
 
@@ -58,9 +58,9 @@ guest_heard guest_receive(guest *g, wh_frame *frame);
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count);
 
 typedef struct guest_end_status {
-    bool killed;       /* by us: it did not exit by itself */
-    int status;        /* its exit status, or -1 */
-    int signal_number; /* that ended it, or 0 */
+    bool killed;       /* guest_end() killed the process, which did not exit by itself */
+    int status;        /* exit status, or -1 */
+    int signal_number; /* signal that ended the process, or 0 */
     const char *signal_name;
 } guest_end_status;
 

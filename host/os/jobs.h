@@ -19,7 +19,7 @@ typedef struct jobs {
     /* In a worker: writes the point's row, and in `reason` one line or nothing for deliver(). False
      * if it failed. */
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
-    /* In the parent, in order. False ends it all. */
+    /* In the parent: takes a row, in order. False ends all work. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
     /* In the parent, after some rows or a moment: writes out the delivered rows, shows progress. */
     bool (*pause)(void *context, uint64_t next);
@@ -33,7 +33,7 @@ typedef enum jobs_result {
 } jobs_result;
 
 #define JOBS_WORKERS_MAX 1024
-/* One for each processor. */
+/* The number of processors. */
 int jobs_workers(void);
 
 jobs_result jobs_run(const jobs *j);

@@ -16,14 +16,14 @@ typedef struct port {
 /* True for a speed that the system supports. */
 bool port_has_speed(double baud);
 
-/* Open it at this speed, without echo and conversion. False, with errno, if it is missing, or (EBUSY) if another
- * program has locked the line. This function locks it, too. */
+/* Open and lock a line at this speed, without echo and conversion. False, with errno, if it is missing, or (EBUSY) if another
+ * program has locked it. */
 bool port_open(port *p, const char *name, double baud);
 
 /* Discard received bytes of a line that were not read. */
 void port_forget(const port *p);
 
-/* Report on standard error that it cannot be opened, with the reason from errno and the hint. */
+/* Report on standard error that the line cannot be opened, with the reason from errno and the hint. */
 void port_say_unopened(const char *name, const char *hint);
 
 /* Restores the line's settings. */

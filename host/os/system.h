@@ -10,35 +10,35 @@
 /* Set by the first SIGINT or SIGTERM; a second ends the program at once, whatever it waits for. */
 extern volatile sig_atomic_t interrupted;
 
-/* From here on. What is read and written goes on over it: no record is cut. */
+/* Catch interrupts from now on. A read or write that is interrupted continues, so that no record is cut. */
 void interrupts_catch(void);
 
-/* The same of what waits for another program, which an interrupt is to wake; and when the terminal goes away. */
+/* The same for a command that waits for another program: an interrupt, or the loss of the terminal, ends its wait. */
 void interrupts_catch_waiting(void);
 
-/* At the program's start: a write beyond `ulimit -f` then fails as on a full disk. */
+/* Call it at the program's start. A write beyond `ulimit -f` then fails as on a full disk. */
 void system_begin(void);
 
 /* Seconds of a clock that never goes back. */
 double system_now_s(void);
 
-/* Make a folder: the XXXXXX at the end of its name become others. False, with errno, if there can be none. */
+/* Make a temporary folder; other characters replace the XXXXXX at the end of `name`. False, with errno, after an error. */
 bool system_scratch_folder(char *name);
 
-/* False if another program has this file to itself; where there are no locks, true. The lock ends with the file. */
+/* Lock the file until it is closed. False if another program has locked it. True, too, on a system without locks. */
 bool system_lock(FILE *file);
 
 /* Give the open file these permissions. */
 void system_set_mode(FILE *file, unsigned mode);
 
-/* A file without a name, gone when closed. NULL, with errno, if there can be none. */
+/* A temporary file without a name, which vanishes when it is closed. NULL, with errno, after an error. */
 FILE *system_scratch(void);
 
-/* Start a shell's command, and read its output; or write its input, with its output and messages in these files. NULL,
- * with errno, if it cannot be started. A command that ends early makes writes fail. */
+/* Start a shell command. The stream reads the command's output; or it writes the command's input, while output and messages go to
+ * these files. NULL, with errno, if the command cannot be started. If it ends early, writes fail. */
 FILE *system_read_from(const char *command);
 FILE *system_write_to(const char *command, FILE *output, FILE *messages);
-/* Wait for its end. Returns its exit status, or -1, as for NULL. */
+/* Wait for the command's end. Returns its exit status, or -1; -1, too, for NULL. */
 int system_end(FILE *command);
 
 #endif

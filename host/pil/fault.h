@@ -14,11 +14,11 @@ typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
     FAULT_INPUT,     /* of the scene, which must have an input of the name in fault.c */
-    FAULT_ORDERS,    /* and their computing time */
+    FAULT_ORDERS,    /* the orders, and their computing time */
     FAULT_LINE,      /* losses on the line */
     FAULT_PARAMETER, /* of the scene, for the whole run: the loader asks fault_parameters() */
     FAULT_SENSORS,   /* edge positions, and their jitter */
-    FAULT_PROCESSOR  /* it restarts */
+    FAULT_PROCESSOR  /* the processor restarts */
 } fault_place;
 
 /* X(which, word, place, default size, least, most, unit, words). If least equals most, the fault has no size. */
@@ -130,7 +130,7 @@ typedef struct fault_case {
     int channel; /* -1: not given */
     double size;
     char note[32]; /* "": only the time counts */
-    double value;  /* of the note */
+    double value;  /* value of the note that begins the fault */
     double after_s;
     double duration_s;
     /* While it runs: */

@@ -209,7 +209,7 @@ static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh
 static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *words, unsigned room) {
     wh_frame frame;
     if (!hear_frame(t, &frame)) {
-        if (t->report->end == LOCKSTEP_DONE) { /* before it has said anything */
+        if (t->report->end == LOCKSTEP_DONE) { /* the firmware ended before its first message */
             say_no_hello(t);
         }
         return false;
@@ -354,7 +354,7 @@ void talk_end(talk *t) {
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
-#define PIECE_STEPS 1e4 /* at most: steps may be arbitrarily short */
+#define PIECE_STEPS 1e4 /* most steps of a piece, because steps may be arbitrarily short */
 
 static void note_most(peak *m, double value, double at_s) {
     if (value > m->value) {

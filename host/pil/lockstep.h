@@ -16,9 +16,9 @@ typedef struct talk {
     guest guest;
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
-    uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
+    uint8_t words[GUEST_LINE_BYTES]; /* texts of the hello */
     unsigned outputs;                /* declared outputs, followed by notes */
-    uint16_t sequence;               /* of the last readings */
+    uint16_t sequence;               /* number of the last readings */
     wh_reset remembered;             /* data that the firmware wants to find after a reset */
     bool said_end;                   /* the firmware sent its end with this status: WH_FRAME_END */
     int end_status;
@@ -45,7 +45,7 @@ void talk_end(talk *t);
 /* Mix orders into a hash of all of them: everything except instruction counts. */
 uint64_t talk_hash(uint64_t hash, const wh_orders *orders);
 
-/* Mix the remembered data into it. */
+/* Mix the remembered data into the hash. */
 uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count);
 
 /* Equal in all that matters to the exchange; the sender and its counting do not. */
@@ -54,7 +54,7 @@ bool talk_is_same_hello(const wh_hello *one, const wh_hello *other);
 /* If the firmware's timer counts instructions, the number of instructions in a tick; else 0. */
 double talk_instructions_per_count(const wh_hello *hello);
 
-/* Run it; the process is gone on return. */
+/* Run firmware and plant; the firmware's process is gone on return. */
 void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report);
 
 /* Run the firmware again on the readings of a tape. Each of its orders must equal the tape's, except for instruction

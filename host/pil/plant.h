@@ -63,7 +63,7 @@ bool recorded_close(recorded *r);
 typedef struct plant_wish {
     double place[WH_SIGNALS_MAX]; /* position error of each edge's sensor; degrees for an angle,
                                    * else SI */
-    unsigned places;              /* number of given ones */
+    unsigned places;              /* number of given positions */
     double jitter_s;              /* standard deviation of an edge's time */
     double delay_s;               /* of every sample */
     uint32_t seed;                /* of the jitter */
@@ -88,8 +88,8 @@ typedef struct plant_queue {
 typedef struct plant_resets {
     double at_ticks;    /* time of a reset, at the first step at or after; infinite: no reset */
     double takes_ticks; /* length of a reset */
-    bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs, */
-    double watchdog_ticks; /* its timeout */
+    bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs */
+    double watchdog_ticks; /* the watchdog's timeout */
     bool now;              /* in reset: the caller has to restart it, see plant_restart() */
     bool starved;          /* the watchdog caused it */
     unsigned count;
@@ -111,17 +111,17 @@ typedef struct plant {
     double *output;                  /* [outputs] */
     double *output_after;            /* [outputs] */
     bool sees_outputs;               /* an edge watches an output */
-    uint64_t period[WH_SIGNALS_MAX]; /* of each sample: interval, ticks, */
-    uint64_t due[WH_SIGNALS_MAX];    /* and next time */
-    wh_orders orders;                /* the last ones, */
-    bool waits;                      /* orders that have not taken effect yet: */
-    double act_ticks;                /* time of their effect */
+    uint64_t period[WH_SIGNALS_MAX]; /* interval of each sample, ticks */
+    uint64_t due[WH_SIGNALS_MAX];    /* next time of each sample, ticks */
+    wh_orders orders;                /* the last orders */
+    bool waits;                      /* the last orders have not taken effect yet */
+    double act_ticks;                /* time when they take effect */
     uint64_t alive_ticks;            /* last kick of the watchdog */
-    bool cut;                        /* it has cut the outputs */
-    double cut_ticks;                /* at this time */
+    bool cut;                        /* the watchdog has cut the outputs */
+    double cut_ticks;                /* time of the cut */
     plant_resets reset;
-    double in_effect[WH_SIGNALS_MAX];   /* present value of each output, */
-    double since_ticks[WH_SIGNALS_MAX]; /* and the time of its setting */
+    double in_effect[WH_SIGNALS_MAX];   /* present value of each output */
+    double since_ticks[WH_SIGNALS_MAX]; /* time when that value was set */
     plant_queue edges;
     plant_queue samples;
     uint64_t edges_made;

@@ -36,7 +36,7 @@ typedef enum lockstep_end {
     LOCKSTEP_LET_GO,    /* until_s, or the end of the tape */
     LOCKSTEP_BAD,       /* the settings are impossible: reported */
     LOCKSTEP_FAILED,    /* reported */
-    LOCKSTEP_DIFFERENT, /* from the tape: reported */
+    LOCKSTEP_DIFFERENT, /* the orders differ from the tape's: reported */
     LOCKSTEP_STOPPED    /* interrupted */
 } lockstep_end;
 
@@ -64,17 +64,17 @@ typedef struct lockstep_report {
     double time_s; /* of the plant */
     double wall_s;
     bool counted; /* the firmware counts its instructions */
-    peak acted;   /* instructions until the outputs were set, */
-    peak busy;    /* and until it waited again */
+    peak acted;   /* instructions from the readings until the outputs were set */
+    peak busy;    /* instructions until the firmware waited again */
     uint64_t overruns;
     peak late_s; /* delay after the requested time of the next readings */
     uint64_t edges;
     uint64_t samples;
     uint64_t lost;
-    bool cut;              /* the watchdog has cut the outputs, */
-    double cut_s;          /* then */
-    unsigned resets;       /* of the firmware's processor, */
-    double reset_s;        /* time of the last one */
+    bool cut;              /* the watchdog has cut the outputs */
+    double cut_s;          /* time of the cut */
+    unsigned resets;       /* resets of the firmware's processor */
+    double reset_s;        /* time of the last reset */
     uint64_t hash;         /* of all orders, without instruction counts */
     uint64_t op_list_hash; /* of the tape's orders */
     uint64_t plant_hash;   /* of the scene's last state */

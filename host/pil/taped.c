@@ -38,14 +38,14 @@ typedef struct taped {
 typedef struct taped_turn {
     uint32_t ticks;
     double time_s; /* of the plant */
-    bool is_reset; /* then only this field is valid: */
+    bool is_reset; /* then only `reset` is valid */
     wh_reset reset;
     wh_readings readings;
     bool answered; /* false: the firmware had ended, or the run was over */
     wh_orders orders;
 } taped_turn;
 
-/* Longest frame with the zeros around it: an endless device is not a tape. */
+/* Reads a frame, at most the longest one with the zeros around it, so that an endless device is refused. */
 static bool read_frame(taped *t, wh_frame *frame) {
     for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
         const int byte = getc(t->file);
@@ -57,7 +57,7 @@ static bool read_frame(taped *t, wh_frame *frame) {
     return false;
 }
 
-/* The tape ends within a frame, has an invalid one, or a read failed. */
+/* Does the tape end within a frame, or have an invalid frame, or did a read fail? */
 static bool is_cut_off(const taped *t) {
     return t->reader.dropped > 0 || t->reader.length > 0 || t->endless || ferror(t->file) != 0;
 }
@@ -202,7 +202,7 @@ static bool taped_next(taped *t, taped_turn *turn) {
 typedef struct rows {
     const taped *tape;
     FILE *out;
-    int decimals; /* of a time: one tick */
+    int decimals; /* decimals of a time, which resolve one tick */
     uint32_t ticks;
     uint64_t heard;              /* ticks since the plant's time 0 */
     bool cut;                    /* a row has reported the cut */

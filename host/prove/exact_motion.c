@@ -233,7 +233,7 @@ static void need(const graph *g, bool *needed, int a) {
             }
         }
         if (needed[i] && n->kind == NODE_SINE) {
-            needed[i + 1] = true; /* its cosine */
+            needed[i + 1] = true; /* the sine's cosine */
         }
     }
 }

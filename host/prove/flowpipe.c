@@ -596,8 +596,8 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     go_to(t, tau_s, left);
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
-    t->products +=
-        2.0 * (double)n * (double)n * (double)t->off->count; /* here, and at its opening */
+    t->products += 2.0 * (double)n * (double)n *
+                   (double)t->off->count; /* products here and in flowpipe_open() */
     for (int i = 0; i < n; i++) {
         /* derivatives cover the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

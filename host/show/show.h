@@ -18,7 +18,7 @@ typedef struct show {
     const void *names;
     struct show_lets *lets; /* names of the file for sums; NULL without names */
     bool
-        bracketed; /* a parenthesis follows: in LaTeX a function's symbol then has its own, not \cos
+        bracketed; /* a parenthesis follows, so in LaTeX a function's argument needs one, too, not \cos
                     * a (b + c) */
 } show;
 typedef struct show_lets show_lets;
@@ -48,7 +48,7 @@ void show_poly(const show *s, const poly *p);
 /* Number of terms of show_poly() before factoring: a measure of readability. */
 int show_size(const poly *p);
 
-/* The atoms common to all terms of p, in their lowest powers: a single term. */
+/* The product of the atoms common to all terms of p, each in its lowest power. */
 const poly *show_common(algebra *a, const poly *p);
 
 /* === one product for readers ================================================================== */

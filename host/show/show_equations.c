@@ -17,7 +17,7 @@ static void show_equation(const show *s, const equations *e, int i);
  * a root is broken in place. */
 
 /* Widths in points of 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number.
- * NARROWEST: of a broken sum. */
+ * NARROWEST: least width of a broken sum. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
 /* A part of a text. */
@@ -76,7 +76,7 @@ static int width_of_command(span *s) {
     if (begins(*s, aligned)) {
         const span all = {s->from, behind_group(*s)};
         int depth = 0;
-        do { /* to the \end of this one */
+        do { /* to the \end of this environment */
             depth += begins(*s, "\\begin") ? 1 : begins(*s, "\\end") ? -1 : 0;
             s->from++;
         } while (depth > 0 && s->from < s->end);
@@ -124,7 +124,7 @@ static int width_of_command(span *s) {
     return begins(of, "sqrt") ? 9 : begins(of, "times") ? SIGN : 7;
 }
 
-/* Rounded up; scripts count as wide as their base. */
+/* The width of a character, rounded up. Scripts count as wide as their base. */
 static int width_of_character(char c) {
     return strchr("+-", c) != NULL         ? SIGN
            : c == '='                      ? EQUALS
@@ -190,7 +190,7 @@ static span widest_group(span s) {
     return widest;
 }
 
-/* s with its widest groups broken, until it has that width or no group is wide enough. */
+/* s with the widest groups broken, until it is within the limit or no group is wide enough. */
 static char *narrowed(span s, int limit) {
     char *text = alloc_copy(s.from, (size_t)(s.end - s.from));
     for (;;) {
@@ -239,7 +239,7 @@ static char *rows_of(span s, int limit, bool factors) {
     return text;
 }
 
-/* s within that width: one line, or rows of an aligned. */
+/* s within the limit: as one line, or as rows of an aligned. */
 static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
         return alloc_copy(s.from, (size_t)(s.end - s.from));
@@ -408,7 +408,7 @@ static void latex_rows(const show *s, const contact_law *law, const contact_set 
     }
 }
 
-/* The same after the equations, in the style of `s` and with its names for sums. */
+/* The contacts, printed after the equations, in the style of `s` and with its names for sums. */
 static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
@@ -584,7 +584,7 @@ static void show_equation(const show *s, const equations *e, int i) {
     show_row_end(&row);
 }
 
-/* A quantity of the records of a run, and its unit there. */
+/* Writes a quantity of a run's records, and its unit in them. */
 static void write_shown(const show *s, const char *kind, const symbol *what) {
     char *unit_name = shown_unit_name(what, 0);
     fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", kind, what->name, unit_name,
@@ -641,7 +641,7 @@ static void write_names(const show *s, const equations *e) {
     }
 }
 
-/* Is the name this letter and a number, like the generated ones? */
+/* Is the name this letter and a number, like the generated names? */
 static bool is_numbered(const char *name, const char *letter) {
     const size_t length = strlen(letter);
     return strncmp(name, letter, length) == 0 && name[length] != '\0' &&
@@ -711,7 +711,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divide both by their common factors; 0.7391 keeps equal terms of the two from cancelling. */
+/* Divide *top and *bottom by their common factors. The factor 0.7391 keeps equal terms of the two from cancelling. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);

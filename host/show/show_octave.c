@@ -9,7 +9,7 @@
 #include "host/show/show.h"
 #include "host/show/show_equations.h"
 
-/* The variable of a symbol's derivative; without a symbol, one of the generated file itself. */
+/* A variable of the generated file: for a symbol's derivative, or without a symbol for the file itself. */
 typedef struct variable {
     const symbol *symbol;
     int primes;
@@ -78,7 +78,7 @@ static void write_constants(const show *s, const equations *e, const symbol *con
     }
 }
 
-/* The highest derivatives: each with its formula, or all from A x = b. */
+/* Writes the highest derivatives: a formula for each, or the solution of A x = b for all. */
 static void write_highest(const show *s, const equations *e, variables *all) {
     const int n = e->count;
     const poly *top[2];
@@ -137,7 +137,7 @@ static void name_all(variables *all, const equations *e) {
     }
 }
 
-/* The state by its numbers: values, then rates, and so on. */
+/* Writes the state by number: values, then rates, and so on. */
 static void write_state(const show *s, const equations *e, bool slopes) {
     int number = 1;
     for (int level = 0; level < PRIMES_MAX; level++) {

@@ -37,8 +37,8 @@ typedef struct choice_row {
 } choice_row;
 
 typedef struct choice {
-    choice_row fastest;  /* the fewest cycles within all limits, */
-    choice_row smallest; /* and the least flash */
+    choice_row fastest;  /* the fewest cycles within all limits */
+    choice_row smallest; /* the least flash within all limits */
     /* If no row fits, the candidates for relaxing a limit: */
     choice_row weaker; /* the least error within the other limits */
     choice_row dearer; /* the least load within error, flash and RAM */

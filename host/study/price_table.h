@@ -12,7 +12,7 @@
 typedef enum table_unit {
     PRICE_CYCLES,
     PRICE_INSTRUCTIONS, /* on boards without counted cycles */
-    PRICE_EVALUATIONS   /* of the accelerations, with contacts: counted in the run */
+    PRICE_EVALUATIONS   /* with contacts: evaluations of the accelerations, counted in the run */
 } table_unit;
 extern const char *const table_unit_words[]; /* "cycles", ... */
 

@@ -659,8 +659,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     uint64_t most;
-    const bool matrix =
-        im->list[IMAGE_MATRIX] != NULL; /* then a step is one evaluation of the matrix */
+    const bool matrix = im->list[IMAGE_MATRIX] != NULL; /* a step then evaluates only that */
     const uint64_t evaluations = matrix ? kind->steps(run) : kind->evaluations(run, &most);
     d.operations =
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
@@ -954,7 +953,7 @@ static reference *by_fine_steps(const reference_wish *w) {
     r->limit = w->by.steps > 0 ? w->by.limit : LIMIT_FINE_STEPS;
     judge(r, &other);
     for (int k = 1; k < r->columns && w->by.steps > 0;
-         k++) { /* the finer one's own, by its order */
+         k++) { /* the error of the finer computation, by its order */
         r->column[k].off /= (long double)number_scaled(1.0, w->by.order) - 1.0L;
     }
     free(other.row);

@@ -222,7 +222,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
         } else if (axis == AXIS_TABLES) {
             snprintf(text + used, SETTING_TEXT - used, "%s", tables[i].options);
         } else if (axis == AXIS_METHOD && has_matrix(s)) {
-            continue; /* it takes a method's place */
+            continue; /* a matrix takes the method's place */
         } else if (row->always_written || i > 0) {
             snprintf(text + used, SETTING_TEXT - used, " %s %s", row->option, row->word(i));
         }
