@@ -75,8 +75,8 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* In integers up to the one rounding to float. A float has fewer bits than an angle, and a product of two rounded
- * factors would err by more than one unit in the last place. */
+/* Computed in integers until the one rounding to float. A float has fewer bits than an angle, and a product of two
+ * rounded factors would err by more than one unit in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {
         return 0.0f;
@@ -95,8 +95,8 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* The low 32 bits before the point of a 64 by 64 bit product, rounded; the point is before the 64 bits of factor.part.
- * As unsigned, a negative angle is 2^64 too large. */
+/* The low 32 bits before the point of a 64 by 64 bit product, rounded. factor.part has 64 bits after the point. A
+ * negative angle, read as unsigned, is 2^64 too large. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

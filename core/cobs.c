@@ -54,7 +54,7 @@ unsigned wh_cobs_decode(uint8_t *bytes, unsigned length) {
 }
 
 unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
-    unsigned zero = count + 1U; /* the next one */
+    unsigned zero = count + 1U; /* index of the next zero */
     bytes[0] = 0;
     bytes[zero] = 0;
     for (unsigned at = zero; at-- > 0;) {

@@ -1,4 +1,4 @@
-/* exchange.c: payloads, field by field; each `get` follows its `put`. */
+/* exchange.c: payloads, field by field. Each `put` is followed by its `get`. */
 #include "exchange.h"
 
 static unsigned written(const wh_bytes *out) { return out->over ? 0 : out->at; }

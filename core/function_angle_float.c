@@ -10,7 +10,7 @@
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* base + sign angle, or the angle itself for base 0; base in Q30. */
+/* base + angle or base - angle (`minus`), with this sign; for base 0 the angle itself. base is in Q30. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);
@@ -78,8 +78,8 @@ static uint32_t root_of(uint32_t size) {
     return ((root + ratio) << 15) + (behind >> 1);
 }
 
-/* The arc whose sine is the magnitude, up to one half. From one half to one, half of its complement to a quarter turn,
- * by that angle's sine: sqrt((1 - x)/2). Relative error at most 5e-10. A magnitude of 0 or one gives size 0. */
+/* The arc whose sine is the magnitude, up to one half. For one half to one: half of the arc's complement to a quarter
+ * turn, from that half's sine sqrt((1 - x)/2). Relative error at most 5e-10. A magnitude of 0 or one gives size 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
     static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
                                                191198894U, 322144200U, 715827596U}; /* Q32 */

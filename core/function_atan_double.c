@@ -59,7 +59,7 @@ static wh_pair with_part(wh_pair a, double c, wh_pair b) {
     return (wh_pair){sum.high, sum.low + (a.low + part.low + c * b.low)};
 }
 
-/* 0 <= y <= x, x > 0, to about 65 bits. */
+/* The angle of (x, y) for 0 <= y <= x, x > 0, to about 65 bits. */
 static wh_pair eighth(wh_pair x, wh_pair y) {
     const int i = (int)(y.high / x.high * 64.0 + 0.5);
     const double c = i / 64.0;
@@ -70,7 +70,7 @@ static wh_pair eighth(wh_pair x, wh_pair y) {
     return wh_pair_of(sum.high, sum.low + (ray[i].low + u.low + series));
 }
 
-/* x >= 0, y >= 0, not both zero. */
+/* The angle of (x, y) for x >= 0, y >= 0, not both zero. */
 static wh_pair quarter(wh_pair x, wh_pair y) {
     return y.high > x.high ? wh_difference(half_pi, eighth(y, x)) : eighth(x, y);
 }
@@ -134,7 +134,7 @@ static double finite_angle(double x, double y, bool behind) {
     if (rise > 64) {
         return half_pi.high;
     }
-    /* About 1: neither the products nor their lower halves overflow or underflow. */
+    /* Scales the point to about 1, so that neither the products nor their lower halves overflow or underflow. */
     const int larger = rise > 0 ? field_of(y) : field_of(x);
     const double scale = larger > 1523 ? 0x1p-600 : larger < 623 ? 0x1p600 : 1.0;
     const wh_pair angle = quarter((wh_pair){x * scale, 0.0}, (wh_pair){y * scale, 0.0});

@@ -128,7 +128,7 @@ float wh_pow(float base, float exponent) {
     const uint32_t x = base_bits & ~WH_BITS_SIGN;
     const uint32_t y = exponent_bits & ~WH_BITS_SIGN;
     if (y == 0U || base_bits == WH_BITS_ONE) {
-        return 1.0f; /* even for NaN */
+        return 1.0f; /* also if the other argument is NaN */
     }
     if (x > WH_BITS_INFINITE || y > WH_BITS_INFINITE) {
         return wh_float_of_bits(WH_BITS_NAN);
@@ -158,7 +158,7 @@ float wh_pow(float base, float exponent) {
     const uint64_t product = ((size << zeros) >> 24) * (d.size >> 8);
     /* product 2^(exponent - 23 + 24 - zeros - POINT) is the logarithm of the result */
     const int32_t shift = POINT - 33 + (int32_t)zeros - d.exponent;
-    if (shift < 23) { /* beyond 2^8 */
+    if (shift < 23) { /* the logarithm is beyond 2^8 */
         return wh_float_of_bits(below_one ? least : most);
     }
     return shift > 63 ? wh_float_of_bits(sign | WH_BITS_ONE)

@@ -52,7 +52,7 @@ static double edge_power(double base, double y) {
 
 double wh_pow(double base, double exponent) {
     if (base == 1.0 || exponent == 0.0) {
-        return 1.0; /* of NaN, too */
+        return 1.0; /* also for NaN */
     }
     if (wh_is_nan(base) || wh_is_nan(exponent)) {
         return WH_NAN;

@@ -23,7 +23,8 @@ typedef union real_bits {
     word bits;
 } real_bits;
 
-/* 1: a float's root also bit by bit, if a 64-bit product takes longer than 25 comparisons. The same bits. */
+/* 1: also compute a float's root bit by bit, for processors on which a 64-bit product takes longer than 25 comparisons.
+ * The result has the same bits. */
 #ifndef WH_ROOT_BY_BITS
 #define WH_ROOT_BY_BITS 0
 #endif
@@ -43,7 +44,7 @@ static word root_of(word x) {
         }
         rest <<= 1;
     }
-    return (root + 1U) >> 1; /* its last bit is half a unit */
+    return (root + 1U) >> 1; /* the last bit is half a unit */
 }
 
 #else

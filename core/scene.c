@@ -83,7 +83,7 @@ static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *
     }
 }
 
-/* Reals that the ledger needs. */
+/* The number of reals that the ledger needs. */
 static size_t ledgers(const wh_scene *scene) {
     return scene->ledger == NULL ? 0U
                                  : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
@@ -189,7 +189,7 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
  * bit for the lower ones. May round up to one. */
 static wh_real rounded(uint64_t part, uint64_t of) {
     const unsigned bits = sizeof(wh_real) == sizeof(float) ? 25 : 54;
-    wh_real unit = WH_R(1.0); /* finally that of the sticky bit */
+    wh_real unit = WH_R(1.0); /* finally the unit of the sticky bit */
     uint64_t quotient = 0;
     if (part == 0) {
         return WH_R(0.0);

@@ -8,7 +8,7 @@ static bool has_books(const wh_scene *scene, const wh_state *state) {
     return scene->ledger != NULL && state->steps > 0; /* the first step takes its levels itself */
 }
 
-/* Component `at`, angles first, becomes *angle, or *real. */
+/* Component `at`, angles first, becomes *angle or *real; the other pointer is NULL. */
 static void replace(const wh_scene *scene, wh_state *state, unsigned at, const wh_angle *angle,
                     const wh_real *real) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -38,7 +38,7 @@ static bool is_started(const wh_scene *scene, const wh_state *state) {
     return scene != NULL && state != NULL && state->real != NULL;
 }
 
-/* Does it follow an input with a rate? Then the next step would set it back. */
+/* Does this real follow an input with a rate? Then the next step would set it back. */
 static bool is_driven(const wh_scene *scene, unsigned real) {
     const unsigned linears = ((unsigned)scene->reals - scene->angles) / 2U;
     const unsigned behind = real < linears ? linears : scene->reals;

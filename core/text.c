@@ -6,7 +6,7 @@
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
 #define WHOLE_BYTES 16U    /* 2^128: above every float */
 #define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* times 10^18 */
-#define DIGITS (39U + WH_TEXT_DECIMALS_MAX)       /* of 2^128, and decimals */
+#define DIGITS (39U + WH_TEXT_DECIMALS_MAX)       /* digits of 2^128, and decimals */
 
 void wh_text_start(wh_text *text, char *bytes, unsigned size) {
     text->bytes = bytes;
@@ -42,7 +42,7 @@ static unsigned divide_by_ten(uint8_t *byte, unsigned count) {
     return rest;
 }
 
-/* The whole number byte[count] over 10^decimals, destroying it. */
+/* Adds the whole number byte[count] divided by 10^decimals; destroys byte[]. */
 static void add_digits(wh_text *text, uint8_t *byte, unsigned count, unsigned decimals,
                        bool negative) {
     char digit[DIGITS]; /* lowest first */
@@ -150,7 +150,7 @@ static void multiply_by_ten(uint8_t *byte) {
     }
 }
 
-/* To the nearest whole number, ties to even: adds one half, or a little less than half if the number is even. */
+/* Rounds to the nearest whole number, ties to even: adds one half, or a little less than half if the number is even. */
 static void round_to_whole(uint8_t *byte) {
     unsigned carry = byte[FRACTION_BYTES] & 1U;
     for (unsigned i = 0; i < BYTES; i++) {
@@ -160,8 +160,8 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* Copy the mantissa's bits into byte[BYTES], initially all zeros. False: it exceeds WHOLE_BYTES, as doubles may. Bits
- * below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
+/* Copies the mantissa's bits into byte[BYTES], which is initially all zeros. Returns false if the number exceeds
+ * WHOLE_BYTES, as doubles may. Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

@@ -24,7 +24,7 @@
 /* The divider before the supply's input: 50 V at the reference. */
 #define ATMEGA_SUPPLY_FULL_mV UINT32_C(50000)
 
-/* Interrupts off, from here to atmega_go_on(). Returns the state before. */
+/* Switch interrupts off until atmega_go_on(). Returns the state before. */
 static inline uint8_t atmega_hold(void) {
     const uint8_t before = SREG;
     cli();
@@ -36,16 +36,16 @@ static inline void atmega_go_on(uint8_t before) { SREG = before; }
 #define ATMEGA_COUNTS_PER_TICK 2U
 void atmega_time_base_start(void);
 
-/* Now, with interrupts off. */
+/* The time now, with interrupts off. */
 uint32_t atmega_ticks(void);
 
-/* An instant stored by an interrupt, valid for 4 s: the count, and the number of its wraps. */
+/* An instant stored by an interrupt: the count, and the number of its wraps. Valid for 4 s. */
 typedef struct atmega_instant {
     uint16_t count;
     uint8_t wraps;
 } atmega_instant;
 
-/* Set by interrupts: wraps so far, the lowest byte. */
+/* The lowest byte of the number of wraps so far, set by interrupts. */
 extern volatile uint8_t atmega_wraps;
 
 /* Within an interrupt: the time at which both timers showed `count`, less than half a wrap ago. */
@@ -53,7 +53,7 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
     atmega_instant at = {count, atmega_wraps};
     const uint16_t now = TCNT4; /* first: a wrap after it does not matter */
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
-    if (count >= 0x8000U && now < 0x8000U) { /* it was before the last wrap */
+    if (count >= 0x8000U && now < 0x8000U) { /* the instant was before the last wrap */
         at.wraps = (uint8_t)(at.wraps - (pending ? 0U : 1U));
     } else if (pending && count < 0x8000U) {
         at.wraps++;
@@ -61,7 +61,7 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
     return at;
 }
 
-/* It as ticks. */
+/* The instant in ticks. */
 uint32_t atmega_ticks_of(atmega_instant at);
 
 /* Start the watchdog: it resets after 2048 << twice of its oscillator's clocks (DS 12.5.2). The second store must
@@ -77,8 +77,8 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* The supply at the last sample of the load (cell.c): parts of ATMEGA_WHOLE a volt; 0: none. A division for each would
- * fall into control steps that have no time for it. */
+/* The supply at the last sample of the load (cell.c) as a factor: ATMEGA_WHOLE divided by the volts; 0: no supply.
+ * Dividing for each use would fall into control steps that have no time for it. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 
@@ -87,7 +87,7 @@ void atmega_motor_start(void);
 void atmega_slots_start(void);
 void atmega_cell_start(void);
 
-/* Faults, on a chip that detects none in hardware. */
+/* Kinds of faults, on a chip that detects none in hardware. */
 typedef enum atmega_fault_kind {
     ATMEGA_FAULT_NONE,
     ATMEGA_FAULT_STRAY,  /* an interrupt without a handler */
@@ -102,15 +102,15 @@ _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at);
 typedef struct atmega_fault_record {
     uint8_t kind; /* an atmega_fault_kind */
     uint32_t at;
-    uint32_t ticks;  /* of the clock, which restarts at each start */
-    uint32_t state;  /* hal_reset_mark()'s last */
+    uint32_t ticks;  /* time of the fault; the clock restarts at each start */
+    uint32_t state;  /* last argument of hal_reset_mark() */
     uint16_t faults; /* faults since power-on, including this one */
     uint16_t sum;
 } atmega_fault_record;
 
 void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 
-/* Read the record from before the start, once; false: none. */
+/* Read the record from before the start, once. Returns false if there is none. */
 bool atmega_take_fault(atmega_fault_record *record);
 
 /* Power-on: forget this record, and the remembered bytes. */

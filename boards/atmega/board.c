@@ -17,7 +17,7 @@ void board_start(void) {
 
 bool board_converse(void) { return true; }
 
-/* Stops, the motor off. */
+/* Stops with the motor off. */
 _Noreturn void board_exit(int code) {
     (void)code;
     hal_motor_off(HAL_MOTOR_COAST);

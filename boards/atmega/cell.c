@@ -15,7 +15,7 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS 8U /* the last conversions, used for the supply; most others are not used */
+#define SUPPLY_TICKS 8U /* the last conversions measure the supply; most are not used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
@@ -26,7 +26,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 
 /* The input is sampled and held one and a half clocks of 125 kHz after the start (DS 26.4). */
 #define HELD_TICKS 12U
-/* From the middle of the sixteen to the tick after the last. */
+/* Time from the middle of the sixteen conversions to the tick after the last one. */
 #define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
 
 #define FULL 1023U
@@ -36,7 +36,8 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 #define REFERENCE _BV(REFS0)
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
 
-/* Measured with each sample of the cell, not in each control step. This bit marks a sum with a conversion beyond its end. */
+/* The supply is measured with each sample of the cell, not in each control step. The bit SUPPLY_BEYOND marks a sum with
+ * a conversion beyond the converter's end. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)
@@ -54,7 +55,7 @@ typedef struct cell_sample {
 } cell_sample;
 
 static volatile cell_sample kept[SAMPLES_KEPT];
-static volatile uint8_t head; /* the interrupt's */
+static volatile uint8_t head; /* written by the interrupt only */
 static volatile uint8_t tail;
 static volatile uint16_t supply_sum;
 static float supply_V;
@@ -146,7 +147,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* Sixteen counts of 10 bits are 14 bits: a quarter of hal/loadcell.h's. */
+/* The sum of sixteen counts of 10 bits has 14 bits: one unit is four of hal/loadcell.h's. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

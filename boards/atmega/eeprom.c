@@ -19,7 +19,7 @@ static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
 
-/* A byte takes less than 20 ms, at any speed of this loop. */
+/* Wait until the EEPROM is idle. A byte takes less than 20 ms, at any speed of this loop. */
 static bool rests(void) {
     for (uint16_t i = 0; i < 60000U; i++) {
         if ((EECR & _BV(EEPE)) == 0) {
@@ -43,7 +43,8 @@ static uint8_t load(uint16_t address) {
     return byte;
 }
 
-/* The second store must follow within four clocks of the first. False: the byte has a wrong value. */
+/* Program one byte. The second store must follow within four clocks of the first. Returns false if the byte then has a
+ * wrong value. */
 static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     if (!rests()) {
         return false;

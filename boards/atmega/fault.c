@@ -17,7 +17,7 @@ __attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
     __asm__ volatile(OFF "cli");
 }
 
-/* Not cleared: the start-up code initializes the variables later. */
+/* In memory that is not cleared, because the start-up code initializes variables later. */
 __attribute__((section(".noinit"))) static volatile uint8_t flags;
 
 /* After a watchdog reset the watchdog goes on resetting, every 16 ms, until its flag is cleared. */
@@ -51,7 +51,7 @@ _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     }
 }
 
-/* `sp`: below the return address, three bytes, the highest first. */
+/* `sp` points below the return address, which has three bytes, the highest first. */
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp);
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp) {
     const uint32_t words = (uint32_t)sp[1] << 16 | (uint16_t)((uint16_t)sp[2] << 8) | sp[3];

@@ -10,7 +10,7 @@
 #include "atmega.h"
 
 #define WHOLE 400U /* F_CPU/2 / 20 kHz */
-#define PARTS 64U  /* of a step, carried forward */
+#define PARTS 64U  /* parts of a PWM step: unit of the carried error */
 _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
 static volatile bool driving; /* an interrupt may also clear it */
@@ -32,14 +32,14 @@ static void set_up_timer(void) {
     DDRB |= _BV(ATMEGA_PWM_BIT);
 }
 
-/* Off from the first store on; the pins' port level is low. */
+/* The outputs are off from the first store on; the pins' port level is low. */
 void atmega_motor_start(void) {
     PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     PORTB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     DDRB |= _BV(ATMEGA_ENABLE_BIT);
     set_up_timer();
     DDRB &= (uint8_t)~_BV(ATMEGA_STOP_BIT);
-    PORTB |= _BV(ATMEGA_STOP_BIT); /* pulled up: a broken wire is pressed (stop.c) */
+    PORTB |= _BV(ATMEGA_STOP_BIT); /* pulled up, so that a broken wire counts as pressed (stop.c) */
     driving = false;
 }
 
@@ -55,7 +55,7 @@ unsigned hal_motor_start(void) {
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        set_up_timer(); /* again: an off may have interrupted a change of voltage */
+        set_up_timer(); /* set up again, because an off may have interrupted a change of voltage */
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }
@@ -75,13 +75,13 @@ void hal_motor_set_voltage(float volts) {
     OCR1A = steps;
 }
 
-/* The enable first, by one instruction: it is also a fault's first action (fault.c). */
+/* Clears the enable first, by one instruction that is also a fault's first action (fault.c). */
 void hal_motor_off(hal_motor_off_way way) {
     if (way != HAL_MOTOR_BRAKE) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     }
-    TCCR1A = _BV(WGM11); /* off the pin, which is low */
-    OCR1A = 0;           /* effective in the next period, as a start's 0 is */
+    TCCR1A = _BV(WGM11); /* disconnects the timer from the pin, which is low */
+    OCR1A = 0;           /* takes effect in the next period, as the 0 of a start does */
     if (way == HAL_MOTOR_BRAKE) {
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
     }
@@ -89,7 +89,7 @@ void hal_motor_off(hal_motor_off_way way) {
     carried = 0;
 }
 
-/* Only software switches it off. */
+/* No bit for a cut: only software switches this motor off. */
 unsigned hal_motor_status(void) {
     return (hal_stop_pressed() ? HAL_MOTOR_FAULT : 0U) |
            (hal_motor_supply_V() > 0.0f ? 0U : HAL_MOTOR_NO_SUPPLY);

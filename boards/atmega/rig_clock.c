@@ -16,7 +16,7 @@ hal_start hal_clock_start(void) {
     return board_ticks_go_on() ? HAL_STARTED : HAL_START_NO_TIMER;
 }
 
-/* Fuses choose it, and there is no other: if it stops, the processor has no clock. */
+/* Fuses choose the crystal, and there is no other source: if the crystal stops, the processor has no clock. */
 hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_CRYSTAL; }
 
 uint32_t hal_clock_tolerance_ppm(void) { return 100; }

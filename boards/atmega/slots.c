@@ -13,11 +13,11 @@
 
 typedef struct kept_edge {
     atmega_instant at;
-    uint8_t of; /* the sensor, and from bit 1 on a hal_slot_end */
+    uint8_t of; /* bit 0: the sensor; from bit 1 on: a hal_slot_end */
 } kept_edge;
 
 static volatile kept_edge kept[EDGES_KEPT];
-static volatile uint8_t head; /* the interrupts' */
+static volatile uint8_t head; /* written by interrupts only */
 static volatile uint8_t tail;
 static volatile uint32_t overruns;
 static volatile bool stopped;
@@ -41,7 +41,7 @@ void atmega_slots_start(void) {
     atmega_go_on(before);
 }
 
-/* When full: no more interrupts until an edge is taken. */
+/* Stores an edge. When the memory is full, interrupts stay off until an edge is taken. */
 static void keep(uint8_t of, uint16_t count) {
     if ((uint8_t)(head - tail) == EDGES_KEPT) {
         overruns++;
@@ -71,8 +71,9 @@ static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *f
     *flags = _BV(ICF4);
 }
 
-/* The edge that a sensor's timer has captured, as the sensor's bits of kept_edge. Then it waits for the other edge; if that
- * has already passed, for this one again. A burst may go on meanwhile: its remains are checked with each edge taken. */
+/* Returns the edge that a sensor's timer has captured, as bits of kept_edge. Then the timer waits for the other edge, or
+ * for this one again if the other has already passed. A burst may go on meanwhile: its remains are checked with each
+ * edge taken. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);
@@ -84,7 +85,7 @@ static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile u
 }
 _Static_assert(ICES4 == ICES5 && ICF4 == ICF5 && PL0 == 0 && PL1 == 1, "one turn() for both");
 
-/* Of two simultaneous ones, the earlier first. */
+/* Stores the captured edges; of two at the same time, the earlier one first. */
 static void fetch(bool first, bool second) {
     const uint16_t first_count = ICR4;
     const uint16_t second_count = ICR5;
@@ -106,7 +107,7 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-/* A low pin's next edge is a rise, after any burst. */
+/* Waits for edges again. After any burst, the next edge of a low pin is a rise. */
 static void go_on_waiting(void) {
     if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
         return;

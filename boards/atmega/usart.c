@@ -12,7 +12,7 @@
 #define OUT_BYTES 64U
 
 static volatile char in[IN_BYTES];
-static volatile uint8_t in_head; /* the interrupt's */
+static volatile uint8_t in_head; /* written by the interrupt only */
 static volatile uint8_t in_tail;
 static volatile char out[OUT_BYTES];
 static volatile uint8_t out_head;
@@ -80,7 +80,8 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* Ready within a byte's time, 87 us: the wait is bounded, so that a dead device does not hang the program. */
+/* The transmitter is ready within a byte's time, 87 us. The wait is bounded, so that a dead device does not hang the
+ * program. */
 static void send(char byte) {
     for (uint16_t i = 0; i < 10000U && (UCSR0A & _BV(UDRE0)) == 0; i++) {
     }

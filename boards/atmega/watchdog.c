@@ -17,7 +17,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     atmega_watch(twice);
 }
 
-/* Once a control step. It also checks conditions that no other code checks. */
+/* Called once per control step. Also checks the stack, which no other code does. */
 void hal_watchdog_kick(void) {
     if (!avr_stack_is_whole()) {
         atmega_fault(ATMEGA_FAULT_STACK, 0);
@@ -25,5 +25,5 @@ void hal_watchdog_kick(void) {
     __asm__ volatile("wdr");
 }
 
-/* It resets. */
+/* This watchdog resets the chip instead. */
 bool hal_watchdog_has_cut(void) { return false; }

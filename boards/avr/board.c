@@ -11,7 +11,7 @@
 const char *const board_name = BOARD_NAME;
 
 #define BAUD 115200UL
-#define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL) /* at double speed */
+#define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL) /* divisor at double speed */
 
 void board_start(void) {
     UBRR0 = BAUD_DIVISOR;

@@ -11,7 +11,7 @@ static volatile uint16_t overflows;
 
 ISR(TIMER1_OVF_vect) { overflows++; }
 
-/* Starts at the first call. */
+/* The first call starts the timer. */
 uint32_t board_ticks(void) {
     if (TCCR1B == 0) {
         TCCR1B = _BV(CS11) | _BV(CS10); /* by 64 */

@@ -23,7 +23,7 @@ void uart_start(void) {
     REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE | UART_CTRL_RX_ENABLE;
 }
 
-/* The transmitter never gets ready before it is switched on: without board_start() a program must not hang silently. */
+/* The transmitter is never ready before it is switched on. A program must not hang silently if it omits board_start(). */
 void uart_write(const char *bytes, unsigned count) {
     if ((REGISTER(UART_CTRL) & UART_CTRL_TX_ENABLE) == 0) {
         uart_start();

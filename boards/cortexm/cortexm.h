@@ -55,7 +55,7 @@ typedef struct board_fault_facts {
     uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are unknown */
     uint32_t pc;
     uint32_t lr;
-    uint32_t cfsr; /* SCB's */
+    uint32_t cfsr; /* copy of SCB_CFSR */
     uint32_t hfsr;
     uint32_t address; /* address without response, if cfsr marks it valid */
     uint32_t stack;   /* a board_stack_state */
@@ -67,14 +67,14 @@ typedef enum board_stack_state {
     BOARD_STACK_ASTRAY
 } board_stack_state;
 
-/* Its facts in words: " HardFault, PC 0x... LR 0x... ... (bus error)". */
+/* A fault's facts in words: " HardFault, PC 0x... LR 0x... ... (bus error)". */
 void board_fault_words(wh_text *text, const board_fault_facts *facts);
 
 /* The end of a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts);
 
-/* Sets up the chip's clocks, before variables have their values. So it uses no variables, and every wait is bounded.
- * Its result is in board_clock_is, on chips with clocks to set up: in memory that the start-up code does not clear. */
+/* Sets up the chip's clocks before variables have their values. So it uses no variables, and every wait is bounded. On
+ * chips with clocks to set up, the result is in board_clock_is, in memory that the start-up code does not clear. */
 typedef enum board_clock {
     BOARD_CLOCK_CRYSTAL,  /* the board's crystal */
     BOARD_CLOCK_FALLBACK, /* the crystal does not oscillate: the chip's own oscillator */

@@ -17,7 +17,7 @@ _Noreturn void board_exit(int code) {
     hold_still();
 }
 
-/* fault.c has made the stores that switch off. */
+/* fault.c has already switched the outputs off. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts) {
     board_kept_fault(facts, board_ticks());
     __asm__ volatile("dsb" ::: "memory");

@@ -33,7 +33,7 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks) {
     seal();
 }
 
-/* Written only if there is a record to drop: so a reset at nearly any instant finds it intact. */
+/* Writes only if there is a record to drop: a reset at nearly any instant then finds the memory intact. */
 bool board_kept_take_fault(board_fault_record *record) {
     const bool held = fault_holds();
     const bool there = held && fault.facts.exception != 0;

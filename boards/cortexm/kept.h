@@ -10,22 +10,23 @@
 /* A fault's record. */
 typedef struct board_fault_record {
     board_fault_facts facts;
-    uint32_t ticks;  /* of the board's clock, which restarts at each start */
-    uint32_t state;  /* hal_reset_mark()'s last */
+    uint32_t ticks;  /* time of the fault; the board's clock restarts at each start */
+    uint32_t state;  /* last argument of hal_reset_mark() */
     uint32_t faults; /* faults since power-on, including this one */
     uint32_t crc;
 } board_fault_record;
 
-/* From the fault's handler. */
+/* Store a fault's record; called by the fault handler. */
 void board_kept_fault(const board_fault_facts *facts, uint32_t ticks);
 
-/* Read the record from before the start: once, when the program starts. The record is then no longer new. False: none. */
+/* Read the record from before the start, once, when the program starts. The record is then no longer new. Returns false
+ * if there is none. */
 bool board_kept_take_fault(board_fault_record *record);
 
-/* Power-on: forget this, and the bytes of boards/shared/remembered.c. */
+/* After a power-on: forget the record, and the bytes of boards/shared/remembered.c. */
 void board_kept_forget(void);
 
-/* Do any data from before exist? Then this is no power-on. */
+/* True if any data from before the start exist: then it was no power-on. */
 bool board_kept_anything(void);
 
 #endif

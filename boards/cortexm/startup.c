@@ -10,7 +10,7 @@ typedef void (*vector)(void);
 #define CORE_ROW(number, name) [(number)] = on_##name,
 #define CHIP_ROW(number, name) [16 + (number)] = on_##name,
 
-/* A row deliberately overrides the range before it. */
+/* A row deliberately overrides the range of fault handlers before it. */
 #pragma GCC diagnostic ignored "-Woverride-init"
 
 /* Sixteen system vectors, then the chip's interrupts. Rows replace the fault handler, which serves all others. */

@@ -21,7 +21,8 @@ static int other_end = -1; /* kept open: the line exists with or without a partn
 static const char *link_name;
 static char own_terminal[64];
 
-/* For exit() and signals: uses only functions allowed there. A link to another terminal belongs to a newer program. */
+/* Called by exit() and by signal handlers, so it uses only functions allowed there. A link to another terminal belongs
+ * to a newer program. */
 static void remove_link(void) {
     if (link_name != NULL) {
         char to[sizeof own_terminal];

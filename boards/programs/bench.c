@@ -86,8 +86,8 @@ static const struct {
     const char *name;
     wh_real (*one)(wh_real x);
     wh_real (*two)(wh_real x, wh_real y);
-    wh_real scale;  /* of arguments from -1 to 1 */
-    wh_real offset; /* and what is added */
+    wh_real scale;  /* factor of arguments from -1 to 1 */
+    wh_real offset; /* added to the scaled argument */
 } functions[] = {
     {"wh_exp", wh_exp, NULL, WH_R(20.0), WH_R(0.0)},
     {"wh_log", wh_log, NULL, WH_R(20.0), WH_R(20.01)},
@@ -143,7 +143,7 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-/* Steps of a scene that does many in a call (ahead.h). */
+/* Counts the steps of a scene that does many in one call (ahead.h). */
 static wh_status count_ahead(const wh_scene *scene, wh_state *state) {
     const unsigned first = intervals;
     wh_status status = WH_OK;

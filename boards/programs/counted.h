@@ -12,7 +12,7 @@ static uint64_t memory[WH_SCENE_WORDS];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* Only a return. The operands differ so that the compiler does not merge the two. */
+/* This function only returns. The operands differ so that the compiler does not merge the two functions. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
@@ -42,7 +42,7 @@ static void line_end(void) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* The intervals `first` to `last` belong to this method; `more` qualifies it. */
+/* Prints that the intervals `first` to `last` belong to this method; `more` qualifies the method. */
 static inline void say_counted(const char *name, const char *method, const char *more,
                                unsigned first, unsigned last) {
     line_begin("count", name);

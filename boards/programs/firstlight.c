@@ -33,11 +33,11 @@ static const wh_scene *const scenes[] = {WH_LIGHT_SCENES(ADDRESS_OF)};
 #define SCENES (sizeof scenes / sizeof scenes[0])
 _Static_assert(SCENES == 5U, "five scenes");
 
-/* One after the other. */
+/* Scenes run one after the other, in shared memory. */
 #define MEMORY_OF(scene) uint64_t scene[scene##_MEMORY_WORDS];
 static union { WH_LIGHT_SCENES(MEMORY_OF) } scene_memory;
 
-/* Of a scene's run. */
+/* Results of a scene's run. */
 typedef struct run {
     uint64_t hash;
     uint64_t steps;
@@ -320,7 +320,7 @@ static void say_rest(void) {
 
 static void say_record(void) {
     line_begin("");
-    line_end(); /* and noise before it */
+    line_end(); /* ends noise before the record */
     crc = 0;
     line_begin(WH_LIGHT_BEGIN);
     line_end();
@@ -345,7 +345,7 @@ int main(void) {
     watch_rest();
     for (;;) {
         say_record();
-        (void)line_end_typed(); /* while it was printed */
+        (void)line_end_typed(); /* drops bytes that came while the record was printed */
         do {
             hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
         } while (!line_end_typed());

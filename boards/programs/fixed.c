@@ -10,7 +10,7 @@
 #include "core/text.h"
 
 #ifndef FIXED_SCENE
-int main(void) { return 1; } /* of no scene */
+int main(void) { return 1; } /* built without a scene */
 #else
 #ifndef COUNTED_STEPS
 #define COUNTED_STEPS 100U
@@ -25,7 +25,7 @@ static uint64_t memory[OF(FIXED_SCENE, _MEMORY_WORDS)];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* Only a return. The operands differ so that the compiler does not merge the two. */
+/* This function only returns. The operands differ so that the compiler does not merge the two functions. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 

@@ -29,9 +29,9 @@ static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }
 
-/* *drives: the last command drove the motor; false at first. The motor is started only at the first of successive
- * driving commands. After an interrupt has switched it off, or stop has prevented a start, it restarts only after the
- * rig was off, too. */
+/* *drives tells whether the last command drove the motor; it is false at first. The motor is started only at the first
+ * of successive driving commands. After an interrupt has switched it off, or stop has prevented a start, the motor
+ * restarts only after a command that does not drive. */
 static inline void obey(const wh_rig_command *command, bool *drives) {
     if (command->way != WH_MOTOR_DRIVES) {
         hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
@@ -41,7 +41,7 @@ static inline void obey(const wh_rig_command *command, bool *drives) {
 #if RIG_DRIVES
     if (!*drives) {
         *drives = true;
-        (void)hal_motor_start(); /* the inputs of the next step have the reason for a failure */
+        (void)hal_motor_start(); /* if it fails, the inputs of the next step have the reason */
     }
     hal_motor_set_voltage(command->volts);
 #else

@@ -22,11 +22,11 @@
 #include "rig_control.h"
 #include "rig_report.h"
 
-/* 1: on a carriage, with an operator's dials (pil_carriage.c). */
+/* 1: the rig is on a carriage, with an operator's dials (pil_carriage.c). */
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
-/* 1: at several set-points, and with a dialled part of gravity fed forward (pil_dialled.c). */
+/* 1: set-point and the fed-forward part of gravity are dialled (pil_dialled.c). */
 #ifndef RIG_DIALLED
 #define RIG_DIALLED 0
 #endif
@@ -95,7 +95,7 @@ static void put_state(uint32_t started_ticks) {
 /* Limit of the wait for the dials: a reading may be late or lost. */
 #define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
 
-/* False: no readings. */
+/* Returns false if there are no readings. */
 static bool wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0;
@@ -110,7 +110,7 @@ static bool wait_for_dials(void) {
 }
 #endif
 
-/* The operator's dials. False: unknown. */
+/* Reads the operator's dials. Returns false if they are unknown. */
 #if RIG_CARRIAGE
 static bool take_dials(wh_rig_config *config) {
     if (!wait_for_dials()) {
@@ -158,8 +158,8 @@ static void put_plant_hash(void) {
 }
 #endif
 
-/* The operator: `arm` once the rotor rests, then `start`. It gives no orders to a rig that was reset, or stopped: a
- * person must check it first. */
+/* The program acts as the operator: `arm` once the rotor rests, then `start`. It gives no orders to a rig that was reset
+ * or stopped: a person must check the rig first. */
 typedef enum operator_step {
     WAITS_FOR_REST,
     HAS_ARMED,
@@ -169,7 +169,7 @@ typedef enum operator_step {
     STOP_SILENT /* the stop input is unknown */
 } operator_step;
 
-/* A stop input without a reading may still get one: it then counts before the rig is armed. */
+/* A stop input without a reading may still get one. That reading counts if it comes before the rig is armed. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;
@@ -233,7 +233,8 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    /* The motor may be at the end of a line that loses orders. A late controller is past `due` by then. */
+    /* Repeats the off command, because the motor may be at the end of a line that loses orders. A late controller is
+     * past `due` by then. */
     for (unsigned i = 0; i < LAST_ORDERS; i++) {
         hal_motor_off(HAL_MOTOR_COAST);
         hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
@@ -241,7 +242,7 @@ static operator_step run(const wh_rig_config *config) {
     return operator_at;
 }
 
-/* Before anything has moved. */
+/* Reports a refusal before anything has moved. */
 static void refuse(const char *why) {
     put("NOT STARTED: ");
     put(why);
@@ -263,7 +264,7 @@ static void put_supply(float supply_V) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* The reason why there is no result, or only one. */
+/* Prints how the run ended. */
 static void put_end(operator_step ended) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         put(hal_reset_cause() == HAL_RESET_WATCHDOG ? "RESET by the watchdog" : "RESET");

@@ -43,7 +43,8 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* Samples in a step, and in one with a pulse; further ones wait for the next step. A small chip's build may set less. */
+/* Most samples in a step, and in a step with a pulse; further ones wait for the next step. A small chip's build may set
+ * less. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
 #endif
@@ -56,15 +57,15 @@ _Static_assert(RIG_SAMPLES_MOST <= WH_STEP_SAMPLES, "all are seen");
 /* Static, not on the stack: it contains the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
-static wh_step_inputs seen; /* of this control step, or the last */
+static wh_step_inputs seen; /* inputs of this control step, or of the last one */
 static bool drives;         /* obey.h */
 
 /* Reads new edges and samples into `seen`, as many as a step takes. */
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* At most one pulse a step, and one end before it: a storm must not delay the step, and stamps stay valid. A sample
-     * that had to wait for a pulse comes first. */
+    /* At most one pulse per step, and one end before it: a storm must not delay the step, and time stamps stay valid. A
+     * sample that had to wait for a pulse comes first. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -127,15 +128,15 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Start the hardware, and check that the arithmetic is that of the tests, in the model's file, which has the flags of
- * the whole image. Returns the reason for a failure, for wh_text_add(), with the motor off; or NULL. */
+/* Start the hardware, and check that the arithmetic is that of the tests. The check runs in the model's file, which has
+ * the flags of the whole image. Returns the reason for a failure, for wh_text_add(), with the motor off; or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        /* without the other texts of a wh_status */
+        /* a literal, so that the other texts of wh_status are not linked */
         return "compiled or set up for other arithmetic than IEEE 754";
     }
     return NULL;

@@ -12,7 +12,7 @@
 /* The observer's model: rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
-/* Probe of the arithmetic: in the model's file, if there is a model. */
+/* Probe of the arithmetic; it is in the model's file, if there is a model. */
 #if WH_RIG_FEEDS
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else

@@ -68,7 +68,7 @@ static inline void put_verdict(const wh_measured *force) {
     }
 }
 
-/* For a speed that did not settle or stay. */
+/* Prints the turns if the speed did not settle or stay. */
 static inline void put_turns(const wh_run *run) {
     if (run->turns < WH_RUN_TURNS) {
         return;
@@ -138,7 +138,7 @@ static inline void put_swung(const wh_swung *swung) {
     }
 }
 
-/* With the formula's value for a fixed mount. */
+/* Prints the carriage's values, with the formula's value for a fixed mount. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;

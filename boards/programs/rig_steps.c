@@ -32,9 +32,9 @@ typedef struct trial {
     float target_rpm;
     unsigned lose_pulses[2];
     unsigned lose_samples;
-    float noise; /* counts, either way */
-    bool fed;    /* gravity forward, although it is not needed */
-    bool swings; /* at the end, and the swing is evaluated */
+    float noise; /* largest noise, counts, either way */
+    bool fed;    /* feeds gravity forward, although it is not needed */
+    bool swings; /* ends in a free swing, which is evaluated */
 } trial;
 
 static const trial trials[] = {
@@ -95,7 +95,7 @@ static bool run(const trial *tried) {
     config.observer.scene = &rig_observed;
     config.feeds = tried->fed ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
-    config.stop_brakes = true; /* the others end soon */
+    config.stop_brakes = true; /* runs without a swing end soon */
     if (hal_clock_start() != HAL_STARTED) {
         return false;
     }

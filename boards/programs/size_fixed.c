@@ -6,7 +6,7 @@
 #include "core/fixed_scene.h"
 
 #ifndef FIXED_SCENE
-int main(void) { return 1; } /* of no scene */
+int main(void) { return 1; } /* built without a scene */
 #else
 #define JOIN(scene, kind) scene##kind
 #define OF(scene, kind) JOIN(scene, kind)

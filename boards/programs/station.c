@@ -32,13 +32,13 @@ static void converse(void) {
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
 
-/* An unrequested start is reported first. */
+/* Reports a start that nobody requested. */
 static void tell_reset(void) {
     char words[200];
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
         put("\r\n"
-            "# reset: "); /* ends any line in progress */
+            "# reset: "); /* the line feed ends any line in progress */
         hal_console_write(words, count);
         put("\r\n");
     }
@@ -49,7 +49,8 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* A control period of the board's clock. After a long delay (a debugger, a laptop that slept) it goes on from now. */
+/* Waits for a control period of the board's clock. After a long delay (a debugger, a laptop that slept) it goes on from
+ * now. */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;
@@ -60,7 +61,7 @@ static void keep_time(uint32_t *due_ticks) {
 }
 #endif
 
-/* After a long delay, such as a sector's erase, it goes on from now, without catching up step by step. */
+/* The time of the next step. After a long delay, such as a sector's erase, the steps go on from now without catching up. */
 static uint32_t next_step(uint32_t due_ticks) {
     const uint32_t now = hal_clock_ticks();
     const bool late = (int32_t)(now - due_ticks) > (int32_t)WATCHDOG_TICKS;

@@ -25,7 +25,7 @@ static inline void step_cycles_start(step_cycles *c) {
     *c = (step_cycles){.nothing = board_cycles() - before, .least = UINT32_MAX};
 }
 
-/* One step. `keep`: it counts for the median, too. */
+/* Does one step and counts its cycles. `keep`: the step counts for the median, too. */
 static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_state *state,
                                      bool keep) {
     const uint32_t before = board_cycles();
@@ -43,7 +43,7 @@ static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_s
     return status;
 }
 
-/* For at least one step. */
+/* The median, for at least one step. */
 static inline uint32_t step_cycles_median(const step_cycles *c) {
     return c->sorted[(c->kept - 1U) / 2U];
 }

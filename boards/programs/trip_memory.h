@@ -9,7 +9,7 @@
 
 _Static_assert(WH_TRIP_RECORD_BYTES <= HAL_REMEMBER_BYTES, "it is remembered whole");
 
-/* The copy that a reset would find. */
+/* The copy of the record that a reset would find. */
 typedef struct trip_memory {
     wh_trip_record record;
 } trip_memory;
@@ -22,7 +22,7 @@ static inline void trip_memory_start(trip_memory *memory, const wh_rig_config *c
     wh_rig_start(config, rig, now_ticks, tripped ? &memory->record : NULL);
 }
 
-/* After each control step. */
+/* Call it after each control step. */
 static inline void trip_memory_keep(trip_memory *memory, const wh_rig *rig) {
     const wh_trip_record *record = &rig->record;
     if (record->trip != memory->record.trip || record->ticks != memory->record.ticks) {

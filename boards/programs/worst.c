@@ -20,7 +20,7 @@
 
 static uint32_t seed;
 
-/* The next of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
+/* The next number of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
 static uint32_t next(void) {
     seed ^= seed << 13;
     seed ^= seed >> 17;
@@ -28,7 +28,7 @@ static uint32_t next(void) {
     return seed;
 }
 
-/* Between -size and size. */
+/* A random number between -size and size. */
 static wh_real within(wh_real size) {
     return size * ((wh_real)(int32_t)next() / WH_R(2147483648.0));
 }
@@ -77,7 +77,7 @@ static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
         wh_count_begin();
         const wh_status status = wh_scene_step(scene, &state);
         wh_count_end();
-        if (status != WH_OK) { /* thrown too far */
+        if (status != WH_OK) { /* the random state was too far out */
             (void)wh_scene_start(scene, &state, memory, sizeof memory);
         }
     }

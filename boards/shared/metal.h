@@ -7,7 +7,7 @@
 /* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Access to one; on the PC, tests replace it and see every access in its order (tests/chip). */
+/* Access to a register; on the PC, tests replace it and see every access in its order (tests/chip). */
 #ifndef BOARD_REGISTERS_FAKED
 #define BOARD_REGISTERS_FAKED 0
 #endif
@@ -21,16 +21,16 @@ static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(addres
 
 extern uint32_t board_stack_guard[]; /* BOARD_STRIP_BYTES below the stack, unused */
 extern uint32_t board_stack_limit[]; /* lowest word of the stack */
-extern uint32_t board_stack_top[];   /* one past its highest word */
+extern uint32_t board_stack_top[];   /* one past the highest word of the stack */
 extern uint32_t board_fault_stack_top[];
 
-/* Aligned to its size, as memory protection units require. */
+/* Size of the strip below the stack, which is aligned to its size, as memory protection units require. */
 #define BOARD_STRIP_BYTES 256U
 
-/* Make accesses to the strip fault, if the chip can: a family's guard.c. Once, from its startup code. */
+/* Make accesses to the strip fault, if the chip can (a family's guard.c). The startup code calls it once. */
 void board_guard_stack(void);
 
-/* Words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
+/* The number of words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
 static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }

@@ -13,7 +13,7 @@
 
 /* As few bytes as possible: an 8-bit processor needs 150 cycles for each in the CRC. */
 typedef struct remembered {
-    uint8_t sequence; /* the other copy's is one more, or one less */
+    uint8_t sequence; /* the other copy's number is one more, or one less */
     uint8_t count;
     uint8_t bytes[HAL_REMEMBER_BYTES];
     uint32_t crc;
@@ -31,7 +31,7 @@ static bool holds(const remembered *slot) {
     return slot->count <= HAL_REMEMBER_BYTES && slot->crc == crc_of(slot);
 }
 
-/* The newer valid copy; NULL: none. */
+/* The newer valid copy, or NULL. */
 static const remembered *newest(void) {
     const remembered *found = NULL;
     for (const remembered *slot = slots; slot < slots + 2; slot++) {

@@ -5,13 +5,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Never cleared or filled. */
+/* Places a variable in memory that is never cleared or filled. */
 #define BOARD_KEPT __attribute__((section(".noinit")))
 
-/* Start value of CRCs there: memory that is all zeros is then invalid. */
+/* Start value of CRCs in that memory: all zeros are then invalid. */
 #define BOARD_KEPT_CRC_START 0x52494721U
 
-/* A barrier: stores to that memory are neither delayed beyond it nor moved before it. */
+/* A barrier: stores to that memory are neither delayed beyond this call nor moved before it. */
 static inline void board_kept_settle(void) {
 #if defined(__arm__)
     __asm__ volatile("dmb" ::: "memory");
@@ -20,13 +20,13 @@ static inline void board_kept_settle(void) {
 #endif
 }
 
-/* hal_recall() would have something. */
+/* True if hal_recall() has bytes to return. */
 bool board_remembers(void);
 
-/* Power-on: hal_recall() returns no bytes until the next hal_remember(). */
+/* After a power-on: hal_recall() returns no bytes until the next hal_remember(). */
 void board_forget(void);
 
-/* hal_reset_mark()'s last. */
+/* The last argument of hal_reset_mark(). */
 uint32_t board_kept_state(void);
 
 #endif

@@ -7,12 +7,12 @@
 #include "core/text.h"
 
 typedef struct board_fault_when {
-    uint32_t ticks;  /* of the board's clock, which restarts at each start */
-    uint32_t state;  /* hal_reset_mark()'s last */
+    uint32_t ticks;  /* time of the fault; the board's clock restarts at each start */
+    uint32_t state;  /* last argument of hal_reset_mark() */
     uint32_t faults; /* faults since power-on, including this one */
 } board_fault_when;
 
-/* The family's: adds the words of the fault that hal_reset_cause() reports, and returns its time. */
+/* Implemented by each family: adds the words of the fault that hal_reset_cause() reports, and returns its time. */
 board_fault_when board_fault_told(wh_text *text);
 
 #endif

@@ -22,8 +22,8 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* From the middle of the forces to the interrupt after the last pair. It is half of the pairs less half of one, plus
- * 5 us: two conversions take 9 us, and the force is sampled until 4 us of them. */
+/* Time from the middle of the samples to the interrupt after the last pair: half of the pairs minus half of one, plus 5
+ * us. Two conversions take 9 us, and the force is sampled for the first 4 us. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* STM32F405's data sheet, table 67. */
@@ -34,7 +34,7 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 #define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 52 mV */
 #define OPEN_BELOW (FULL / 16U) /* 0.2 V */
 
-/* A mean with a conversion above this is not the supply's. */
+/* If a conversion is above this, the supply's mean is not valid. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_V_PER_COUNT ((float)BOARD_SUPPLY_FULL_mV / 1000.0f / (float)FULL)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
@@ -43,7 +43,7 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
 
 #define SAMPLES_KEPT 8U
 
-/* Status of a missing mean: the converter never has this one. */
+/* Status that marks a missing mean; the converter itself never has this status. */
 #define NO_MEAN HAL_LOAD_REPEATED
 
 /* In memory that DMA reaches, which core-coupled memory is not (RM0090, 2.3.1). */
@@ -52,12 +52,12 @@ static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;
 static const stm32f4_ring samples = {&sample_counts, kept_samples, SAMPLES_KEPT,
                                      sizeof *kept_samples};
-static volatile uint32_t supply_sum; /* UINT32_MAX: beyond its end */
+static volatile uint32_t supply_sum; /* UINT32_MAX: beyond the converter's end */
 
-/* The last mean, */
+/* the last mean */
 static hal_load_sample last;
-static int32_t before_last; /* the counts of the one before it, */
-static bool last_follows;   /* and no mean between them is missing */
+static int32_t before_last; /* counts of the mean before the last one */
+static bool last_follows;   /* no mean is missing between these two */
 
 static void start_dma(void) {
     stm32f4_clock_on(RCC_PART(RCC_AHB1ENR, RCC_AHB1ENR_DMA2));
@@ -82,7 +82,8 @@ static void start_converter(void) {
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
-        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* half of APB2 without it */
+        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* the reset value gives half of APB2's clock, too
+                                               * fast */
     }
     sample_for(BOARD_CELL_INPUT);
     sample_for(BOARD_SUPPLY_INPUT);
@@ -109,14 +110,14 @@ void stm32f4_cell_start(void) {
     start_trigger();
 }
 
-/* True for means of a converter without interruption. */
+/* True if the converter was not interrupted between these two means. */
 static bool follows(const hal_load_sample *before, const hal_load_sample *sample) {
     const uint32_t passed = sample->ticks - before->ticks;
     return before->status == HAL_LOAD_OK && sample->status == HAL_LOAD_OK &&
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* Deliver the mean before this one as a sample. */
+/* Deliver the mean before `mean` as a sample. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {
@@ -154,7 +155,8 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* DMA's position shows the complete half and its time: a delayed interrupt takes the newest one, with its own stamp. */
+/* DMA's position tells which half is complete, and when: a delayed interrupt takes the newest half, with that half's own
+ * time stamp. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

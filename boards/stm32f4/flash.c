@@ -25,7 +25,7 @@ static hal_settings_result ended(void) {
                : HAL_SETTINGS_FAILED;
 }
 
-/* Unlock for these bytes, if they exist and the flash is idle. */
+/* Unlock the flash for these bytes, if they exist and the flash is idle. */
 static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     if (!within(slot, at, count)) {
         return HAL_SETTINGS_OUTSIDE;
@@ -35,7 +35,7 @@ static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     }
     reg_store(FLASH_KEYR, FLASH_KEY1);
     reg_store(FLASH_KEYR, FLASH_KEY2);
-    reg_store(FLASH_SR, FLASH_SR_ERRORS); /* of before */
+    reg_store(FLASH_SR, FLASH_SR_ERRORS); /* errors of an earlier operation */
     return HAL_SETTINGS_DONE;
 }
 
@@ -61,7 +61,7 @@ hal_settings_result hal_settings_erase(unsigned slot) {
     return result;
 }
 
-/* Words; the bytes after the last stay ones. */
+/* Writes words; the bytes of the last word after `count` stay 0xFF. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count) {
     hal_settings_result result = at % 4U == 0 ? opened(slot, at, count) : HAL_SETTINGS_OUTSIDE;

@@ -17,13 +17,15 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole;        /* the compare value that is always on */
-static volatile bool driving; /* unless cut; an interrupt may also clear it */
+static volatile bool driving; /* between hal_motor_start() and hal_motor_off(), even if stop
+                               * keeps MOE clear */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* set by a debugger, and surviving a reset */
+    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* a debugger sets this bit, and it survives
+                                                     * a reset */
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     reg_store(TIM_CR1(TIM1), 0);
@@ -40,7 +42,7 @@ void stm32f4_motor_start(void) {
     driving = false;
 }
 
-/* Permanent: no hardware sets MOE again (AOE is 0). */
+/* The motor was started and the hardware has cleared MOE. This is permanent: no hardware sets MOE again (AOE is 0). */
 static bool is_cut(void) { return driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0; }
 
 /* NaN and a missing supply give 0. */
@@ -55,7 +57,8 @@ static uint32_t compare_of(float volts) {
 unsigned hal_motor_start(void) {
     const uint32_t before = stm32f4_hold(); /* an off that comes now takes effect after this */
     if (!driving) {
-        driving = true; /* if stop keeps MOE clear, the motor is cut */
+        driving = true; /* even if stop prevents MOE below: is_cut() then reports the motor as
+                         * cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);
@@ -69,8 +72,8 @@ unsigned hal_motor_start(void) {
 /* Without MOE the value has no effect, and a start begins at 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* The output first: that store is also a fault's first (BOARD_SAFE_ROWS). From now on any stop, however short, prevents
- * a start. */
+/* Clears the output first, by a store that is also the first one of a fault (BOARD_SAFE_ROWS). From now on any stop,
+ * however short, prevents a start. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);

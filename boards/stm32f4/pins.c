@@ -19,7 +19,7 @@ void stm32f4_pin_is(unsigned pin, unsigned what) {
     stm32f4_field(GPIO_MODER(port), 2U, number, what & 3U);
 }
 
-/* Medium: faults have 0 and interrupt it. */
+/* Medium priority: faults have priority 0 and interrupt it. */
 #define PRIORITY 0x80U
 
 void stm32f4_interrupt(unsigned number) {

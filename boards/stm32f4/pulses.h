@@ -12,8 +12,8 @@ static stm32f4_ring_counts edge_counts;
 static const stm32f4_ring edges = {&edge_counts, kept_edges, EDGES_KEPT, sizeof *kept_edges};
 static volatile uint32_t overruns;
 
-/* For the interrupt. Returns false without room, which counts as one overrun: the interrupt then stays off until an
- * edge is taken. */
+/* Called by the interrupt. Returns false if there is no room, which counts as one overrun: the interrupt then stays off
+ * until an edge is taken. */
 static inline bool keep_edge(const hal_slot_edge *edge) {
     if (stm32f4_ring_put(&edges, edge) && stm32f4_ring_has_room(&edges)) {
         return true;

@@ -6,7 +6,7 @@
 
 #if BOARD_REGISTERS_FAKED
 uint32_t reg_address(volatile void *memory);
-/* Interrupts off, and back to the state before (stm32f4.h). */
+/* Switch interrupts off, and back to the state before (stm32f4.h). */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 #else

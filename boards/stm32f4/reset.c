@@ -9,8 +9,8 @@
 static hal_reset cause;
 static board_fault_record fault;
 
-/* A start also sets the pin's flag: the others come first. Without a flag, as in an emulator, valid data from before
- * show that it is no power-on. */
+/* Every start also sets the pin's flag, so the other flags are tested first. Without any flag, as in an emulator, valid
+ * data from before show that it is no power-on. */
 static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
     if ((flags & (RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF)) != 0) {
         return HAL_RESET_WATCHDOG;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Records so far, wrapping; the difference are the waiting ones. */
+/* Records put and taken so far, wrapping; the difference is the number of waiting records. */
 typedef struct stm32f4_ring_counts {
     volatile uint32_t put;
     volatile uint32_t taken;
@@ -22,10 +22,10 @@ static inline bool stm32f4_ring_has_room(const stm32f4_ring *ring) {
     return ring->counts->put - ring->counts->taken < ring->kept;
 }
 
-/* False: no room. */
+/* Returns false if there is no room. */
 bool stm32f4_ring_put(const stm32f4_ring *ring, const void *record);
 
-/* The oldest. False: none. */
+/* Take the oldest record. Returns false if there is none. */
 bool stm32f4_ring_take(const stm32f4_ring *ring, void *record);
 
 #endif

@@ -10,7 +10,6 @@
 #define TIM2_IRQ 28U
 #define TIM2_FUNCTION 1U
 
-/* All four channels. */
 #define ALL (TIM_SR_CCIF(1U) | TIM_SR_CCIF(2U) | TIM_SR_CCIF(3U) | TIM_SR_CCIF(4U))
 #define OVERRUNS (ALL << 8)
 
@@ -21,7 +20,7 @@ static const uint8_t inputs[2] = {BOARD_SLOT_CHANNELS};
 #define IN_OTHER_PAIRS(...) OTHER_PAIRS(__VA_ARGS__)
 _Static_assert(IN_OTHER_PAIRS(BOARD_SLOT_CHANNELS), "each sensor takes a pair of channels");
 
-/* A sensor's channel for this end of its pulses. */
+/* The channel that captures this end of a sensor's pulses. */
 static unsigned channel_of(unsigned sensor, hal_slot_end end) {
     return ((inputs[sensor] - 1U) ^ (unsigned)end) + 1U;
 }
@@ -43,7 +42,8 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(TIM2_IRQ);
 }
 
-/* Of simultaneous captures the earlier first. Reading a capture clears its flag; its other flag shows an overrun. */
+/* Simultaneous captures are stored in order of time. Reading a capture clears its flag; the channel's other flag shows
+ * an overrun. */
 void on_tim2(void) {
     const uint32_t status = reg_load(TIM_SR(TIM2));
     hal_slot_edge seen[4];
@@ -73,7 +73,7 @@ void on_tim2(void) {
     }
 }
 
-/* Taking an edge makes room again. Captures left by a storm may be of any age: drop them. */
+/* Taking an edge makes room again. Captures left by a storm may be of any age, so they are dropped. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

@@ -23,7 +23,7 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(EXTI1_IRQ);
 }
 
-/* QEMU requests the interrupt at both edges; only a rising one is pending. */
+/* QEMU requests the interrupt at both edges, but only a rising edge is pending. */
 static void see(uint8_t sensor) {
     const uint32_t ticks = board_ticks();
     if ((reg_load(EXTI_PR) & 1U << sensor) == 0) {

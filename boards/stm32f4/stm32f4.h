@@ -12,19 +12,19 @@
 
 /* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21): timers of a divided bus run at twice its clock. */
 typedef struct stm32f4_clocks {
-    uint32_t timer1_Hz; /* of TIM1, on APB2 */
-    uint32_t timers_Hz; /* of TIM2 and TIM3, on APB1 */
-    uint32_t usart_Hz;  /* APB2 */
+    uint32_t timer1_Hz; /* clock of TIM1, on APB2 */
+    uint32_t timers_Hz; /* clock of TIM2 and TIM3, on APB1 */
+    uint32_t usart_Hz;  /* clock of the USART, on APB2 */
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
 /* A peripheral, by the bit of the register that enables its clock; ports are the first of them. */
 #define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
 
-/* Enable its clock; effective when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
+/* Enable the peripheral's clock; it runs when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
 void stm32f4_clock_on(unsigned part);
 
-/* True if those bits of `mask` become `wanted` within this many polls of some ten cycles each. */
+/* Returns true if the bits of `mask` become `wanted` within this many polls of some ten cycles each. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
 /* A pin's mode and pull resistor. */
@@ -35,9 +35,9 @@ bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t lo
 #define PULL_UP (1U << 2)
 #define PULL_DOWN (2U << 2)
 
-/* Also enables its port's clock. */
+/* Set a pin's mode; also enables the port's clock. */
 void stm32f4_pin_is(unsigned pin, unsigned what);
-/* One store: also from a fault handler. */
+/* Set a pin's level by one store: may be called from a fault handler. */
 WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
 }
@@ -45,14 +45,14 @@ static inline bool stm32f4_pin_is_high(unsigned pin) {
     return (reg_load(GPIO_IDR(pin / 16U)) >> (pin % 16U) & 1U) != 0;
 }
 
-/* From register `first` on there are fields of `bits` bits, each within one register: set the field of this number to
- * `value`. */
+/* Set a field of an array of fields to `value`. The fields have `bits` bits, begin at register `first`, and lie within
+ * one register each. */
 void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
 /* Enable an interrupt of the chip. All have one priority: they do not interrupt each other, and faults interrupt all. */
 void stm32f4_interrupt(unsigned number);
 
-/* Interrupts off, from here to stm32f4_go_on(). Returns the state before. */
+/* Switch interrupts off until stm32f4_go_on(). Returns the state before. */
 static inline uint32_t stm32f4_hold(void) {
 #if BOARD_REGISTERS_FAKED
     return reg_hold();
@@ -70,7 +70,8 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
-/* The flash interface is idle. An erase takes less than two seconds, at any speed of this loop. */
+/* Wait until the flash interface is idle; false if it stays busy. An erase takes less than two seconds, at any speed of
+ * this loop. */
 static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }

@@ -22,9 +22,9 @@ static stm32f4_ring_counts in_counts;
 static const stm32f4_ring in = {&in_counts, in_bytes, IN_BYTES, 1};
 static char out_bytes[OUT_BYTES];
 static stm32f4_ring_counts
-    out_counts; /* taken: used by the interrupt, and by code that disables it */
+    out_counts; /* bytes taken: used by the interrupt, and by code that disables it */
 static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
-static bool lost; /* the interrupt's */
+static bool lost; /* bytes were lost; used by the interrupt only */
 
 void uart_start(void) {
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_USART6));
@@ -35,7 +35,7 @@ void uart_start(void) {
     stm32f4_interrupt(USART6_IRQ);
 }
 
-/* Send waiting bytes while the transmitter takes them. True: more are waiting. */
+/* Send waiting bytes while the transmitter takes them. Returns true if more are waiting. */
 static bool feed(void) {
     uint8_t byte;
     while ((reg_load(USART_SR) & USART_SR_TXE) != 0) {
@@ -47,8 +47,8 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Reading the status, then the data, clears both (30.6.1). Overrun bytes came after this one. They leave a zero before
- * the next, as do bytes without room: a line with a zero is not executed. */
+/* Reading the status, then the data, clears both (30.6.1). Bytes lost by an overrun came after this one: they leave a
+ * zero before the next byte, as do bytes without room. A line with a zero is not executed. */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);
@@ -99,7 +99,8 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* Ready within a byte's time, 87 us: the wait is bounded, so that a dead device does not hang the program. */
+/* The transmitter is ready within a byte's time, 87 us. The wait is bounded, so that a dead device does not hang the
+ * program. */
 static void send(char byte) {
     (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
     reg_store(USART_DR, (uint8_t)byte);

@@ -11,14 +11,14 @@
 #define LONGEST 4095U
 #define DIVIDERS 7U /* by 4, 8, ... 256 */
 
-/* At its fastest, rounded up. In two parts: one product would need the library's 64-bit division, 750 bytes of flash
- * without another use. */
+/* Clocks of the fastest oscillator, rounded up. In two parts, because one product would need the library's 64-bit
+ * division: 750 bytes of flash for this only. */
 static uint32_t clocks_in(uint32_t ticks) {
     const uint32_t rest = FASTEST_KHZ * (ticks % TICKS_PER_MS);
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;
 }
 
-/* May be called again, with another time: also at the last moment of the one before. */
+/* May be called again with another time, even at the last moment of the earlier time. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint32_t counts = clocks_in(timeout_ticks) / 4U;
     uint32_t divider = 0;
@@ -26,17 +26,17 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
         divider++;
         counts /= 2U;
     }
-    reg_store(IWDG_KR, IWDG_KR_START); /* and with it its oscillator */
+    reg_store(IWDG_KR, IWDG_KR_START); /* also starts the watchdog's oscillator */
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);
     reg_store(IWDG_PR, divider);
     reg_store(IWDG_RLR, counts < LONGEST ? counts + 1U : LONGEST);
-    /* both values need up to five of its clocks, 300 us, to take effect (21.4.4) */
+    /* both values need up to five clocks of the watchdog, 300 us, to take effect (21.4.4) */
     (void)stm32f4_comes(IWDG_SR, UINT32_MAX, 0, 100000U);
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
 }
 
 void hal_watchdog_kick(void) { reg_store(IWDG_KR, IWDG_KR_RELOAD); }
 
-/* It resets. */
+/* This watchdog resets the chip instead. */
 bool hal_watchdog_has_cut(void) { return false; }

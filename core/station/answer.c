@@ -5,7 +5,7 @@
 
 /* --- answers ----------------------------------------------------------------------------------------- */
 
-/* `blank` replaces blanks; words without blanks may be list items. */
+/* Adds words with `blank` in place of blanks: words without blanks may be list items. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {

@@ -14,7 +14,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 #undef UNIT
 #define DEG per_unit[WH_CONF_DEG]
 
-/* In flash with the strings, if those stay there. */
+/* Constants are in flash with the strings, if those stay there. */
 #if defined(WH_WORDS_FROM)
 #define ROWS_KEPT WH_FLASH
 #else
@@ -27,7 +27,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Least damping in parts of the slope of the motor's line: a measured damping may have an error. */
+/* Least damping, as a share of the slope of the motor's line: a measured damping may have an error. */
 #define LINE_PART WH_R(0.9)
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
@@ -66,7 +66,7 @@ const char *wh_conf_unit_text(wh_conf_id id) {
 #undef WORD
 }
 
-/* A list: a choice's values, or one word. */
+/* The words of a setting, as a list: a choice's values, or one word. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
@@ -80,7 +80,7 @@ const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* Number of the setting's units in one of the configuration's. */
+/* The number of the setting's units in one unit of the configuration. */
 static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
@@ -115,10 +115,10 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
 
 /* --- its range ---------------------------------------------------------------------------------------- */
 
-/* As memory has it. */
+/* The value as memory stores it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
-/* Features that this build omits. */
+/* True if the value selects a feature that this build omits. */
 static bool is_absent(wh_conf_id id, wh_real value) {
     return is_on(value) &&
            ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
@@ -172,7 +172,7 @@ static bool has_motor(const wh_conf *conf) {
            conf->given[WH_CONF_stall_torque];
 }
 
-/* Their defaults follow from the motor. */
+/* Settings whose defaults follow from the motor. */
 static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
                                    WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
 
@@ -204,8 +204,8 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* The motor lifts the arms, reaches the largest set-point at its rated voltage, and has at least the damping of its own
- * line. */
+/* True if the motor lifts the arms, reaches the largest set-point at its rated voltage, and has at least the damping of
+ * its own line. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -244,7 +244,8 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* False: the settings contradict each other. The caller must then restore consistent ones and call this again. */
+/* Computes the configuration from the settings. Returns false if the settings contradict each other: the caller must
+ * then restore consistent ones and call this again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
@@ -345,7 +346,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* The program's own values of settings that several members represent. */
+/* Sets the program's own values of settings that stand for several members. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];
@@ -395,7 +396,7 @@ wh_station_error wh_conf_save(wh_conf *conf) {
 /* Space in an answer for the text that `conf list` adds after the settings. */
 #define LIST_TAIL 12U
 
-/* " name=value", a choice's value in words. */
+/* Adds " name=value", with a choice's value in words. */
 static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real number) {
     const char *choice = wh_conf_text(id, number);
     wh_value value[] = {{.word = name}, {.number = number}};

@@ -48,9 +48,9 @@ typedef struct wh_conf {
     /* Fills in the program's own configuration, whose settings are consistent. */
     void (*own)(wh_rig_config *config);
     const wh_store_memory *memory; /* NULL: settings are not saved */
-    wh_rig_config *config;         /* the rig's: updated with each change */
+    wh_rig_config *config;         /* the rig's configuration, updated with each change */
     wh_real value[WH_CONF_COUNT];
-    wh_real standard[WH_CONF_COUNT]; /* of settings that are not set */
+    wh_real standard[WH_CONF_COUNT]; /* values of settings that are not set */
     bool given[WH_CONF_COUNT];       /* set by the user, even to its default */
     uint32_t sequence;               /* of the record last loaded or saved; 0: none */
 } wh_conf;
@@ -76,17 +76,17 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
 /* *room is for the row if constants stay in flash (core/number/flash.h). */
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
-/* WH_CONF_COUNT if no setting has this name. */
+/* The setting with this name, or WH_CONF_COUNT. */
 wh_conf_id wh_conf_find(const char *name);
 
-/* Its name; its values and unit in words, items of lists (answer.h); and its description. */
+/* The setting's name; its values and unit in words, items of lists (answer.h); and its description. */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);
 const char *wh_conf_words(wh_conf_id id);
 
-/* Set it, in its unit, a choice by its number; or from typed text. The configuration follows, unless it is refused.
- * Only while the rig is idle. */
+/* Set a setting: to a value in its unit (for a choice its number), or from typed text. The configuration follows, unless
+ * the value is refused. Only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 

@@ -21,7 +21,7 @@ typedef enum wh_line_event {
 /* All zeros: nothing typed. */
 typedef struct wh_line {
     bool ended;    /* the next byte begins a line */
-    bool returned; /* after a carriage return: a line feed does not count */
+    bool returned; /* the last byte was a carriage return: a line feed then does not count */
     bool bad;
     uint8_t key; /* state in the sequence of a special key, which begins with Escape */
     unsigned length;
@@ -29,21 +29,21 @@ typedef struct wh_line {
 } wh_line;
 
 typedef struct wh_words {
-    const char *word[WH_LINE_WORDS]; /* "" for missing ones */
-    unsigned count;                  /* also of those beyond */
+    const char *word[WH_LINE_WORDS]; /* "" for missing words */
+    unsigned count;                  /* number of words, including those not stored */
 } wh_words;
 
 #define wh_line_take WH_NAME(wh_line_take)
 #define wh_line_split WH_NAME(wh_line_split)
 #define wh_line_number WH_NAME(wh_line_number)
 
-/* Lines end with carriage return, line feed or both; backspace and delete remove the last character. */
+/* Process a byte. Lines end with carriage return, line feed or both; backspace and delete remove the last character. */
 wh_line_event wh_line_take(wh_line *line, char byte);
 
 /* Split a line at blanks and tabulators. Writes the words' ends into the text. */
 void wh_line_split(wh_words *words, char *text);
 
-/* "330", "-3.5", ".5": a sign, digits, a point, digits; at most nine digits. False for other text. */
+/* Convert "330", "-3.5", ".5": a sign, digits, a point, digits; at most nine digits. Returns false for other text. */
 bool wh_line_number(const char *word, wh_real *number);
 
 #ifdef __cplusplus

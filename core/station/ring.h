@@ -10,10 +10,11 @@ extern "C" {
 #endif
 
 typedef struct wh_ring {
-    uint32_t put; /* bytes so far, wrapping; the difference are the waiting ones */
+    uint32_t put; /* bytes put and taken so far, wrapping; the difference is the number of
+                   * waiting bytes */
     uint32_t taken;
     uint32_t size; /* a power of two */
-    char *bytes;   /* the caller's */
+    char *bytes;   /* memory of the caller */
 } wh_ring;
 
 static inline uint32_t wh_ring_waiting(const wh_ring *ring) { return ring->put - ring->taken; }

@@ -18,7 +18,7 @@
 typedef struct request {
     wh_station *station;
     wh_rig *rig;
-    unsigned stage; /* where that is */
+    unsigned stage; /* the rig's stage */
     wh_words words;
     wh_text answer; /* "OK" at first */
     char bytes[ANSWER_BYTES];
@@ -26,7 +26,7 @@ typedef struct request {
 
 /* --- lines out ------------------------------------------------------------------------------------ */
 
-/* Send the answer and clear it. One that is too long is cut, so that its line has an end. */
+/* Sends the answer and clears it. An answer that is too long is cut, so that its line has an end. */
 static void send(request *r) {
     wh_text *text = &r->answer;
     text->size += END_BYTES;
@@ -55,7 +55,7 @@ static void send_answer(request *r, unsigned why) {
 
 /* Each of these returns the reason for refusal, or 0. */
 
-/* The answer follows when the rig has one. */
+/* Posts an order. The answer follows when the rig has one. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
     r->station->waits = wh_rig_post(r->rig, event, value);
@@ -88,7 +88,7 @@ static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
 
-/* Measured with other settings than the present ones. */
+/* True if the result was measured with other settings than the present ones. */
 static bool is_outdated(const request *r) {
     return r->station->conf != NULL && r->rig->settings != r->station->conf->config->settings;
 }
@@ -287,7 +287,7 @@ static unsigned do_help(request *r) {
 
 static unsigned typed(const wh_line *line) { return line->ended ? 0 : line->length; }
 
-/* The next line of the received bytes, as far as they go. */
+/* The next line of the received bytes, if it is complete. */
 static wh_line_event next_line(wh_station *station) {
     char byte;
     while (wh_ring_peek(&station->in, &byte, 1) == 1U) {
@@ -349,11 +349,11 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     }
 }
 
-/* Without one byte "start 330" could be "start 30": an incomplete line is changed to one that is refused. */
+/* Losing one byte could change "start 330" to "start 30". So an incomplete line is changed to one that is refused. */
 static void take_byte(wh_station *station, char byte) {
     static const char spoilt[] = {'\1', '\n'};
     if (byte == ESCAPE_KEY) {
-        station->escaped = true; /* waiting bytes were typed before it */
+        station->escaped = true; /* the waiting bytes were typed before Escape */
         station->spoils = false;
         wh_ring_drop(&station->in, wh_ring_waiting(&station->in));
     }

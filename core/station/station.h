@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-/* A literal each. */
+/* Literals of the commands' arguments. */
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
 /* X(name, most words after it, arguments, words) */
@@ -57,7 +57,7 @@ extern "C" {
 #define WH_STATION_TELEMETRY 1
 #endif
 
-/* Bytes waiting to be read; and to be sent, of which half are the console's own. */
+/* Room for bytes waiting to be read, and for bytes to be sent, of which half are the console's own. */
 #ifndef WH_STATION_IN_BYTES
 #define WH_STATION_IN_BYTES 256U
 #endif
@@ -70,19 +70,19 @@ typedef struct wh_station {
     bool talks;
     bool escaped;        /* stop, before anything else */
     bool spoils;         /* bytes were lost: the line is invalid to its end */
-    bool waits;          /* for the outcome of an order */
-    uint32_t answers;    /* rig->answers when it was given */
-    const char *program; /* the caller's, */
+    bool waits;          /* the console waits for the outcome of an order */
+    uint32_t answers;    /* rig->answers when the order was given */
+    const char *program; /* string of the caller */
     const char *board;
     wh_conf *conf;               /* NULL: no settings */
     wh_tel *tel;                 /* NULL: no telemetry */
-    const wh_rig_config *config; /* in the last step, */
-    const wh_step_inputs *seen;  /* and its observations */
-    uint32_t steps_per_s;        /* of wh_station_step(): the caller's, too */
+    const wh_rig_config *config; /* configuration in the last step */
+    const wh_step_inputs *seen;  /* observations of the last step */
+    uint32_t steps_per_s;        /* calls of wh_station_step() per second */
     unsigned stage;              /* as last reported */
-    uint32_t lost_bytes;         /* received without room for them, */
-    uint32_t lost_answers;       /* and answers without room */
-    bool host_told;              /* by the command `host`, which overrides the setting */
+    uint32_t lost_bytes;         /* received bytes lost for lack of room */
+    uint32_t lost_answers;       /* answers lost for lack of room */
+    bool host_told;              /* the command `host` was given: it overrides the setting */
     uint32_t host_steps;         /* steps without a byte after which the host is lost; 0: never */
     uint32_t silent_steps;
     uint32_t host_losses;
@@ -103,23 +103,24 @@ typedef struct wh_station {
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
-/* Bytes received. Looks for Escape at once. */
+/* Take received bytes. Looks for Escape at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* The last control step's observations, unchanged until the next. Telemetry takes none of the console's room. */
+/* Show the last control step's observations, which must stay unchanged until the next. Telemetry takes none of the
+ * console's room. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_step_inputs *seen);
 
-/* Execute the oldest line, if the one before is answered. If the giver of orders has been silent for the time of
- * `host`, the rig gets WH_EVENT_HOST_LOST, once; its configuration says what ends then. */
+/* Execute the oldest line, if the line before is answered. If the giver of orders has been silent for the time of
+ * `host`, the rig gets WH_EVENT_HOST_LOST, once; the rig's configuration says what ends then. */
 void wh_station_step(wh_station *station, wh_rig *rig);
 
-/* Bytes to send: the oldest, at most `room`; returns their number. */
+/* Copy the oldest bytes to send, at most `room`. Returns their number. */
 static inline unsigned wh_station_peek(const wh_station *station, char *bytes, unsigned room) {
     return (unsigned)wh_ring_peek(&station->out, bytes, room);
 }
 
-/* This many of them are sent. */
+/* Remove `count` bytes that were sent. */
 static inline void wh_station_drop(wh_station *station, unsigned count) {
     wh_ring_drop(&station->out, count);
 }

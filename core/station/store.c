@@ -19,8 +19,8 @@ static void put(uint8_t *bytes, uint32_t number) {
     bytes[3] = (uint8_t)(number >> 24);
 }
 
-/* Returns the sequence of a slot's record, 0 if it is not good, and its length with head and CRC. Reads in pieces,
- * because there is no room for a second record. */
+/* Returns the sequence of a slot's record, or 0 if the record is not good; *length gets its length with head and CRC. It
+ * reads in pieces, because there is no room for a second record. */
 static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned *length) {
     uint8_t bytes[HEAD_BYTES];
     uint32_t sequence = 0;
@@ -45,7 +45,7 @@ static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned
     return crc == WITH_ITS_CRC ? sequence : 0;
 }
 
-/* The slot of the newest record; 1 without one. */
+/* The slot of the newest record; 1 if there is none. */
 static unsigned newest(const wh_store_memory *memory, uint32_t *sequence, unsigned *length) {
     unsigned first_length;
     const uint32_t first = read_slot(memory, 0, &first_length);

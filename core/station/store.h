@@ -17,12 +17,12 @@ extern "C" {
 #endif
 
 #define WH_STORE_SLOTS 2U
-#define WH_STORE_HEAD_BYTES 8U   /* of a record, before the payload */
-#define WH_STORE_FIXED_BYTES 12U /* that are not payload */
+#define WH_STORE_HEAD_BYTES 8U   /* bytes of a record before the payload */
+#define WH_STORE_FIXED_BYTES 12U /* bytes of a record other than payload */
 #define WH_STORE_PAYLOAD_MOST 240U
 #define WH_STORE_SLOT_BYTES (WH_STORE_FIXED_BYTES + WH_STORE_PAYLOAD_MOST)
 
-/* Supplied by a board (hal/settings.h). Each function acts on slot 0 or 1 and returns false if the memory reported a
+/* Functions that a board supplies (hal/settings.h). Each acts on slot 0 or 1 and returns false if the memory reported a
  * failure. */
 typedef struct wh_store_memory {
     bool (*erase)(unsigned slot);
@@ -35,7 +35,8 @@ typedef struct wh_store_memory {
 
 /* Records are in bytes[WH_STORE_SLOT_BYTES], their payload from WH_STORE_HEAD_BYTES on. */
 
-/* The newest record; returns the length of its payload, -1 without one. *sequence gets its sequence, or 0. */
+/* Load the newest record. Returns the length of its payload, or -1 if there is none. *sequence gets the record's
+ * sequence, or 0. */
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
 
 /* Write a record with a payload of `count` bytes, at most WH_STORE_PAYLOAD_MOST; this function adds the other fields.

@@ -9,7 +9,7 @@
 #define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
 #define EVENT_BYTES 2U
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
-#define BEFORE 2U /* of a frame on the line: a zero, and the first byte of the code */
+#define BEFORE 2U /* bytes before a frame on the line: a zero, and the first byte of the code */
 #define TEXT_BYTES 96U
 
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
@@ -24,13 +24,13 @@ typedef struct sight {
     wh_ring *out;
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
-    wh_bytes frame; /* in progress */
+    wh_bytes frame; /* the frame in progress */
     unsigned spare; /* room reserved for others */
 } sight;
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
 
-/* Rounded, within 16 bits; NONE_16 for NaN. */
+/* The number rounded to 16 bits; NONE_16 for NaN. */
 static uint16_t in_16(wh_real number) {
     if (!(number >= WH_R(0.0))) {
         return number < WH_R(0.0) ? 0 : NONE_16;
@@ -57,7 +57,7 @@ static int16_t load_of(const wh_cell_config *cell, int32_t raw, wh_load_status s
 
 static uint16_t drive_mV(const wh_rig *rig) { return in_16(rig->command.volts * WH_R(1000.0)); }
 
-/* In 1/50 rpm. */
+/* The speed in 1/50 rpm. */
 static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
     wh_real speed_radps;
     return wh_rig_speed(rig, now_ticks, &speed_radps)
@@ -195,7 +195,7 @@ static void take_sample(sight *s, const wh_step_sample *sample) {
     const uint32_t period = cell->period_ticks * tel->every;
     const uint32_t due = tel->first_ticks + tel->samples * period;
     if (load.ticks - due + period / 8U > period / 4U) {
-        send_run(s); /* the samples so far: the next one is no neighbour */
+        send_run(s); /* sends the samples so far, because the next one is no neighbour */
     }
     if (tel->samples == 0) {
         tel->first_ticks = load.ticks;
@@ -210,9 +210,9 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* the first to be dropped if many pulses fill the line */
+    if (seen->ended) { /* this frame is the first to be dropped if many pulses fill the line */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
-                   2U * LINE_BYTES_OF(EVENT_BYTES); /* for later data of this step */
+                   2U * LINE_BYTES_OF(EVENT_BYTES); /* room for later data of this step */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
         s->spare = 0;
     }
@@ -440,7 +440,7 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
 
 /* --- settings ---------------------------------------------------------------------------------------------- */
 
-/* Text has room for fewer samples a second. */
+/* True if text has no room for so many samples per second. */
 static bool is_too_fast(wh_tel_format format, uint32_t per_s) {
     return format != WH_TEL_FRAMES && per_s > WH_TEL_TEXT_PER_S_MOST;
 }
@@ -479,7 +479,7 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
     return WH_STATION_FINE;
 }
 
-/* Another trigger, or `read`. */
+/* Sets another trigger, or starts `read`. */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
     const unsigned what = wh_list_find(TRIGGERS "|"
                                                 "read",

@@ -49,8 +49,8 @@ typedef enum wh_capture_trigger {
 #undef WH_CAPTURE_NAME
 
 typedef struct wh_captured {
-    uint16_t ticks; /* of the step, their low half */
-    int16_t load;   /* as telemetry has it */
+    uint16_t ticks; /* low half of the step's time */
+    int16_t load;   /* load in the units of telemetry */
     uint16_t drive_mV;
     uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: it is the trigger; 8: tripped */
     uint8_t stage;
@@ -74,9 +74,9 @@ typedef struct wh_capture {
     wh_capture_trigger trigger;
     wh_capture_state state;
     unsigned left;        /* steps still to record after the trigger */
-    unsigned count;       /* stored steps, */
-    unsigned next;        /* and the next one's index */
-    uint32_t first_ticks; /* of the oldest, all 32 bits */
+    unsigned count;       /* number of stored steps */
+    unsigned next;        /* index of the next stored step */
+    uint32_t first_ticks; /* time of the oldest step, all 32 bits */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
 
@@ -87,12 +87,13 @@ typedef struct wh_capture {
 /* Restart with this trigger. Triggers count once half of the ring is filled. */
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
 
-/* Does it take steps? */
+/* True if the capture records steps. */
 WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
     return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
 }
 
-/* In that state: record a step, less than 65 ms after the last; its flags without 4. `now_ticks`: all 32 bits. */
+/* Record a step, if wh_capture_runs(). The step is less than 65 ms after the last one; its flags are without 4.
+ * `now_ticks` has all 32 bits. */
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
 
 /* Stored step i, from the oldest. */
@@ -103,7 +104,7 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
 #define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U) /* on the line: zeros, code, sum */
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
 #define WH_TEL_NO_LOAD (-32768) /* no good sample */
-/* Text takes more room: the limit on samples a second. */
+/* Limit on samples per second as text, which takes more room. */
 #define WH_TEL_TEXT_PER_S_MOST 100U
 
 /* X(channel, number, name) */
@@ -121,7 +122,7 @@ typedef enum wh_tel_event {
     WH_TEL_PULSE, /* value: the sensor, 0 or 1 */
     WH_TEL_STATE, /* wh_rig_shown_stage() */
     WH_TEL_TRIP,  /* a wh_trip */
-    WH_TEL_END    /* of a pulse; WH_TEL_PULSE is its beginning */
+    WH_TEL_END    /* the end of a pulse; WH_TEL_PULSE is its beginning */
 } wh_tel_event;
 
 /* X(format, word) */
@@ -141,7 +142,7 @@ typedef struct wh_tel {
     uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
     unsigned read_at;
     uint32_t read_ticks;
-    uint32_t every; /* cell samples for each one here; 0: off */
+    uint32_t every; /* every so many samples of the cell one is sent; 0: off */
     uint32_t passed;
     wh_tel_format format;
     unsigned samples; /* of the frame in progress: */
@@ -158,13 +159,13 @@ typedef struct wh_tel {
 #define wh_tel_read WH_NAME(wh_tel_read)
 #define wh_tel_step WH_NAME(wh_tel_step)
 
-/* Shift that makes the cell's counts fit 16 bits. */
+/* The shift that makes the cell's counts fit 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
 
 /* From now on send every `every`-th sample of the cell; 0: off. */
 void wh_tel_rate(wh_tel *tel, uint32_t every);
 
-/* Send the ring's frames from its begin. False: it is not full yet. */
+/* Send the ring's frames from the beginning. Returns false if the ring is not full yet. */
 bool wh_tel_read(wh_tel *tel);
 
 /* After each control step: at most the work of its pulse and two samples, or of one frame of the ring. Bytes to send go

@@ -25,11 +25,11 @@
 #define SUPPLY_V_PER_COUNT ((float)SUPPLY_FULL_mV / 1000.0f / (float)SUPPLY_COUNTS)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV),
                "the measurement ends too near to its limit");
-#define SUPPLY_RATED_V 24.0f /* until it is measured */
+#define SUPPLY_RATED_V 24.0f /* supply until the first measurement */
 
 #define WRAP_AFTER_S 5U /* as in hal/virtual: every run crosses the timer's wrap */
 
-/* A slot sensor: the slot, 2 * HAL_SLOT_LEAD_DEG wide, covers it. */
+/* A slot sensor gives a pulse while the slot, 2 * HAL_SLOT_LEAD_DEG wide, covers it. */
 #define SLOT_AT(deg) \
     { \
         .kind = WH_SIGNAL_EDGE, .name = "theta", .unit = "rad", \
@@ -100,11 +100,11 @@ _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed;
-static bool stop_heard;        /* false before the first reading and after a long silence: */
-static uint32_t stop_ticks;    /* time of this reading; until then stop counts as pressed */
-static uint32_t load_ticks;    /* stamp of the last sample of the load, */
-static bool load_seen;         /* when there was one */
-static const wh_signal *dials; /* and notes; NULL: no dials */
+static bool stop_heard;        /* false before the first reading and after a long silence */
+static uint32_t stop_ticks;    /* time of the last reading; without one, stop counts as pressed */
+static uint32_t load_ticks;    /* time stamp of the last load sample */
+static bool load_seen;         /* there was a load sample */
+static const wh_signal *dials; /* signals of the dials and their notes; NULL: no dials */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
 static bool dial_heard[HAL_DIALS];
@@ -118,7 +118,7 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* Longer than the guard waits for the load cell: if all readings fail, that is the reported trip. */
+/* This is longer than the guard waits for the load cell: if all readings fail, the load cell's trip is the one reported. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {
@@ -127,10 +127,10 @@ static void see_stop(const wh_sample *sample) {
     stop_ticks = plant.ticks;
 }
 
-/* The newest reading not yet taken. */
+/* Takes the newest readings of the levels. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* latched: these times wrap */
+        stop_heard = false; /* stays false, because these times wrap */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -189,7 +189,7 @@ uint32_t hal_clock_late_ticks(void) {
     return most;
 }
 
-/* NaN: 0. */
+/* NaN gives 0. */
 static void drive(float duty) {
     hal_turns_set(&plant, DUTY, duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f);
     hal_turns_set(&plant, ENABLE, 1.0f);
@@ -260,7 +260,7 @@ bool hal_slots_take(hal_slot_edge *edge) {
     return true;
 }
 
-/* The line's count: edges and samples together. */
+/* The line counts lost edges and samples together. */
 uint32_t hal_slots_overruns(void) { return plant.lost; }
 
 static uint8_t load_status(uint8_t status) {

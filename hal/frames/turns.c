@@ -13,7 +13,7 @@ static void send(hal_turns *turns, uint8_t kind, uint16_t sequence, unsigned len
     hal_link_write(turns->coded, count);
 }
 
-/* The next good frame. A read may return part of a frame or several. */
+/* Receives the next good frame. One read may return part of a frame or several frames. */
 static void receive(hal_turns *turns, wh_frame *frame) {
     for (;;) {
         while (turns->line_at < turns->line_end) {
@@ -26,7 +26,7 @@ static void receive(hal_turns *turns, wh_frame *frame) {
     }
 }
 
-/* Readings not yet taken stay in front. */
+/* Appends new readings to those not yet taken. */
 static void keep(hal_turns *turns, const wh_readings *news) {
     wh_readings *all = &turns->readings;
     unsigned edges = 0;
@@ -58,7 +58,7 @@ static void keep(hal_turns *turns, const wh_readings *news) {
     turns->sample = 0;
 }
 
-/* The cause of the start, before the first readings. */
+/* Takes the cause of the start, which comes before the first readings. */
 static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     if (frame->version == WH_FRAME_VERSION && frame->kind == WH_FRAME_RESET &&
         !wh_reset_get(&turns->reset, frame->payload, frame->length)) {
@@ -66,8 +66,8 @@ static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     }
 }
 
-/* Ignores readings that are out of turn or of another version. `hello_bytes`: before the first reading, the hello has
- * this many bytes of turns->payload. */
+/* Waits for readings; ignores those that are out of turn or of another version. `hello_bytes`: before the first reading,
+ * the hello has this many bytes of turns->payload. */
 static void hear(hal_turns *turns, unsigned hello_bytes) {
     wh_frame frame;
     wh_readings news;
@@ -139,7 +139,7 @@ void hal_turns_step_ends(hal_turns *turns) {
     }
 }
 
-/* Takes no time on the line: hardware with such memory has no line. */
+/* This message takes no simulated time on the line, because hardware with such memory has no line. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count) {
     const uint32_t begun_timer = hal_link_timer();
     const unsigned all = count < WH_REMEMBER_MAX ? count : WH_REMEMBER_MAX;

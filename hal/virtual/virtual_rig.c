@@ -52,10 +52,10 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
 
 /* One step of the model: the angle's change, and its rates at both ends. */
 typedef struct slice {
-    uint32_t phase; /* at the beginning */
-    float way;      /* phase units turned */
+    uint32_t phase; /* phase at the slice's begin */
+    float way;      /* angle turned in the slice, phase units */
     float before;   /* rate at the begin, phase units a step */
-    float after;    /* at the end */
+    float after;    /* rate at the end */
 } slice;
 
 /* The angle after the part s (0 to 1) of the slice: the cubic through both angles and both rates. At 1 ms and 330 rpm
@@ -78,8 +78,7 @@ static bool opens(const slice *during, uint32_t edge, bool forward, float *part)
     for (unsigned round = 0; round < 3; round++) {
         float slope;
         const float miss = way_at(during, s, &slope) - gap;
-        if (slope * during->way >
-            0.0f) { /* otherwise it turns back here: a straight line suffices */
+        if (slope * during->way > 0.0f) { /* the rotor turns back here: a straight line suffices */
             s -= miss / slope;
         }
     }
@@ -102,8 +101,8 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     }
 }
 
-/* Pulses of the slice that began at `ticks`. A slice is much shorter than a quarter turn, so it has at most one pulse.
- * The slot opens a sensor `lead` before it, or `lead` after it when turning back. */
+/* Adds the pulses of the slice that began at `ticks`. A slice is much shorter than a quarter turn, so it has at most one
+ * pulse. The slot opens a sensor `lead` before it, or `lead` after it when turning back. */
 static void watch_slots(hal_virtual_rig *rig, const slice *during, uint32_t ticks) {
     const uint32_t lead = (uint32_t)(HAL_SLOT_LEAD_DEG * DEG);
     for (unsigned sensor = 0; sensor < 2; sensor++) {
@@ -149,8 +148,8 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
-/* The drive stage's result for its command, as the model's duty. Without current there is no torque, and the motor
- * shows its back-EMF. */
+/* The effect of the drive stage's command, as the model's duty. Without current there is no torque, and the motor shows
+ * its back-EMF. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
     const bool stuck = rig->faults.stuck > 0.0f;
