@@ -1,7 +1,6 @@
 #!/bin/sh
-# bad_input.sh WHIRL: WHIRL refuses every text of tests/bad with exit status 2 and a message. Texts named derive* are
-# derived; texts named effect_mass_* are run. With the sanitizers' build, a memory or arithmetic error shows as another exit
-# status.
+# bad_input.sh WHIRL: WHIRL refuses every text of tests/bad with exit status 2 and a message. Texts named effect_mass_* are
+# run, all others derived. With the sanitizers' build, a memory or arithmetic error shows as another exit status.
 set -u
 
 whirl=${1:?usage: bad_input.sh WHIRL}

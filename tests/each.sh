@@ -1,6 +1,6 @@
 #!/bin/sh
-# each.sh PROGRAM SUITE...: run each suite of a test program in a process of its own: one that crashes takes no others with it,
-# and the processes that it starts have nothing of what others left in memory, a tenth of the time where that is guarded.
+# each.sh PROGRAM SUITE...: runs each suite of a test program in a process of its own, so that a crash ends no other suite,
+# and the processes that a suite starts copy little memory.
 set -u
 
 program=${1:?usage: each.sh PROGRAM SUITE...}

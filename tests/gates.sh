@@ -33,14 +33,14 @@ report() {
     else
         failed=$((failed + 1))
         printf '  FAIL  %-12s %s   make gate-%s; %s\n' "$1" "$took" "$1" "$log"
-        # What counts comes first in a compiler's log and last in a script's; warnings alone fail no gate but those where
-        # they are errors.
+        # Errors come first in a compiler's log and last in a script's. Warnings alone fail only gates in which they are
+        # errors.
         { grep -E -A 6 '(error[: ]|ERROR|FAIL|^not ok|differs)' "$log" || tail -n 8 "$log"; } |
             head -n 24 | cut -c 1-160 | sed 's/^/        /'
     fi
 }
 
-# What works in the background hears no Ctrl-C.
+# Background processes do not receive Ctrl-C.
 trap 'trap - TERM; kill 0; exit 130' INT
 for gates in "$@"; do
     together=$(echo "$gates" | tr '+' ' ')

@@ -1,6 +1,6 @@
 #!/bin/sh
-# hard_hashes.sh UNTIL FILE:SCENE[:OPTIONS]...: what the interpreter makes of these scenes of docs/hard in float, until then: a
-# line for each as boards/programs/scenes.c prints them. OPTIONS as in mk/hard.mk, +compensated+stabilized.
+# hard_hashes.sh UNTIL FILE:SCENE[:OPTIONS]...: the interpreter's hashes of these scenes of docs/hard in float at that time,
+# a line for each as boards/programs/scenes.c prints them. OPTIONS as in mk/hard.mk, +compensated+stabilized.
 set -eu
 until=$1
 shift

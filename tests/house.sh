@@ -22,9 +22,8 @@ target=$(files boards | grep -v -e '^boards/host/' -e '^boards/[a-z0-9-]*/run/')
 program=$(files host)
 all=$(files core hal boards host mk tests)
 
-# Whom the program's folders may include, a line each. Each names folders above its own line only, so that no arrow
-# goes back and there is no circle. What runs and what writes code knows the image, and neither the language nor the
-# algebra nor each other.
+# The includes that each folder may have, a line each. A line names only folders above it, so that there is no circle.
+# Folders that run or write code know the image, but neither the language nor the algebra nor each other.
 arrows='
 core:
 base: core
@@ -116,7 +115,7 @@ arrows_hold
         fi
     done
 }
-# A row of mk/mutants that changes nothing any more asks nothing: the line it was written for was written anew.
+# A row of mk/mutants that no longer changes anything tests nothing: its line of code was rewritten.
 # shellcheck disable=SC2034 # suites
 hits=$(grep -hv '^#' mk/mutants/*.rows | while IFS='@' read -r name file change suites; do
     file=$(echo "$file" | tr -d ' ')

@@ -1,6 +1,6 @@
 #!/bin/sh
-# matrix_hashes.sh SCENE...: what the interpreter makes of these scenes with a whole step as one exact matrix, in float: a line
-# for each as boards/programs/scenes.c prints them.
+# matrix_hashes.sh SCENE...: the interpreter's hashes of these scenes in float, with a step as one exact matrix; a line for
+# each as boards/programs/scenes.c prints them.
 set -eu
 for scene in "$@"; do
     "${WHIRL:-build/whirl}" run "$scene" --matrix exact --number float | awk -v scene="$scene" '

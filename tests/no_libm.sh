@@ -1,6 +1,6 @@
 #!/bin/sh
-# no_libm.sh PROGRAM...: no program takes a function of the mathematical library, whichever file of the system it is
-# in. What is computed must not depend on the machine's library.
+# no_libm.sh PROGRAM...: no program uses a function of the mathematical library, whichever system file contains it, because
+# results must not depend on the machine's library.
 set -eu
 
 names='(a?(sin|cos|tan)h?|sincos|atan2|(sin|cos|tan)pi|exp(2|10|m1)?|log(2|10|1p|b)?|pow|sqrt|cbrt|hypot|erfc?|[lt]gamma|j[01n]|y[01n]'
@@ -10,7 +10,7 @@ names="$names|fm(ax|in|a)|fdim|fabs|copysign|next(after|toward)|nan)[fl]?"
 [ "$#" -gt 0 ] || { echo "no_libm.sh: no program given" >&2; exit 1; }
 bad=0
 for program in "$@"; do
-    # Before any name is taken for absent: what every program has must be seen.
+    # First the check must see a symbol that every program has.
     taken=$(nm -u "$program" | sed 's/.* //; s/@.*//; s/^__\(.*\)_finite$/\1/')
     echo "$taken" | grep -q 'libc_start_main\|fprintf\|malloc' ||
         { echo "error: nm shows nothing of $program" >&2; exit 1; }

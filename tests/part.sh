@@ -1,6 +1,5 @@
 #!/bin/sh
-# part.sh LIST WHICH OF: every OF-th of the suites in LIST (file names, test_NAME.c), from WHICH on, 0 the first: their
-# names.
+# part.sh LIST WHICH OF: prints every OF-th suite in LIST (file names, test_NAME.c), from number WHICH (0 the first).
 if [ $# -ne 3 ] || [ ! -r "$1" ] || ! [ "$2" -ge 0 ] 2>/dev/null || ! [ "$3" -gt "$2" ] 2>/dev/null; then
     echo "part.sh: error: LIST, a file, WHICH from 0 on, and OF, more than that, are wanted, not: $*" >&2
     exit 2

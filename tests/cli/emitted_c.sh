@@ -179,7 +179,7 @@ for file in offsets outside roots first; do
     add_file "$scratch/w/$file.whirl"
     echo --compensated >>"$scratch/$number.options"
 done
-# methods whose stages have a time of their own: with balance, contacts, sums of angles, systems of first order
+# Nyström methods: with balance, contacts, sums of angles, systems of first order
 for method in nystroem3 nystroem4 nystroem5; do
     add thomson_a --with ledger --until 0.3s --method "$method"
     add thomson_a --until 0.3s --method "$method" --compensated

@@ -1,12 +1,12 @@
 #!/bin/sh
-# figures.sh: the dissertation's figures are drawn, each with its axes and its curves, the same twice
-# over, and a wrong description is refused.
+# figures.sh: the dissertation's figures are drawn, each with its axes and curves, twice the same. A wrong description is
+# refused.
 . "$(dirname "$0")/../checks.sh"
 
 sh mk/figures/figures.sh "$whirl" "$scratch/one" mk/figures/fig*.fig >"$scratch/log" 2>&1
 verdict $? "all are drawn" "$scratch/log"
 
-# Number, what is drawn in all panels (curves and laws), the last panel's x axis, the first's y axis.
+# Number, number of curves and laws in all panels, the last panel's x axis, the first's y axis.
 while IFS='|' read -r number drawn x y; do
     svg=$scratch/one/fig$number.svg
     png=$scratch/one/fig$number.png
@@ -60,8 +60,8 @@ awk -F, 'NR > 1 {
     END { exit !(n == 61 && above > 20 && above < 41 && bad == 0) }' "$scratch"/one/data/sweep-halvorson_smooth*.csv
 verdict $? "11 is a forced oscillation within 0.5 %, at 61 springs"
 
-# The firmware's points of it: force on the carriage by that on a mount that does not move. The speed that the carriage
-# makes ripple lifts it, by 6 A^2 at an A of D/(8 (I - D/2)), D = S^2/(M + m) (docs/rig.md).
+# The firmware's points of Fig. 20: force on the carriage relative to that on a fixed mount. The carriage makes the speed
+# ripple, which raises the force by 6 A^2, with A = D/(8 (I - D/2)), D = S^2/(M + m) (docs/rig.md).
 awk -F, 'NR > 1 {
         n++; x = $1; d = 0.0351631^2 / 0.2739698 * x / (1 + x); a = d / 8 / (0.0057708 - d / 2)
         off = $2 * (1 + x) / (1 + 6 * a * a) - 1; if (off < -0.001 || off > 0.002 || $2 > before) bad++
@@ -82,13 +82,14 @@ awk -F, 'NR > 1 {
             f > 41.6 && f < 42.3) }' "$scratch"/one/data/table-rig.sh_samples*.csv
 verdict $? "17 has 1,000 samples of a force of 42 N, from -38.0 to 46.3"
 
-# Fig. 24: eleven spikes of each sensor, or ten; at the foot of sensor 1's the peak, at that of sensor 2's what theory has, in volts.
+# Fig. 24: ten or eleven spikes of each sensor. At sensor 1's spikes the load is at its peak, at sensor 2's it has the
+# theoretical value, in volts.
 awk -F, 'NR > 1 && NF == 3 && $2 != "" { if (one % 3 != 1) { if ($2 < 6.15 || $2 > 6.35) bad++ } else if ($2 < 16.15 || $2 > 16.35) bad++; one++ }
     NR > 1 && NF == 3 && $3 != "" { if (two % 3 != 1) { if ($3 < -0.26 || $3 > -0.11) bad++ } else if ($3 < 5.74 || $3 > 5.89) bad++; two++ }
     END { exit !(bad == 0 && one % 3 == 0 && two % 3 == 0 && one >= 30 && two >= 30) }' "$scratch"/one/data/table-rig.sh_spikes*.csv
 verdict $? "24 has sensor 1's spikes on the peak and sensor 2's 1.4 N below zero"
 
-# Fig. 26: what remains at the end swings by S/(all masses), about a place behind which it no longer comes.
+# Fig. 26: the swing that remains at the end is S/(all masses), about a place that the carriage no longer passes.
 awk -F, 'NR > 1 && $1 > 55 { if (!n++ || $3 > high) high = $3; if (n == 1 || $3 < low) low = $3 }
     END { a = (high - low) / 2 * 1000 / 32.0864 - 1; exit !(n > 1000 && a > -0.01 && a < 0.01 && low > 5) }' \
     "$scratch"/one/data/run-carriage_stop*every_4ms*.csv
@@ -101,7 +102,7 @@ sh mk/figures/swing.sh "$whirl" cycles | awk -F, '
     END { exit !(n > 20 && bad == 0) }'
 verdict $? "the swing's action stays, its energy grows"
 
-# A billionth grows thousandfold by 5 s and to everything by 10 s.
+# An initial difference of 1e-9 grows a thousandfold by 5 s, and to the size of the motion by 10 s.
 sh mk/figures/growth.sh "$whirl" thomson_a theta1=1e-9 1e-9 --step 0.25ms --every 1s | awk -F, '
     $1 == 5 { five = $2 }
     $1 == 10 { ten = $2 }
@@ -135,7 +136,7 @@ refused "a sweep of which a point fails" "title t" \
     "sweep a epicyclic_from_rest --over m=0..1:2 --measure X --until 10ms" "panel y" \
     "curve a | {m} | {X} | -"
 
-# Of what it worked with, only the numbers stay, of good runs and of bad ones.
+# Of its working files only the numbers stay, after good runs and bad ones.
 left=$(find "$scratch" -path '*/data/*' ! -name '*.csv')
 [ -z "$left" ] || echo "$left"
 [ -z "$left" ] && [ -d "$scratch/one/data" ] && [ -d "$scratch/bad/data" ]

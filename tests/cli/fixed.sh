@@ -1,9 +1,8 @@
 #!/bin/sh
-# fixed.sh: fixed point. `whirl derive --as c --number fixed` compiles without a warning with gcc and clang, has no
-# floating-point operation, and steps to the bits of `whirl run --number fixed`, by both ways to a product: every built-in scene
-# that has such a step, and made-up mechanisms. What has none is refused with exit status 2 and a hint. Ranges are told.
-# `make gate-long` takes one build by each compiler, and for each small core the calls of every fourth scene; with WHIRL_FULL
-# (make full) there is the other way to a product by gcc, too, and the calls of all.
+# fixed.sh: fixed point. `whirl derive --as c --number fixed` compiles without warnings with gcc and clang, has no
+# floating-point operation, and steps to the bits of `whirl run --number fixed`, by both ways to a product. For every
+# built-in scene that allows it, and generated mechanisms; other scenes are refused with a hint. `make gate-long` takes one
+# build by each compiler and, for each small core, the calls of every fourth scene. WHIRL_FULL takes all.
 . "$(dirname "$0")/../checks.sh"
 
 warnings="-std=c11 -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# float_range.sh: constants and inputs that float has no room for are warned of, others are not.
+# float_range.sh: a warning about constants and inputs that float cannot hold, and about no others.
 . "$(dirname "$0")/../checks.sh"
 
 # model EXPONENT WHAT: a spring of 3eEXPONENT N/m on a kilogram, as a parameter or as an input.

@@ -1,6 +1,6 @@
 #!/bin/sh
-# forms.sh: every output form of `whirl derive`, from its row: named in help and documents, complete, and taking the
-# options that help says it takes, no others.
+# forms.sh: every output form of `whirl derive`, from its row: help and documents name it, it is complete, and it accepts
+# exactly the options that help lists.
 . "$(dirname "$0")/../checks.sh"
 
 "$whirl" derive --help >"$scratch/help" 2>"$scratch/err"
@@ -22,7 +22,7 @@ END
 it=$scratch/it.whirl:it_bounces
 ask() { "$whirl" derive "$it" --as "$@" >"$scratch/out" 2>"$scratch/err"; }
 
-# those_with WORDS FILE: the forms that a line tells of: "WORDS --as a, b or c"
+# those_with WORDS FILE: the forms in a line "WORDS --as a, b or c"
 those_with() { sed -n "s/.*$1 --as \([a-z0-9, ]*\).*/\1/p" "$2" | sed 's/ only$//; s/ or / /; s/,//g'; }
 named=$(those_with '--name NAME, with' "$scratch/help")
 headed=$(those_with '--header FILE, with' "$scratch/help")
@@ -31,7 +31,7 @@ folded=$(those_with '--folded, with' "$scratch/help")
 stepped=$(those_with 'fixed change only' "$scratch/help")
 is_one_of() { case " $2 " in *" $1 "*) return 0 ;; esac; return 1; }
 
-# only_with OPTION VALUE FORM FORMS (a switch has no value): accepted if that form is one of them, else refused, naming them
+# only_with OPTION VALUE FORM FORMS (a switch has no value): accepted if FORM is one of FORMS, else refused with their names
 only_with() {
     ask "$3" "$1" ${2:+"$2"}
     status=$?
@@ -51,7 +51,7 @@ while read -r form; do
     ask "$form" && [ -s "$scratch/out" ] && ! grep -q '(null)' "$scratch/out" && [ ! -s "$scratch/err" ]
     verdict $? "--as $form: it is printed"
     cp "$scratch/out" "$scratch/plain"
-    # whatever steps nothing for a stop says at least that there is one
+    # a form without code for a stop says that the scene has one
     grep -qi 'stop\|restitution\|contact' "$scratch/out"
     verdict $? "--as $form: the stop is told of"
     only_with --steps '' "$form" "$derived"

@@ -1,13 +1,13 @@
 #!/bin/sh
-# fresh.sh: whoever asks for one file of a fresh clone gets what it is made of first: the scenes that whirl generates
-# before their library is packed and before what includes them is compiled. As make plans it, nothing is built.
+# fresh.sh: in a fresh clone, make first builds what a file needs: the generated scenes come before their library and before
+# any source that includes them. Checks make's plan; nothing is built.
 . "$(dirname "$0")/../checks.sh"
 
 cp -R Makefile mk core hal boards host tests "$scratch/" || exit 1
 plan() { # plan WORD...: what make would do
     (cd "$scratch" && rm -rf build && env -i PATH="$PATH" HOME="$HOME" make -n V=1 "$@") >"$scratch/plan" 2>"$scratch/err"
 }
-# before FIRST SECOND: a line of the plan that matches FIRST stands before any that matches SECOND
+# before FIRST SECOND: in the plan, a line that matches FIRST precedes all that match SECOND
 before() {
     awk -v first="$1" -v second="$2" '$0 ~ first && !at { at = NR } $0 ~ second && !then { then = NR }
         END { exit !(at && then && at < then) }' "$scratch/plan"

@@ -1,6 +1,5 @@
 #!/bin/sh
-# full_output.sh: every command whose standard output is full, or closed, says so and fails; in whatever form it answers,
-# and whatever its length.
+# full_output.sh: every command reports a full or closed standard output and fails, in every form and at every length.
 . "$(dirname "$0")/../checks.sh"
 
 printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nscene s { start x'"'"' = 1 [m/s]; until 20 [ms] }\n' >"$scratch/m.whirl"
@@ -48,7 +47,7 @@ lost sweep "$scene" --over step=1..2:2 --until 2 --quiet --fresh
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2 --csv - --quiet
 
-# A command that has nothing to say there does not mind; what else is wrong keeps its own exit status.
+# A command without output does not notice. After another error the exit status is that of the error.
 check "nothing said, nothing lost" sh -c '"$1" run "$2" --quiet >/dev/full' - "$whirl" "$scene"
 check "or to nothing at all" sh -c '"$1" run "$2" --quiet >&-' - "$whirl" "$scene"
 "$whirl" derive "$scene:other" >/dev/full 2>"$scratch/err"

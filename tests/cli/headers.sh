@@ -1,6 +1,6 @@
 #!/bin/sh
-# headers.sh: every header of core, hal and host says what it needs itself, and none minds another before or behind it:
-# each compiles alone, all of them in one order and in the other, in float and in double, without a warning.
+# headers.sh: every header of core, hal and host includes what it needs, and depends on no order of headers. Each compiles
+# alone, and all compile in both orders, in float and double, without a warning.
 . "$(dirname "$0")/../checks.sh"
 
 compiler=${CC:-cc}

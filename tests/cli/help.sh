@@ -1,6 +1,6 @@
 #!/bin/sh
-# help.sh: `make help-all` lists every public target: all that make knows but for those that serve another, and all
-# that the docs name; `make` alone lists at most 30 of them. Files and suites that the docs name are there.
+# help.sh: `make help-all` lists every public target and all targets that the docs name; `make` alone lists at most 30.
+# Files and suites that the docs name exist.
 . "$(dirname "$0")/../checks.sh"
 
 MAKEFLAGS= make help-all >"$scratch/help" 2>"$scratch/err" &&
@@ -12,7 +12,7 @@ MAKEFLAGS= make >"$scratch/help" 2>"$scratch/err" &&
     [ "$(wc -l <"$scratch/first")" -le 30 ] && [ "$(wc -l <"$scratch/first")" -ge 20 ]
 verdict $? "make alone lists at most 30 of them"
 
-# What other targets call: a target's second half (-now), and parts of one.
+# Targets that other targets call: second halves (-now), and parts.
 parts='FORCE|objects|test-objects|board-objects|asan-run|image-rules|board-images|board-tests|run-suites|bench-board|cycles-agree|test-programs|fuzz-programs'
 parts="$parts|price-measure-board|price-measure-host|price-ready-board|price-ready-host|price-count-run-board|board-own-objects|emulate-command|short-images|print-hashes|print-short-hashes|print-matrix-hashes|print-settings|settings-written|settings-programs|settings-images|hard-images|print-hard-hashes|tidy-board|docs-programs|flashed-rules|flashed-tests|firstlight-record|.*-now|gate-.*|hash-.*|host-.*|suites-.*"
 MAKEFLAGS= make -pnq FORCE 2>/dev/null | sed -n 's/^\.PHONY: *//p' | tr ' ' '\n' | grep . | sort -u >"$scratch/known"
@@ -27,7 +27,7 @@ cat README.md CONTRIBUTING.md docs/*.md docs/dev/*.md Makefile mk/*.mk tests/*.s
 sed 's/^gate-.*/gate-NAME/' "$scratch/told" | sort -u | comm -23 - "$scratch/listed" >"$scratch/err" && [ ! -s "$scratch/err" ] &&
     [ "$(wc -l <"$scratch/told")" -ge 15 ]
 verdict $? "every target that the docs tell of is listed"
-# and every file that they name is there; suites, too
+# files and suites that the docs name exist
 for page in README.md CONTRIBUTING.md docs/*.md docs/dev/*.md; do
     grep -oE '`(sh )?(core|host|hal|boards|mk|tests|docs)/[A-Za-z0-9_./*-]+' "$page" | sed 's/^`\(sh \)\{0,1\}//' | grep -v NAME |
         sort -u | while read -r path; do

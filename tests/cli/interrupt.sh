@@ -1,9 +1,9 @@
 #!/bin/sh
-# interrupt.sh: `whirl run`, `whirl sweep` and `whirl map`, interrupted by real signals: exit status 130, what was reached is said, the
-# records up to there and the summary are whole.
+# interrupt.sh: real signals interrupt `whirl run`, `whirl sweep` and `whirl map`: exit status 130, a message about the
+# point reached, and whole records and summary up to it.
 . "$(dirname "$0")/../checks.sh"
 
-# stop SIGNAL FILE WORD...: start whirl, send the signal when FILE has grown; $code is its exit status.
+# stop SIGNAL FILE WORD...: starts whirl and sends the signal when FILE has grown; $code is the exit status.
 stop() {
     signal=$1
     grows=$2
@@ -16,7 +16,7 @@ stop() {
     code=$?
 }
 
-# said TEXT: standard error has the time of the last record, and nothing else but the number of steps, unless --quiet.
+# said TEXT: standard error names the time of the last record and, unless --quiet, the number of steps; nothing else.
 said() {
     [ "$(grep -c '^whirl run: note: 1000000000 steps follow, ' "$scratch/err")" = "${3:-1}" ] || return 1
     sed -i '/ steps follow, /d' "$scratch/err"
@@ -25,7 +25,7 @@ said() {
     cmp -s "$scratch/wanted" "$scratch/err"
 }
 
-# whole FILE SEPARATOR STEP: every line of records has all columns, a step after the one before.
+# whole FILE SEPARATOR STEP: each record has all columns, at a step after the one before.
 whole() {
     tr -d '\r' <"$1" | awk -F"$2" -v step="$3" '
         /^%/ { next }
@@ -56,7 +56,7 @@ for signal in INT TERM; do
     done
 done
 
-# the state that was reached is that of a run to there
+# the state at the interrupt is that of a run to this time
 stop INT "$scratch/r.dat.part" run epicyclic_from_rest --until 1000000s --columns "$scratch/r.dat"
 said "$scratch/r.dat" 1000000
 verdict $? "run, columns: says at what time"
@@ -65,7 +65,7 @@ check "run, columns: the records are whole" whole "$scratch/r.dat" ' ' 0.001
 [ "$(grep '^state hash' "$scratch/again")" = "$(grep '^state hash' "$scratch/out")" ]
 verdict $? "run, columns: the state of a run that ends there"
 
-# without records there are none to keep
+# a run without records leaves none
 "$whirl" run epicyclic_from_rest --until 1000000s --with ledger >"$scratch/out" 2>"$scratch/err" &
 process=$!
 await has_worked 20 $process
@@ -76,7 +76,7 @@ verdict $? "run without records: exit status 130, and when"
 grep -q '^energy balance' "$scratch/out"
 verdict $? "run without records: its books are there" "$scratch/out"
 
-# a run in fixed point looks for its ranges first
+# a run in fixed point first determines its ranges
 cat >"$scratch/long.whirl" <<'END'
 mechanism long
 coordinate x [m]
@@ -92,7 +92,7 @@ wait $process
 [ $? -eq 130 ] && grep -q '^whirl run: interrupted before the run in fixed point began' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "run in fixed point, before it began: exit status 130, and why there is nothing" "$scratch/err"
 
-# a second one ends what waits: here for a reader that never comes
+# a second signal ends a process that waits, here for a reader that never comes
 mkfifo "$scratch/pipe"
 # shellcheck disable=SC2217 # it holds the pipe open and reads nothing
 sleep 100 <"$scratch/pipe" &
@@ -119,7 +119,7 @@ for signal in INT TERM; do
     rm -f "$scratch/s.csv" "$scratch/s.csv.sweep"
 done
 
-# a map keeps the places that are done, as words and as rows
+# a map keeps the finished points, in words and as rows
 for signal in INT TERM; do
     "$whirl" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err" &
     process=$!
@@ -136,7 +136,7 @@ for signal in INT TERM; do
     rm -f "$scratch/m.csv"
 done
 
-# trust has nothing for its file yet: an ordinary one goes, a pipe (or a device: the file of nothing is one) stays
+# trust has no rows yet: an ordinary file is removed, a pipe or device stays
 mkfifo "$scratch/trusted"
 for kind in file trusted; do # `trusted` is a pipe
     rm -f "$scratch/file"
@@ -151,7 +151,7 @@ for kind in file trusted; do # `trusted` is a pipe
     verdict $? "trust to a file, $kind: exit status 130, an ordinary one goes and a pipe stays"
 done
 
-# Whatever goes on, it ends within a tenth of a second of processor time: at drawn moments of dear scenes.
+# A command ends within a tenth of a second of processor time, at random moments of expensive scenes.
 # Hundredths of a second of processor time, of a process and its children.
 spent_by() {
     cat /proc/[0-9]*/stat 2>/dev/null | sed 's/^\([0-9]*\) (.*) /\1 /' |

@@ -1,9 +1,9 @@
 #!/bin/sh
-# list.sh: `whirl list --as table` against a file whose items are known, and what its names are for: --with and
-# --without all, --without conserve, --name.
+# list.sh: `whirl list --as table` against a file with known items, and uses of its names: --with and --without all,
+# --without conserve, --name.
 . "$(dirname "$0")/../checks.sh"
 
-# says PATTERN WORD...: refused with exit status 2 and that, with nothing on standard output.
+# says PATTERN WORD...: refused with exit status 2 and this message, with nothing on standard output.
 says() {
     pattern=$1
     shift
@@ -84,7 +84,7 @@ awk '{ print $1, $2 }' "$scratch/text" | cmp -s - "$scratch/names"
 verdict $? "the same mechanisms and scenes as text"
 "$whirl" list core/models/*.whirl --as=table | cmp -s - "$scratch/table"
 verdict $? "the built-in models are their files"
-# Names of files, and titles, of what would end a field or a line, and of what stands for it.
+# File names and titles contain characters that would end a field or a line, and their escapes.
 names=$(awk -v seed="$seed" 'BEGIN {
     srand(seed)
     split("\\\\t \\\\n \\\\r \\\\\\\\ t n \\\\\\\\t \\042 %s", part, " ")

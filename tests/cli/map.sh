@@ -1,6 +1,6 @@
 #!/bin/sh
-# map.sh: `whirl map`: that its map, its rows and its picture say the same, and what is refused. Whether it is true is asked by
-# build/tests/host map.
+# map.sh: map, rows and picture of `whirl map` agree, and wrong input is refused. build/tests/host map checks that they are
+# right.
 . "$(dirname "$0")/../checks.sh"
 
 # refused STATUS PATTERN WORD...: that status, these words on standard error, nothing on standard output
@@ -26,7 +26,7 @@ while read -r scene options; do
     sed -n 's/^  [^ ]  \([a-z][a-z]*\)  *\([0-9][0-9]*\)  .*/\1 \2/p' "$scratch/words" | sort | cmp - "$scratch/counted" >"$scratch/err" 2>&1 &&
         [ "$(wc -l <"$scratch/counted")" -ge 2 ]
     verdict $? "its words count as many of each as there are rows: $(tr '\n' ' ' <"$scratch/counted")" "$scratch/words"
-    # the marks of the map are those of the legend, as often as it says
+    # the map has exactly the marks of the legend, in the numbers that it states
     awk '/^$/ { block++; next }
         block == 1 && lines++ { for (i = 1; i <= length($2); i++) { seen[substr($2, i, 1)]++ } }
         block == 2 { wanted[$1] = $3 }
@@ -48,7 +48,7 @@ END
 # --- in words and in rows -----------------------------------------------------------------------------------------------
 "$whirl" map $spring $steps $places --csv - >"$scratch/rows" 2>"$scratch/words"
 verdict $? "rows on standard output, the map on standard error" "$scratch/words"
-# Runge-Kutta 4 leaves all bounds behind sqrt(8 m/k), and stays within them in front of it
+# Runge-Kutta 4 grows without bound above sqrt(8 m/k), and stays bounded below it
 tr -d '\r' <"$scratch/rows" | awk -F, 'NR > 1 { part = $1*sqrt($2/8)
     if (part > 1.02 ? $3 != "diverges" : part < 0.996 && $3 == "diverges") { bad++ } } END { exit bad || NR != 106 }'
 verdict $? "each row ends at sqrt(8 m/k), Runge-Kutta 4's limit" "$scratch/rows"
@@ -97,7 +97,7 @@ for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
     refused 2 'error: --tolerance takes a number from 1e-15 to 1' $spring "$steps" "$places" --tolerance "$bad"
     refused 2 'error: --effort takes a number from 10000 to 1e+15' $spring "$steps" "$places" --effort "${bad%2}x"
 done
-# before the work: it would take hours
+# refused before the work, which would take hours
 slow="--over=step=1..2[us]:100 $places --until 10s --effort 1e15"
 for file in "$scratch" "$scratch/none/map.svg"; do
     # shellcheck disable=SC2086 # words
@@ -135,7 +135,7 @@ fi
 
 # --- what docs/stability.md shows ------------------------------------------------------------------------------------------------
 awk '/^## Stability maps/ { on = 1 } /^## Where the measurements/ { on = 0 } on' docs/stability.md >"$scratch/section"
-# its pictures are those of the commands: drawn anew, they are the same, where gnuplot is
+# if gnuplot is installed, the commands draw the page's pictures again
 mkdir "$scratch/docs"
 cp docs/stability.md "$scratch/docs"
 sh mk/stability/maps.sh "$whirl" "$scratch/docs" >"$scratch/out" 2>"$scratch/err"

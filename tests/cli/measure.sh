@@ -1,6 +1,6 @@
 #!/bin/sh
-# measure.sh: what `whirl choose` promises where it can count is what the line that it prints counts: mechanisms drawn anew, and
-# with WHIRL_FULL (1, or rest: make full) more of them and built-in scenes with contacts; on the emulated board of `make test`.
+# measure.sh: if `whirl choose` can count, it promises what its printed command line counts. For random mechanisms and, with
+# WHIRL_FULL, more of them and built-in scenes with contacts; on the emulated board of `make test`.
 . "$(dirname "$0")/../checks.sh"
 
 if ! command -v arm-none-eabi-gcc >/dev/null 2>&1 || ! command -v qemu-system-arm >/dev/null 2>&1; then
@@ -12,12 +12,12 @@ choose() { # OPTION...: to $scratch/out
     "$whirl" choose "$@" --effort 4e7 --quiet >"$scratch/out" 2>"$scratch/err"
 }
 
-# figure WORD: the number behind it, in the first of the two answers
+# figure WORD: the number after it, in the first of the two answers
 figure() { sed -n "s/^  $1  *\([0-9.e+]*\) .*/\1/p" "$scratch/out" | head -n 1; }
 # The step, and how many are in a period.
 step() { sed -n 's/^fewest cycles .*--step //p' "$scratch/out"; }
 
-# counted: the row of the line that is printed, to $scratch/row
+# counted: writes the row that the printed line counts to $scratch/row
 counted() { sh -c "$(sed -n 's/^  counted by  //p' "$scratch/out" | head -n 1)" 2>"$scratch/err" | tail -n 1 >"$scratch/row"; }
 
 awk -v n=3 -v seed=23 -f mk/price/scenes.awk </dev/null >"$scratch/drawn.whirl"
@@ -41,7 +41,7 @@ for scene in ${WHIRL_FULL:+r23_1 r23_2} r23_3; do
     verdict $? "$scene: with --predict all is predicted" "$scratch/out"
 done
 
-# The counted flash as a limit is kept.
+# A limit equal to the counted flash is met.
 flash=$(sed -n 's/^  flash  *\([0-9]*\) .*/\1/p' "$scratch/measured" | head -n 1)
 choose "$scratch/drawn.whirl:r23_3" --error 1e-2 --flash "$flash"
 [ $? -eq 0 ] && [ "$(figure flash)" -le "$flash" ]
@@ -58,7 +58,7 @@ with_contacts() {
 # row N: a field of the row that the printed line counts
 field() { awk -F, -v n="$1" '{ printf "%.9g", $n }' "$scratch/row"; }
 
-# The step that follows no event is a part of the mean, the mean no more than the longest, and that no more than declared.
+# A step after no event is a part of the mean. The mean is at most the longest step, and that at most the declared one.
 contacts() { # SCENE HORIZON RATE
     choose "$1" --error 0.1 --horizon "$2" --rate "$3" --clock 1000MHz
     if [ $? -eq 1 ] && grep -qE 'nothing moves|no reliable reference' "$scratch/out" "$scratch/err"; then
@@ -98,7 +98,7 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     done <"$scratch/some"
 fi
 
-# Limits hold for them, too: a clock on both sides of the longest step, and flash.
+# Limits hold for contacts too: a clock on both sides of the longest step, and flash.
 limits() {
     choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz
     cycles=$(figure 'the longest')
@@ -113,14 +113,14 @@ limits() {
     choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz --flash 4KB
     [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out" && grep -q 'bytes of flash' "$scratch/out"
     verdict $? "nor is 4 KB of flash" "$scratch/out"
-    # Of a range it is the longest of all places.
+    # In a range, the longest step of all places counts.
     choose hopper_hops --error 0.1 --horizon 0.5s --rate 200Hz --vary e=0.2..0.9
     [ $? -eq 0 ] && [ "$(figure of)" -eq $((3 * 100 * $(figure 'a period'))) ]
     verdict $? "three places are counted" "$scratch/out"
 }
 [ -z "${WHIRL_FULL:-}" ] || limits
 
-# A table's front is counted; one of its rows again, from the line that derives it.
+# The front of a table is counted. One of its rows is counted again, from the line that derives it.
 "$whirl" price "$scratch/drawn.whirl:r23_1" --effort 1e7 --measure --csv "$scratch/rows.csv" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && awk -F, 'NR > 1 && $1 == 1 { n++; bad += $9 == "predicted" || $19 == "predicted" } END { exit bad || n < 3 }' "$scratch/rows.csv"
 verdict $? "nothing on the front is predicted" "$scratch/rows.csv"

@@ -1,7 +1,6 @@
 #!/bin/sh
-# memory.sh: running out of memory ends every command in one way. Under limits from far too little on, a command either
-# does what it does without a limit, or says "whirl: out of memory" last and returns 1: no crash, no half of a result
-# that looks whole.
+# memory.sh: every command ends in the same way when memory runs out. Under any limit a command does its work or prints
+# "whirl: out of memory" last and returns 1. It does not crash and leaves no partial result that looks whole.
 . "$(dirname "$0")/../checks.sh"
 
 # A sanitizer's build wants address space that no limit leaves.
@@ -39,7 +38,7 @@ while [ "$limit" -le 200000 ]; do
     limit=$((limit + 64))
 done 2>/dev/null # what the kernel cannot even load, it ends
 
-# short WHAT WORDS...: `whirl WORDS` under limits rising by a quarter of what it wants beyond its start, more or less.
+# short WHAT WORDS...: `whirl WORDS` under limits that rise in quarters of the memory that it needs beyond its start.
 short() {
     what=$1
     shift

@@ -1,7 +1,7 @@
 #!/bin/sh
-# monitor.sh: `whirl monitor` records a rig's telemetry without loss, or counts what is lost, as the tests' own decoder counts
-# it; nobody's reading disturbs the rig; the line may go and come back. Simulated time (tests/tools/sim_board.c):
-# TEL_SECONDS of it, a minute unless told, at 115,200 baud and less.
+# monitor.sh: `whirl monitor` records a rig's telemetry without loss, or counts losses as the tests' own decoder does.
+# Readers do not disturb the rig, and the line may go and come back. Simulated time (tests/tools/sim_board.c): TEL_SECONDS,
+# a minute by default, at 115,200 baud and less.
 . "$(dirname "$0")/../checks.sh"
 
 tools=${TOOLS:-build/tools}
@@ -9,7 +9,7 @@ seconds=${TEL_SECONDS:-60}
 trap 'kill $running 2>/dev/null; rm -rf "$scratch"' EXIT
 running=
 
-# record BAUD: in $scratch: raw, csv, vcd, text (what the rig said), said (what monitor said), plant, counts
+# record BAUD: writes to $scratch: raw, csv, vcd, text (the rig's), said (monitor's), plant, counts
 record() {
     rm -f "$scratch/tty"
     SIM_LINK=$scratch/tty SIM_SECONDS=$seconds SIM_BAUD=$1 "$tools/sim_station" 2>"$scratch/plant" </dev/null &
@@ -26,9 +26,9 @@ record() {
     "$tools/tel_check" "$scratch/raw" >"$scratch/counts"
     verdict $status "$1 baud: Ctrl-C ends it in order" "$scratch/said"
 }
-# of NAME: a count of the tests' decoder
+# of NAME: a count by the tests' decoder
 of() { sed -n "s/.*$1 \([0-9]*\).*/\1/p" "$scratch/counts"; }
-# told: what monitor says of the same
+# told: the same count in monitor's summary
 told() {
     grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) for want of room in the rig), $(of gaps) samples; damaged: 0\$" \
         "$scratch/said"
@@ -54,7 +54,8 @@ for baud in $whole; do
     verdict $? "$baud baud: every order's answer has come through" "$scratch/text"
 done
 
-# Pulses are as long as the rig's monostable has them, from the first end on that is told (150 us; 100 are drawn before).
+# Pulses have the length that the rig's monostable reports with the first end (150 us); before that they are drawn with 100
+# us.
 awk '/^\$var wire 1 . slot/ { slot[$4] = 1 }
      /^#/ { now = substr($0, 2) }
      /^[01]./ && (substr($0, 2) in slot) {
@@ -64,7 +65,7 @@ awk '/^\$var wire 1 . slot/ { slot[$4] = 1 }
      END { print n " pulses, " long " of 150 us"; exit !(n > 50 && long >= n - 1) }' "$scratch/vcd" >"$scratch/err"
 verdict $? "a wave's pulses are as long as they were ($(cat "$scratch/err"))" "$scratch/err"
 
-# What was recorded: by the tests' decoder, by itself once more from what --raw has kept.
+# The record compared with the tests' decoder, and with a second record made from the --raw file.
 "$tools/tel_check" "$scratch/raw" --csv 0.00678744752 2>/dev/null >"$scratch/wanted"
 tr -d '\r' <"$scratch/csv" | sed 1d | awk -F, '{ printf "%s,%.6g\n", $1, $2 }' |
     awk -F, -v wanted="$scratch/wanted" '
@@ -104,7 +105,7 @@ verdict $? "--strict fails of that" "$scratch/err"
 [ $? -eq 1 ] && grep -q '^/dev/full: error: ' "$scratch/err"
 verdict $? "records that cannot be written are no records" "$scratch/err"
 
-# refused HINT WORD...: exit status 2, and this is said
+# refused HINT WORD...: exit status 2 and this hint
 refused() {
     wanted=$1
     shift
@@ -154,7 +155,7 @@ until_said() {
 }
 rm -f "$scratch/raw" "$scratch/csv"
 station
-# What was left in the line: half a word, and telemetry of a program that was killed; nothing of it is taken for the rig's.
+# Old data in the line, half a word and telemetry of a killed program, is not taken for the rig's.
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" >/dev/null 2>&1 </dev/null &
 running=$!
 until_said '^[0-9]' "$scratch/csv"
@@ -212,7 +213,7 @@ tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1
 verdict $? "and time goes on in the records" "$scratch/csv"
 kill $rig && wait $rig 2>/dev/null
 
-# Nobody types for three times as long as `host` allows: the run goes on while it is recorded, and ends when the recorder hangs.
+# Nobody types for three times the `host` limit: the run goes on while it is recorded, and ends when the recorder hangs.
 station
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --quiet >"$scratch/text" 2>"$scratch/said" <"$scratch/keys" &
 running=$!

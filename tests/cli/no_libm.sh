@@ -1,10 +1,10 @@
 #!/bin/sh
-# no_libm.sh: the program takes no function of the mathematical library. `make gate-libm` looks at unoptimised ones.
+# no_libm.sh: the program uses no function of the mathematical library. `make gate-libm` checks unoptimised programs.
 . "$(dirname "$0")/../checks.sh"
 
 check "no function of libm" sh tests/no_libm.sh "$whirl"
 
-# The check must see one that is there, and one that other libraries hold.
+# The check must find such a function, in libm or in another library.
 for function in exp frexp; do
     cat >"$scratch/probe.c" <<END
 #include <math.h>
@@ -23,7 +23,7 @@ END
     verdict $? "is found out"
 done
 
-# Boards: on a core without a root instruction a scene with roots and functions takes nothing but compiler's support.
+# On a board without a square-root instruction, a scene with roots and functions uses only the compiler's support code.
 cat >"$scratch/roots.whirl" <<'END'
 mechanism roots
 coordinate x [m]

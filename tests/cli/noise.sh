@@ -1,6 +1,6 @@
 #!/bin/sh
-# noise.sh: the noise of an output in `whirl sweep` is that of `whirl run`, under any list of measures, any number of
-# jobs, any shard, gone on with or not, with parameters swept or not.
+# noise.sh: an output's noise in `whirl sweep` is that of `whirl run`, with any measures, jobs and shards, resumed or not,
+# with parameters swept or not.
 . "$(dirname "$0")/../checks.sh"
 
 cat >"$scratch/read.whirl" <<'END'
@@ -22,7 +22,7 @@ for l in 0.4 0.5 0.6 0.7; do
     "$whirl" run "$scene" --set l=$l --csv - --quiet | tr -d '\r' | tail -n 1 | cut -d, -f4-6
 done >"$scratch/run"
 
-# rows ORDER FILE: the columns of a sweep brought into the order height, side, both
+# rows ORDER FILE: a sweep's columns in the order height, side, both
 rows() {
     tr -d '\r' <"$2" | tail -n +2 | cut -d, -f2- | awk -F, -v order="$1" '{
         n = split(order, name, " ")
@@ -30,7 +30,7 @@ rows() {
         printf "%s,%s,%s\n", value["height"], value["side"], value["both"]
     }'
 }
-# near FILE: the columns that are there are those of the runs, but for the last digit
+# near FILE: its columns equal those of the runs, except for the last digit
 near() {
     paste -d, "$scratch/run" "$1" | awk -F, '
         { for (i = 1; i <= 3; i++) if ($(3 + i) != "" && ($i - $(3 + i))^2 > 1e-30) bad = 1 }
@@ -59,7 +59,7 @@ done
 "$whirl" sweep "$scene" --over l=0.4..0.7:4 --csv - --quiet | tr -d '\r' | tail -n +2 | cut -d, -f4-6 >"$scratch/b"
 check "all outputs: the bits of the runs" cmp "$scratch/run" "$scratch/b"
 
-# the same with one program for all points, and against the noise's absence
+# the same with one program for all points, and compared with runs without noise
 "$whirl" sweep "$scene" --over th=1..1:1 --measure 'max(side)' --measure 'max(2*side)' --measure 'side - l*sin(th)' \
     --csv - --quiet | tr -d '\r' >"$scratch/b"
 check "a swept start: noise, and not that of another output" awk -F, \

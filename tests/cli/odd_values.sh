@@ -1,6 +1,6 @@
 #!/bin/sh
-# odd_values.sh: every option of every command that has a value, with what is no value: refused soon, with a message and in
-# little memory, and nothing is begun. (`whirl pil`'s are in pil.sh.)
+# odd_values.sh: every option with a value, of every command, gets invalid values. They are refused quickly, with a message
+# and in little memory, and nothing is started. (`whirl pil`: pil.sh.)
 . "$(dirname "$0")/../checks.sh"
 
 gear=epicyclic_from_rest
@@ -11,7 +11,7 @@ else
     ulimit -v 4000000
 fi
 
-# COMMAND, options of it that take any words (files, expressions), and what the command needs
+# COMMAND, its options that take any words (files, expressions), and its required arguments
 while read -r command any words; do
     "$whirl" "$command" --help >"$scratch/help" 2>"$scratch/err"
     options_of "$scratch/help" >"$scratch/options"
@@ -58,7 +58,7 @@ while read -r command option words; do
             grep -qE "^('*|$file): error: cannot be written: |error: --plot draws|error: --header takes" "$scratch/err"
         verdict $? "whirl $command $option '$file': status $status"
     done
-    # a disk that is full after a drawn number of blocks: the old file stays, and nothing half stands beside it
+    # the disk is full after a random number of blocks: the old file stays, and no partial file appears beside it
     kept=$scratch/kept/a.svg
     # shellcheck disable=SC2086 # a price takes long, and its files are written as those of a map
     [ "$command" = price ] ||
@@ -107,7 +107,7 @@ trust --csv $gear
 prove --csv $gear
 price --csv $gear --effort 1e7
 END
-# what a price has no error for is said, with or without a table
+# `price` reports a quantity without an error, with or without a table
 for quiet in '' --quiet; do
     # shellcheck disable=SC2086
     "$whirl" price $gear --effort 1e7 --until 0.1s --horizon 1e18s $quiet >"$scratch/out" 2>"$scratch/err"

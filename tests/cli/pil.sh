@@ -1,7 +1,7 @@
 #!/bin/sh
-# pil.sh: `whirl pil`: the rig and another mechanism in the loop, on this machine and on an emulated board; tapes; that
-# computing takes time; what is refused; and that nothing is left behind whoever is killed. WHIRL_FULL: more of the kills,
-# and a Cortex-M3.
+# pil.sh: `whirl pil`: the rig and another mechanism in the loop, on this machine and on an emulated board. Also tapes, the
+# time that computing takes, refusals, and that nothing remains after any process is killed. WHIRL_FULL: more kills, and a
+# Cortex-M3.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
@@ -13,7 +13,7 @@ rounds=1
 [ -x "$build/pil_rig" ] && [ -x "$build/pil_cart" ]
 verdict $? "build/pil_rig and build/pil_cart are there (make pil-images)"
 
-# line NAME FILE: what the report's line of that name says; number NAME FILE: the first number in it
+# line NAME FILE: the rest of the report's line of that name; number NAME FILE: its first number
 line() { grep -a "^ *$1  *" "$2" | sed "s/^ *$1  *//"; }
 number() { line "$1" "$2" | head -n 1 | sed 's/^[^-0-9]*\([-0-9.]*\).*/\1/'; }
 # close_to VALUE WANTED MOST
@@ -44,7 +44,7 @@ above "$(after --set enable=1 --set duty=0.9)" "$(after --set enable=1 --set dut
 verdict $? "a lower supply drives less"
 
 # --- the rig, whole ---------------------------------------------------------------------------------------------------
-# The plant has a coupling and dry friction that the controller knows nothing of; the force is the formula's.
+# The plant has a coupling and dry friction that the controller does not know. The force is that of the formula.
 # shellcheck disable=SC2086 # words
 sh tests/limit.sh 60 "$whirl" pil $rig --firmware "$build/pil_rig" --tape "$scratch/pc.tape" >"$scratch/pc" 2>"$scratch/err"
 verdict $? "the rig's software on this machine runs to its end"
@@ -65,7 +65,7 @@ else
     echo "ok - no qemu-system-arm, or no $m4: no emulated board # SKIP"
 fi
 for board in $boards; do
-    # where computing takes no time, all processors give the same orders
+    # if computing takes no time, all processors give the same orders
     # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --firmware "build/$board/pil_rig.elf" --board "$board" --cycles 0 --tape "$scratch/$board.tape" \
         >"$scratch/board" 2>"$scratch/err"
@@ -83,7 +83,7 @@ for board in $boards; do
     verdict $? "and the other way round"
 done
 if [ -n "$boards" ]; then
-    # ten times slower: where it prints its state it is late by more than a period
+    # ten times slower: a step that prints the state is late by more than a period
     for cycles in 0 1.5 15; do
         # shellcheck disable=SC2086
         sh tests/limit.sh 60 "$whirl" pil $rig --firmware "$m4" --cycles $cycles --until 8.7s >"$scratch/out.$cycles" 2>"$scratch/err"
@@ -147,7 +147,7 @@ for board in $boards pc; do
 done
 
 # --- readings that are late, or silent ------------------------------------------------------------------------------------
-# So late as they are, the run begins, and by so much is the phase off: 1980 degrees a second at 330 rpm.
+# The readings are late by this much, and the run begins. The phase is off by the delay: 1980 degrees a second at 330 rpm.
 first=$(number 'its phase to the masses' "$scratch/pc")
 for delay in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(5); for (i = 0; i < n; i++) print 0.05 + 9 * rand() }'); do
     # shellcheck disable=SC2086
@@ -164,7 +164,7 @@ verdict $? "a dial that is read late is waited for" "$scratch/late"
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_dialled" --fault cell-dead:4 >"$scratch/late" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -aq '^NOT STARTED: the dials are not heard' "$scratch/late"
 verdict $? "and one that is not heard starts nothing" "$scratch/late"
-# A stop input whose line is broken is none that is not pressed, from the start or at any time; the motor is off.
+# A stop input with a broken line counts as pressed, from the start or at any time: the motor is off.
 for when in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(6); print 0; for (i = 0; i < n; i++) print 1.7 + 9 * rand() }'); do
     # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --fault "cell-dead:3@${when}s" --tape "$scratch/silent.tape" \
@@ -221,7 +221,7 @@ sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 
 refused 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
 
 # --- what a tape has, as rows -------------------------------------------------------------------------------------------
-# rows KIND FILE: so many of that kind
+# rows KIND FILE: number of rows of that kind
 rows() { awk -F, -v kind="$1" '$3 == kind { n++ } END { print n + 0 }' "$2"; }
 "$whirl" pil --read "$scratch/pc.tape" >"$scratch/rows" 2>"$scratch/err" &&
     [ "$(head -n 1 "$scratch/rows")" = time,heard,kind,channel,signal,value,unit,status ] &&
@@ -231,7 +231,7 @@ awk -F, 'NF != 8 || $1 > $2 || ($3 == "sample") != ($8 == "good") || ($3 == "edg
     ($3 == "sample" && $5 == "cell_force" && ($1 != $2 || ++n * 0.002 - $1 > 1e-9 || $1 - n * 0.002 > 1e-9)) { bad++ }
     END { exit !(NR > 15000 && bad == 1) }' "$scratch/rows" # the header
 verdict $? "its rows have eight columns, and a sample every 2 ms"
-# a supply of 24 V, the tare at rest, pulses in turns, and what the firmware told at last
+# a supply of 24 V, the tare at rest, pulses in turns, and the firmware's last notes
 awk -F, -v told="$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" '
     BEGIN { before = -1 }
     $5 == "supply" && ($6 < 23.98 || $6 > 24.02) { bad++ }
@@ -377,7 +377,7 @@ pause() {
     seed=$(((seed * 1103515245 + 12345) % 2147483648))
     sleep "0.$(((seed / 65536) % 3))$(((seed / 512) % 10))"
 }
-# is_gone PID: it has ended, within a minute (a process that is dead and not yet waited for has)
+# is_gone PID: it ends within a minute (also true for a dead process that was not waited for)
 is_gone() {
     for _ in $(seq 3000); do
         case $(state "$1") in '' | Z) return 0 ;; esac
@@ -414,7 +414,7 @@ for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"})
     grep -q 'has said nothing for 1 s' "$scratch/err"
     verdict $? "and that is said"
 done
-# one that listens to nothing, and to no end of the line
+# a firmware that reads nothing and ignores the end of the line
 many=$(command -v yes)
 sh tests/limit.sh 60 "$whirl" pil rig_coupled --firmware "$many" --patience 0.2 >/dev/null 2>"$scratch/err"
 [ $? -eq 1 ] && grep -q 'has said nothing for 0.2 s' "$scratch/err"

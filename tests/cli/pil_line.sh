@@ -1,7 +1,7 @@
 #!/bin/sh
-# pil_line.sh: `whirl pil --port`: firmware at the other end of a serial line, played by a pseudo-terminal: of this machine's
-# program (build/pil_line), and of a board's own UART in QEMU. The same command stream as through pipes; what an operator
-# dials in, ends and refusals come over the line, too; and what is wrong with a line is told.
+# pil_line.sh: `whirl pil --port`: firmware at the other end of a serial line. It is this machine's program on a
+# pseudo-terminal (build/pil_line), or a board's own UART in QEMU. The command stream equals the one through pipes. Dials,
+# ends and refusals come over the line, and faults of the line are reported.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
@@ -10,7 +10,7 @@ board=
 trap 'kill -9 $board 2>/dev/null; rm -rf "$scratch"' EXIT
 
 wait_for_tty() { await test -e "$scratch/tty"; }
-# plug: a board is there, waiting: $scratch/tty
+# plug: a board waits at $scratch/tty
 plug() {
     rm -f "$scratch/tty"
     RIG_TTY=$scratch/tty "$build/pil_line" >"$scratch/said" 2>&1 &

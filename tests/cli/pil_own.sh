@@ -1,10 +1,10 @@
 #!/bin/sh
-# pil_own.sh: the pair of docs/pil.md, "Your own firmware": plant, firmware and commands are taken from that page, built
-# with gcc and clang, and run on tables that are drawn; where the table stands at the end is asked of the plant. Then the same
-# firmware with one bug each, which a run must tell of. WHIRL_FULL: more tables.
+# pil_own.sh: docs/pil.md, "Your own firmware": plant, firmware and commands are taken from that page, built with gcc and
+# clang, and run on random tables; the plant gives the table's final place. Then the firmware has one bug at a time, which a
+# run must report. WHIRL_FULL: more tables.
 . "$(dirname "$0")/../checks.sh"
 
-# block WORD: what the page's section has in blocks of that kind
+# block WORD: the blocks of that kind in the page's section
 block() {
     awk -v fence="\`\`\`$1" '/^## / { section = /Your own firmware/ } $0 == fence { into = section; next } /^```/ { into = 0 } into' docs/pil.md
 }
@@ -14,7 +14,7 @@ block sh >"$scratch/commands"
 [ "$(wc -l <"$scratch/table.whirl")" -gt 10 ] && [ "$(wc -l <"$scratch/pil_table.c")" -gt 30 ]
 verdict $? "docs/pil.md has a plant and a firmware"
 
-# build COMPILER SOURCE PROGRAM: with the page's words, but for compiler, paths and warnings
+# build COMPILER SOURCE PROGRAM: with the page's command, except for compiler, paths and warnings
 build() {
     words=$(tr -d '\\' <"$scratch/commands" | awk '/^cc / { on = 1 } /^build/ { on = 0 } on' | tr '\n' ' ' |
         sed "s,^cc,$1 -Wall -Wextra -Wconversion -Wshadow -Werror,; s, pil_table.c, $2,; s,-o build/pil_table,-o $3,")
@@ -94,7 +94,7 @@ for program in "$built" $elf; do
             END { print n, same bad; exit bad != "" || n < 300 || same < n - 2 }' "$scratch/heard" - >"$scratch/said"
     verdict $? "${program##*/}: the plant's rows, those with samples: $(cat "$scratch/said")" "$scratch/out"
 done
-# no row where none is asked for, and what cannot be is refused
+# no row if none is requested; bad input is refused
 refused() {
     ! run "$built" --csv "$scratch/x.csv" "$@" && grep -q "error: --every" "$scratch/err"
     verdict $? "refused: $*" "$scratch/err"
@@ -112,7 +112,7 @@ verdict $? "the scene is not written over" "$scratch/err"
 [ ! -c /dev/full ] || { ! run "$built" --csv /dev/full && grep -q 'cannot be written' "$scratch/err"; }
 verdict $? "a full disk is told" "$scratch/err"
 
-# bug NAME STATUS PATTERN SED: the firmware with that change ends so, and the run says why
+# bug NAME STATUS PATTERN SED: with that change the firmware ends so, and the run reports why
 bug() {
     sed "$4" "$scratch/pil_table.c" >"$scratch/$1.c"
     ! cmp -s "$scratch/pil_table.c" "$scratch/$1.c" && build "${built##*/}" "$scratch/$1.c" "$scratch/$1"

@@ -1,7 +1,7 @@
 #!/bin/sh
-# plot.sh: `whirl plot`, the choices of `whirl run --plot`, and `whirl figure`: a picture from a CSV file has the points of
-# the run; panels, several runs, wrong choices with their hints; SVG that is XML, with a title and alternative text.
-# Generated mechanisms; the seed is printed.
+# plot.sh: `whirl plot`, the choices of `whirl run --plot`, and `whirl figure`: a picture from a CSV file has the run's
+# points. Panels, several runs, wrong choices with hints; SVG is XML with a title and alternative text. Generated
+# mechanisms; the seed is printed.
 . "$(dirname "$0")/../checks.sh"
 
 if ! command -v gnuplot >/dev/null 2>&1; then

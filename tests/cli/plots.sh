@@ -1,6 +1,6 @@
 #!/bin/sh
-# plots.sh: `whirl run --plot`: panels whose time axes stand below each other whatever their numbers and names, and no
-# word of gnuplot's unless it fails. Generated outputs; the seed is printed.
+# plots.sh: `whirl run --plot`: the time axes of all panels are aligned, whatever their numbers and names. No message of
+# gnuplot appears unless it fails. Generated outputs; the seed is printed.
 . "$(dirname "$0")/../checks.sh"
 
 if ! command -v gnuplot >/dev/null 2>&1; then
@@ -54,8 +54,8 @@ for number in 1 2 3 4 5 6; do
 done
 
 # --- what a model says is no command, and stands as it is written -------------------------------------
-# Generated titles and file names of what gnuplot, a shell or XML could take for their own. Each contains what would
-# make a file; titles without their controls, which are blanks in the picture.
+# Generated titles and file names with characters special to gnuplot, a shell or XML. Each would create a file if it were
+# executed. In titles, control characters are blanks in the picture.
 case $whirl in /*) ;; *) whirl=$PWD/$whirl ;; esac
 pieces='` $( ) ${ \ \\ \n \" _ ^ { } @ & &amp; &#65; < > ]]> ~ % %d # ; | ! ~a{.8b} a^2 a_{i} {/=30 @x ä µ → ° 𝄞 word'
 mkdir "$scratch/in"
@@ -93,8 +93,8 @@ while [ $number -lt "${PLOT_CASES:-5}" ]; do
 done
 
 # --- all of a run is in its picture -------------------------------------------------------------------
-# Every stretch of swings that are too many to be told apart reaches the top and the bottom of its frame.
-# The curve is the longest path of the picture, behind its sample in the legend.
+# If swings are too many to be seen singly, the curve reaches the top and the bottom of the frame in each part. The curve is
+# the longest path of the picture, after its sample in the legend.
 printf 'mechanism swings\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nV = 39.4784176 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4000 [s] }\n' >"$scratch/swings.whirl"
 "$whirl" run "$scratch/swings.whirl" --quiet --plot "$scratch/swings.svg"
 tr "\n'" ' \n' <"$scratch/swings.svg" | awk 'length > longest { longest = length; path = $0 } END { sub(/.*M/, "L", path); print path }' |

@@ -1,7 +1,7 @@
 #!/bin/sh
-# price.sh: `whirl price` and `whirl choose --predict` (measure.sh has what is counted): every row's error measured again
-# from the command line that the row prints, against closed forms; what is chosen, run; bad input of every option; interrupts. With WHIRL_FEW=1 (sanitizers) fewer rows of
-# fewer scenes, and fewer requests.
+# price.sh: `whirl price` and `whirl choose --predict` (counts: measure.sh). The error of every row is measured again from
+# the row's own command line, against closed forms. Choices are run. Also bad input of every option, and interrupts.
+# WHIRL_FEW=1: fewer rows of fewer scenes.
 . "$(dirname "$0")/../checks.sh"
 
 usual() { # usual COMMAND...: not where few cases are asked
@@ -119,7 +119,7 @@ awk -F, 'NR > 1 && $2 < 1e-6 && !seen++ { exit !($1 == 1 && /--matrix exact/) } 
 verdict $? "the cheapest that is near a linear scene is the exact matrix" "$scratch/rows.csv"
 only='--matrix rk4'
 again "$scratch/decay.whirl" y '3 * exp(-2 * t)' --of y
-# What a scene does not take is no setting of it, and nothing is said of it.
+# A setting that the scene does not accept is absent, without a message.
 cat >"$scratch/root.whirl" <<'END'
 mechanism root "a square root has no fixed-point form"
 coordinate x [m]
@@ -132,7 +132,7 @@ for scene in "$scratch/root.whirl" ball_bounces; do
     [ $? -eq 0 ] && ! grep -q -e '--number fixed' "$scratch/p.csv" && ! grep -q 'error:' "$scratch/err"
     verdict $? "$scene has no step in fixed point, which is no error" "$scratch/err"
 done
-# Ranges that it leaves are no motion to be believed: no row.
+# A motion that leaves its ranges cannot be trusted: it has no row.
 sed "s/until 2/range a' = -1 .. 2 [rad\/s]; until 2/" "$scratch/pendulum.whirl" >"$scratch/narrow.whirl"
 "$whirl" price "$scratch/narrow.whirl" --effort 2e7 --board mps2-an385-m0 --csv "$scratch/p.csv" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && ! grep -q -e '--number fixed' "$scratch/p.csv" && ! grep -q 'error:' "$scratch/err"
@@ -170,7 +170,7 @@ verdict $? "none within 1e-30: exit status 1"
 verdict $? "price --vary"
 grep -q 'worst of 3 sampled places' "$scratch/out" && grep -q -- '--set push=0' "$scratch/v.csv"
 verdict $? "three places, and the worst is named" "$scratch/out"
-# a spring that is pushed by what it takes to hold it stays where it is, and errs by nothing: the worst is the other end
+# the spring is pushed with the force that holds it, so it stays and has no error: the other end is the worst
 awk -F, 'NR > 1 { n++; if ($0 ~ /push=0 /) { zero++ } } END { exit !(n > 10 && zero > 0.9 * n) }' "$scratch/v.csv"
 verdict $? "the worst place is where it moves most" "$scratch/v.csv"
 # The code of a product has the scene's own values, whatever place is the worst.
@@ -214,7 +214,7 @@ for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
         grep -q '^  flash  .*predicted' "$scratch/out"
     verdict $? "choose --error $1: load, flash and the least flash" "$scratch/out"
 done
-# Without an FPU it is fixed point; the lines that it prints say all that its bits follow from.
+# Without an FPU fixed point is chosen. The printed lines contain everything that its bits depend on.
 "$whirl" choose --predict "$scratch/pendulum.whirl" --error 1e-4 --rate 100Hz --effort 8e7 --board mps2-an385-m0 >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && grep -q '^fewest cycles .*--number fixed' "$scratch/out" &&
     grep -q '^  counted by .* mps2-an385-m0 fixed .* --until 2$' "$scratch/out"
@@ -298,7 +298,7 @@ asked() { # EXIT-STATUS TEXT WORD...: choose ends so, in time, says TEXT, and no
         ! grep -qiE '[^a-z](nan|inf)[^a-z]' "$scratch/out"
     verdict $? "choose $*: exit status $wanted, $text" "$scratch/out"
 }
-# an output that stays zero, or is rounding alone, is kept by any setting: it is held to what was asked, not to its own size
+# an output that stays zero, or is only round-off, fits any setting: its error is relative to the requested one
 for output in zero sum y; do
     asked 0 '^fewest cycles' "$odd:odd_rings" --of $output --error 1um
 done
@@ -428,7 +428,7 @@ for command in price choose; do
     refused 'unknown option' $command "$s" $e --step 1ms
     refused 'cannot be' $command "$scratch/none.whirl" $e
 done
-# What cannot be written is told before anything is run, and what is there stays when nothing comes of it.
+# A file that cannot be written is reported before any run. An existing file stays if there is no result.
 refused 'cannot be written' price "$s" --csv "$scratch/none/p.csv"
 refused 'error:' price "$s" --csv "$s"
 refused 'error is missing' choose "$s"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# prove.sh: `whirl prove`: what it says of a run, its rows, its bounds, and what it refuses. Whether it is true is asked by
-# build/tests/host enclosure prove prove_drawn.
+# prove.sh: `whirl prove`: its answer, rows, bounds and refusals. build/tests/host enclosure prove prove_drawn checks that
+# they are right.
 . "$(dirname "$0")/../checks.sh"
 
 # proved PATTERN WORD...: status 0, and these words on standard output

@@ -1,7 +1,7 @@
 #!/bin/sh
-# recorded_bits.sh: every built-in scene ends with the bits on record in tests/reference/bits.txt. `make hashes` says
-# that compilers and boards agree with each other; this, that they agree with yesterday. Whoever means to move bits
-# writes the record anew, with `WHIRL=build/whirl sh tests/cli/recorded_bits.sh --write`, and says so in CHANGELOG.md.
+# recorded_bits.sh: every built-in scene ends with the bits on record in tests/reference/bits.txt. `make hashes` compares
+# compilers and boards, this script compares with earlier versions. To change bits, renew the record with `WHIRL=build/whirl
+# sh tests/cli/recorded_bits.sh --write` and say so in CHANGELOG.md.
 . "$(dirname "$0")/../checks.sh"
 
 record=$(dirname "$0")/../reference/bits.txt

@@ -1,9 +1,8 @@
 #!/bin/sh
-# recorded_lists.sh: the operation lists of every scene, without and with compensated sums, and of generated mechanisms, are
-# those on record in tests/reference/lists.txt: how many operations there are (the price) and a sum over their text (the
-# bits); and so are the models' hashes. Whoever means to change them writes the record anew, with `WHIRL=build/whirl sh
-# tests/cli/recorded_lists.sh --write`, and says in CHANGELOG.md what moved and why; tests against references and closed forms
-# say whether it is right.
+# recorded_lists.sh: operation lists of every scene, with and without compensated sums, and of generated mechanisms are
+# those on record in tests/reference/lists.txt: the number of operations (the price) and a sum over the text (the bits). So
+# are the models' hashes. To change them, run `WHIRL=build/whirl sh tests/cli/recorded_lists.sh --write` and say in
+# CHANGELOG.md what moved and why. Other tests check that they are right.
 . "$(dirname "$0")/../checks.sh"
 
 here=$(dirname "$0")

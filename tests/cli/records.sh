@@ -1,6 +1,6 @@
 #!/bin/sh
-# records.sh: the CSV that a run leaves: form (RFC 4180), names, digits, spacing; and what is left of it
-# when the run diverges, is interrupted, or the disc is full.
+# records.sh: the CSV of a run: form (RFC 4180), names, digits, spacing; and its state after a run that diverges, is
+# interrupted, or fills the disk.
 . "$(dirname "$0")/../checks.sh"
 
 # Every line ends in CR LF and has as many fields as the header; every field below it is a finite number.

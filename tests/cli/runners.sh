@@ -1,6 +1,6 @@
 #!/bin/sh
-# runners.sh: what runs the tests and compares the bits says what happened: tests/run.sh, tests/each.sh, tests/hashes.sh and
-# tests/part.sh end in the right line with the right exit status, whatever their programs do.
+# runners.sh: tests/run.sh, tests/each.sh, tests/hashes.sh and tests/part.sh end with the right line and exit status,
+# whatever their programs do.
 . "$(dirname "$0")/../checks.sh"
 
 # expect WHAT STATUS LINE COMMAND...: the exit status, and the last line that is printed

@@ -1,6 +1,6 @@
 #!/bin/sh
-# settings_bits.sh: what `make hashes-settings` compares (mk/settings.mk): that it has every word of every axis of settings,
-# that the interpreter's hashes are those of `whirl run`, and that a single bit of one constant in one scene's code is found.
+# settings_bits.sh: `make hashes-settings` (mk/settings.mk) covers every word of every axis of settings. The interpreter's
+# hashes are those of `whirl run`, and one changed bit of a constant in one scene's code is found.
 . "$(dirname "$0")/../checks.sh"
 
 steps=60

@@ -1,6 +1,6 @@
 #!/bin/sh
-# setup.sh: what is missing is named, with what needs it and the size, before it is installed; where it cannot be
-# installed, the line that does it. On a machine of made-up commands: nothing is installed here.
+# setup.sh: missing packages are named before installation, with their purpose and size; if they cannot be installed, the
+# command is printed. The machine has made-up commands: nothing is installed.
 . "$(dirname "$0")/../checks.sh"
 
 bin=$scratch/bin

@@ -1,6 +1,6 @@
 #!/bin/sh
-# sizes.sh: mk/size/size.sh holds an image to the flash and the memory that it may have, each to the byte, and does not where it
-# does not know what stack main() takes. Images are played: what size, nm and gcc say of them, drawn at random.
+# sizes.sh: mk/size/size.sh checks an image's flash and memory to the byte, and fails if main()'s stack is unknown. Images
+# are made up: the output of size, nm and gcc is random.
 . "$(dirname "$0")/../checks.sh"
 
 mkdir "$scratch/objects"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# station.sh: the rig's console on a pseudo-terminal of this machine, and on the UART of an emulated board: each line is
-# answered, nothing moves without arm and start, and whatever ends the program leaves nothing behind.
+# station.sh: the rig's console on a pseudo-terminal and on the UART of an emulated board. Each line has an answer, nothing
+# moves without arm and start, and nothing remains, however the program ends.
 . "$(dirname "$0")/../checks.sh"
 
 station=${STATION:-build/station}

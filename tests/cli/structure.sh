@@ -1,6 +1,6 @@
 #!/bin/sh
-# structure.sh: who includes whom in core, hal and host, and who calls whom in the program, as its objects say. All
-# arrows go one way: between folders, between headers, and between files (a header with the .c of its name).
+# structure.sh: includes in core, hal and host, and calls in the program's objects form no circle: between folders, between
+# headers, and between files (a header with the .c of its name).
 . "$(dirname "$0")/../checks.sh"
 
 # circles.awk: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.

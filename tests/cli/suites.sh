@@ -1,6 +1,5 @@
 #!/bin/sh
-# suites.sh: a test program runs the suites that are named, all of them without a name, and refuses a name
-# that is none of them, rather than passing with nothing run.
+# suites.sh: a test program runs the named suites, or all without a name, and refuses an unknown name.
 . "$(dirname "$0")/../checks.sh"
 
 folder=$(dirname "$whirl")/tests

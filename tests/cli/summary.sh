@@ -1,6 +1,6 @@
 #!/bin/sh
-# summary.sh: the summary of `whirl run`: a sentence, what is to be said of the run, then its numbers; the same run has the
-# same summary. What the sentence says is held against the run's records. Scenes are drawn: WHIRL_SEED, WHIRL_CASES.
+# summary.sh: the summary of `whirl run`: a sentence, findings, then numbers; the same run has the same summary. The
+# sentence is compared with the run's records. Scenes are random: WHIRL_SEED, WHIRL_CASES.
 . "$(dirname "$0")/../checks.sh"
 
 seed=${WHIRL_SEED:-45}

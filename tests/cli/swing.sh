@@ -1,7 +1,7 @@
 #!/bin/sh
-# swing.sh: a run that ends in a free swing finds where sensor 1 stands, on the bench of docs/plants/rig.whirl, whose coupling
-# bends and whose dry friction sits in bearings and brushes; and its verdict follows. SWINGS=100: so many drawn rotors
-# (default 8), FRICTION=0.05: the most of either friction, N m.
+# swing.sh: a run that ends in a free swing finds the angle of sensor 1, and the verdict follows. The bench of
+# docs/plants/rig.whirl has a soft coupling and dry friction in bearings and brushes. SWINGS=100: number of random rotors
+# (default 8); FRICTION=0.05: largest value of either friction, N m.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")

@@ -1,7 +1,6 @@
 #!/bin/sh
-# trust.sh: `whirl trust`, the line of `whirl run` and the shade of its plot: that they say the same, move no bit of a run and
-# stay out of what programs read; and what is refused. Whether it is true is asked by build/tests/host trust trust_drawn
-# trust_scenes.
+# trust.sh: `whirl trust`, the line of `whirl run` and the shade of its plot agree. They change no bit of a run and no
+# output for programs. Also refusals. build/tests/host trust trust_drawn trust_scenes checks that they are right.
 . "$(dirname "$0")/../checks.sh"
 
 # end_of FILE: the least end of the rows that --csv wrote, or "end"

@@ -1,7 +1,6 @@
 #!/bin/sh
-# undefined.sh: what firmware makes of a contact's expression that stops being a number: generated C of a scene for
-# each kind refuses the step as the interpreter does, with WH_E_UNDEFINED, the contact's number and the last good
-# state, in float.
+# undefined.sh: generated C of a scene for each kind of contact expression that becomes undefined. It refuses the step as
+# the interpreter does, with WH_E_UNDEFINED, the contact's number and the last good state, in float.
 . "$(dirname "$0")/../checks.sh"
 
 cat >"$scratch/main.c" <<'END'

@@ -1,7 +1,6 @@
 #!/bin/sh
-# units.sh: what is declared in a unit is shown in it, everywhere and nowhere else: coordinates, their rates and
-# outputs in random units of all names there are, in the CSV, the plain columns and the summary, against the same
-# mechanism declared in SI. UNITS_CASES=N in the environment makes N mechanisms.
+# units.sh: quantities are shown in their declared units, everywhere. Coordinates, rates and outputs in random units of all
+# names, in CSV, plain columns and summary, are compared with the same mechanism in SI. UNITS_CASES=N makes N mechanisms.
 . "$(dirname "$0")/../checks.sh"
 
 seed=${UNITS_SEED:-5}

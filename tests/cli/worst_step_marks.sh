@@ -1,6 +1,6 @@
 #!/bin/sh
-# worst_step_marks.sh: what `make worst-step` counts is there: every scene with contacts, with all effects, the most that
-# its steps may evaluate, and the marks in its code.
+# worst_step_marks.sh: `make worst-step` finds what it counts: every scene with contacts, with all effects, the largest
+# number of evaluations in a step, and the marks in the code.
 . "$(dirname "$0")/../checks.sh"
 
 mk/count/all_effects.sh "$whirl" "$scratch/all" core/models/*.whirl >"$scratch/out" 2>"$scratch/err" &&

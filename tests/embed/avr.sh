@@ -1,7 +1,7 @@
 #!/bin/sh
-# avr.sh WHIRL FOLDER: the core on an ATmega2560, as simavr plays it, built in FOLDER: without a warning in strict and in
-# GNU C, used from strict and from GNU C++; the sine's table is in flash in all of them, whether or not the processor
-# has the newer instruction that reads it; the bits are those of this machine. Prints what is wrong.
+# avr.sh WHIRL FOLDER: the core on an ATmega2560 in simavr, built in FOLDER without warnings in strict and GNU C, and used
+# from strict and GNU C++. The sine's table is always in flash, with or without the newer instruction that reads it. The
+# bits are this machine's. Prints errors.
 set -u
 
 whirl=$1

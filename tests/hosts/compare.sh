@@ -1,6 +1,6 @@
 #!/bin/sh
-# compare.sh FOLDER [NAME "COMPILER AND HOST"]...: compares what write.sh has written into FOLDER/NAME, byte by byte, with
-# what is in the first of them, and prints a table. Exit status 1 if anything differs or a host failed.
+# compare.sh FOLDER [NAME "COMPILER AND HOST"]...: compares the files of write.sh in each FOLDER/NAME, byte by byte, with
+# those of the first, and prints a table. Exit status 1 if anything differs or a host failed.
 set -u
 all=${1:?usage: compare.sh FOLDER [NAME COMPILER]...}
 shift
