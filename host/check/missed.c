@@ -42,7 +42,7 @@ struct taylor_bounds {
     form *place;        /* [coordinates] */
     form *rate;         /* [coordinates] */
     form *of;           /* [operations] */
-    bool *needs;        /* [results * operations] */
+    bool *needs;        /* [results * operations] does the result depend on the operation? */
     enclosure *natural; /* [operations] bounds on the whole way */
     bool glanced;       /* natural[] is set */
     double half;        /* half the part's width */
@@ -527,11 +527,11 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 struct missed {
     const image *image;
-    taylor_bounds *signals; /* or NULL */
-    taylor_bounds *accel;   /* of the accelerations, if one must be tested; or NULL */
+    taylor_bounds *signals; /* bounds of the contacts' signals, or NULL */
+    taylor_bounds *accel;   /* bounds of the accelerations, if one must be tested; or NULL */
     bool hills;             /* the accelerations contain an exponential function */
     bool edges;             /* a gap may have an edge */
-    taylor_bounds *laws;    /* of the contacts' laws, if a friction's limits move; or NULL */
+    taylor_bounds *laws;    /* bounds of the contacts' laws, if a friction's limits move; or NULL */
     double *from;           /* [angles + reals] the state before the step, */
     double *to;             /* and after it */
     int *mode;              /* [contacts] modes before and after the step */

@@ -676,11 +676,11 @@ struct pole_crossing {
     const image *image;
     int components;
     denominators of;
-    double *from; /* [components] angles, then reals: the state before the step, */
-    double *to;   /* and after it */
+    double *from; /* [components] state before the step: angles, then reals */
+    double *to;   /* [components] state after the step */
     uint64_t events;
-    bool leapt; /* in this step there were some */
-    bool blind; /* the state before it is not known */
+    bool leapt; /* this step had events */
+    bool blind; /* the state before this step is unknown */
     uint64_t unseen;
     missed *contacts;
     int found; /* a question, or -1 */

@@ -358,8 +358,8 @@ typedef struct pair {
     pole_crossing *finer_jumps;
     rounded rounded;
     uint64_t stride; /* steps between looks */
-    double look_s;   /* the last look, */
-    double before_s; /* and the one before it */
+    double look_s;   /* time of the last look */
+    double before_s; /* time of the look before the last one */
     uint64_t looks;
     bool owns; /* the pair owns the run and its monitors */
 } pair;

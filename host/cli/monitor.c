@@ -150,7 +150,7 @@ typedef struct monitor {
     bool half_typed; /* the typed text has no end of line yet */
     bool live;       /* a line, not a recorded file */
     bool met;        /* the rig has answered at least once */
-    bool begun;      /* and has sent the data left from an earlier time */
+    bool begun;      /* the rig has sent all data from before the recording */
     int unheard;     /* number of unanswered questions since the line was opened */
     int64_t asked_ms;
     int64_t kept_ms;  /* time when all records were last written to their files */
@@ -256,7 +256,7 @@ static void take_text(monitor *m, const char *line) {
 
 static void take_frame(monitor *m) {
     if (m->line.is_line && !m->begun) {
-        return; /* from an earlier time */
+        return; /* a frame from before the recording */
     }
     recording_frame(&m->recording, &m->schema, &m->wire.frame);
 }

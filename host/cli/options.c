@@ -30,7 +30,7 @@ enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
 void options_text(FILE *out, const char *text, int column, int margin, int width) {
     for (; *text != '\0'; text++) {
-        const int word = 1 + (int)strcspn(text + 1, " \n"); /* and the blank before it */
+        const int word = 1 + (int)strcspn(text + 1, " \n"); /* with the blank before it */
         if (*text == '\n' || (*text == ' ' && column + word > width)) {
             fprintf(out, "\n%*s", margin, "");
             column = margin;
@@ -198,7 +198,7 @@ static bool is_in(const char *const *list, int count, const char *name) {
     return false;
 }
 
-/* Each name of "E, E,...", with optional blanks. False, reported, if a name is missing or repeated, in the list or on
+/* Adds each name of "E, E,...", with optional blanks. False, reported, if a name is missing, or repeated in the list or on
  * the command line. */
 static bool push_names(change_options *c, const char ***list, int *count, const char *option,
                        const char *text) {

@@ -87,8 +87,8 @@ typedef struct command_usage {
 
 void options_usage(FILE *out, const command_usage *usage);
 
-/* Print a text of a help, which begins at `column`, broken at blanks into lines of at most `width` columns; later lines
- * are indented by `margin`. */
+/* Print a help text that begins at `column`, broken at blanks into lines of at most `width` columns. Later lines are
+ * indented by `margin`. */
 void options_text(FILE *out, const char *text, int column, int margin, int width);
 
 /* Is --help or -h among the words? */

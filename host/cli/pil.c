@@ -84,7 +84,7 @@ typedef struct pil_options {
     const char *firmware;
     const char *port; /* a serial line to the board */
     const char *board;
-    char machine[GUEST_MACHINE_BYTES]; /* of its folder; "": without one */
+    char machine[GUEST_MACHINE_BYTES]; /* QEMU's machine in the board's folder; "": none */
     const char *tape;
     const char *replay;
     const char *read; /* a tape to show */

@@ -75,7 +75,7 @@ const poly *forces_power(algebra *a, const statement_force *forces, int count, t
 
 typedef struct unknown {
     const symbol *symbol;
-    int order; /* of its highest derivative; 2 for a coordinate */
+    int order; /* order of the highest derivative; 2 for a coordinate */
 } unknown;
 
 typedef struct equations {

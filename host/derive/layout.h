@@ -47,7 +47,7 @@ typedef struct layout {
     int order_room;
     /* set while a list is entered: */
     const int *highest; /* operations of the highest derivatives by unknown, or NULL */
-    const int *record;  /* operations of recorded outputs (layout.h), or NULL */
+    const int *record;  /* operations of recorded outputs, or NULL */
 } layout;
 
 /* Arrange the state. An angle that `dynamics` [count] contain only inside sines and cosines becomes a turn angle. False

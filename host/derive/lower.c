@@ -227,7 +227,7 @@ static int products_of(algebra *a, const poly *p, int base, const family *f, pie
     const int front = f->trig == TRIG_SIN ? 1 : 0;
     double after = 0.0;
     int count = 0;
-    bool vanishes = false; /* at 0 or at pi/2 */
+    bool vanishes = false; /* is the sum zero at 0 or at pi/2? */
     for (int j = 0; j <= sum.degree; j++) {
         if (folding_cancels(sum.coefficient[j], sum.added[j], CANCELLED)) {
             vanishes = vanishes || j == 0 || j == sum.degree;
@@ -316,7 +316,7 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
  * and 2a - b = a + (a - b) share all four products. */
 
 typedef enum wave_rule {
-    WAVE_EVALUATED, /* by the core's sine */
+    WAVE_EVALUATED, /* computed by the core's sine */
     WAVE_DOUBLE,    /* 2 p */
     WAVE_SUM,       /* p + q */
     WAVE_DIFFERENCE /* p - q */

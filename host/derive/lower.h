@@ -11,7 +11,7 @@
 /* One term: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
 typedef struct piece {
     double coefficient;
-    const mono *mono;  /* its factors; the powers replace its own sine or cosine */
+    const mono *mono;  /* has the factors; `sines` and `cosines` replace the sine or cosine in it */
     const poly *angle; /* NULL when both powers are 0 */
     int sines;
     int cosines;

@@ -396,7 +396,7 @@ typedef struct arrangement {
     bool hinged;   /* unknowns on hinges are eliminated first, in this order */
     int lead;      /* the sine that is evaluated first: lower.h */
     int first; /* unknown eliminated symbolically; -1: no unknown; -2: every constant diagonal */
-    int order[COORDINATES_MAX]; /* of elimination */
+    int order[COORDINATES_MAX]; /* order of elimination */
 } arrangement;
 
 /* The equations of an arrangement: all polys in one array, for lower_plan(). */

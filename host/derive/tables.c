@@ -98,8 +98,8 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_SQRT: value[i] = turn_function_of(FN_SQRT, x, y); break;
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
-        case OP_PHASE:  /* no value of its own */
-        case OP_LINEAR: /* and not in such lists */
+        case OP_PHASE:  /* has no value */
+        case OP_LINEAR: /* from here on: not in such lists */
         case OP_RATE:
         case OP_INPUT:
         case OP_ACCEL:

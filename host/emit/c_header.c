@@ -88,7 +88,7 @@ static item item_of(const image *im, list of, int i) {
     case LIST_REALS: return of_unknown(im, im->real[i]);
     case LIST_INPUTS: return of_quantity(&im->input[i]);
     case LIST_OUTPUTS:
-        if (i >= im->own_outputs) { /* of a recovered coordinate: value and rate */
+        if (i >= im->own_outputs) { /* value or rate of a recovered coordinate */
             const int k = i - im->own_outputs;
             return of_unknown(im, (component){im->from_momentum[k / 2], k % 2});
         }

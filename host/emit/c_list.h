@@ -14,7 +14,7 @@ typedef struct op_style {
     void (*operand)(FILE *out, const op_list *t, int a);
     /* Writes the number of a leaf: `what` is l, r or u, `a` its index. NULL if no row needs it. */
     void (*leaf)(FILE *out, const void *context, char what, int a);
-    const void *context; /* of leaf() */
+    const void *context; /* context for leaf() */
 } op_style;
 
 /* `form` is the row's text for the language. */

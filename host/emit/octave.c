@@ -65,7 +65,7 @@ static void write_leaf(FILE *out, const void *context, char what, int a) {
     }
 }
 
-/* The lists of records have operations that no step has; they are not written here. */
+/* Writes an operation of a step's list. Operations that occur only in lists of records are omitted. */
 static void write_operation(FILE *out, const image *im, int i) {
     const op_style style = {write_operand, write_leaf, im};
     const op_list *t = im->list[IMAGE_STEP];

@@ -43,8 +43,8 @@ typedef enum fixed_code {
 
 typedef struct fixed_operand {
     int op;
-    int shift;      /* to the right for a sum, to the left for a product */
-    int32_t number; /* of a constant: shifted already */
+    int shift;      /* right shift in a sum, left shift in a product */
+    int32_t number; /* value of a constant, already shifted */
 } fixed_operand;
 
 typedef struct fixed_op {

@@ -91,10 +91,10 @@ typedef enum image_role {
                     * momentum */
     IMAGE_BOOKS, /* highest derivatives (by unknown). For a mechanism with energies also the entries
                   * of image_book, the momenta (by unknown) and the energy integral, if any */
-    IMAGE_SIGNALS, /* of the contacts, for core/contact.h: the next three */
+    IMAGE_SIGNALS, /* this and the next two: for contacts (core/contact.h) */
     IMAGE_FORCES,
     IMAGE_SETS,
-    IMAGE_POWERS, /* of the ledger, for core/ledger.h: the last two */
+    IMAGE_POWERS, /* this and the next: for the ledger (core/ledger.h) */
     IMAGE_LEVELS,
     IMAGE_MATRIX, /* a whole step, for core/step/matrix_step.h */
     IMAGE_TABLES, /* the exact functions of a step's tables: result[k] is that of table k */

@@ -72,7 +72,7 @@ static const expr *slope(parser *in, const expr *of) {
     case FN_SINH: return call(in, FN_COSH, at, u);
     case FN_COSH: return call(in, FN_SINH, at, u);
     case FN_TANH: return power(in, call(in, FN_COSH, at, u), -2.0);
-    case FN_ATAN2: /* with two arguments: below */
+    case FN_ATAN2: /* functions of two arguments are handled below */
     case FN_MIN:
     case FN_MAX:
     case FN_SIGN: break; /* the slope is 0, except at the jump */

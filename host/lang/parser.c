@@ -217,8 +217,8 @@ static bool is_decimal_comma(const token *sign) {
 
 const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
     const token *next = &in->token;
-    const char *line = next->text - next->at.offset; /* of the text */
-    const char *end = next->text;                    /* of the operand before it */
+    const char *line = next->text - next->at.offset; /* begin of the text */
+    const char *end = next->text;                    /* end of the operand before the token */
     while (end > line && (end[-1] == ' ' || end[-1] == '\t')) {
         end--;
     }

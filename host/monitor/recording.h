@@ -76,7 +76,7 @@ typedef struct recording {
     int64_t time_us; /* time of the last frame since the first one */
     bool expects;    /* the next sample is expected at expected_us */
     int64_t expected_us;
-    int signal[2 * SCHEMA_FIELDS]; /* of the run's fields */
+    int signal[2 * SCHEMA_FIELDS]; /* signals of the run's fields */
     int pulse[2];
     bool ends;    /* the rig reports the ends of pulses */
     bool high[2]; /* this pulse has not ended yet */

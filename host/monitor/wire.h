@@ -20,7 +20,7 @@ typedef enum wire_event { WIRE_NOTHING, WIRE_TEXT, WIRE_FRAME } wire_event;
 
 /* All zeros at the start. */
 typedef struct wire {
-    uint8_t chunk[WIRE_ROOM]; /* of a frame, since the last zero */
+    uint8_t chunk[WIRE_ROOM]; /* bytes of a frame since the last zero */
     unsigned length;
     bool is_text;  /* the bytes since the last zero are text */
     bool is_frame; /* they are a frame; if neither, it is not known yet */

@@ -178,7 +178,7 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
  * is 62 or 63. *side: the side of the double on which that number lies. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
-    const int power = exponent + bits - 1; /* of the highest bit */
+    const int power = exponent + bits - 1; /* exponent of the highest bit */
     const int kept = power >= EXPONENT_LEAST ? MANTISSA : MANTISSA - (EXPONENT_LEAST - power);
     *side = 1;
     if (kept < 0) {

@@ -13,12 +13,12 @@
 typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
-    FAULT_INPUT,     /* of the scene, which must have an input of the name in fault.c */
-    FAULT_ORDERS,    /* the orders, and their computing time */
-    FAULT_LINE,      /* losses on the line */
-    FAULT_PARAMETER, /* of the scene, for the whole run: the loader asks fault_parameters() */
-    FAULT_SENSORS,   /* edge positions, and their jitter */
-    FAULT_PROCESSOR  /* the processor restarts */
+    FAULT_INPUT,  /* an input of the scene, with the name in fault.c */
+    FAULT_ORDERS, /* the orders, and their computing time */
+    FAULT_LINE,   /* losses on the line */
+    FAULT_PARAMETER, /* a parameter of the scene, for the whole run: the loader calls fault_parameter() */
+    FAULT_SENSORS,  /* edge positions, and their jitter */
+    FAULT_PROCESSOR /* the processor restarts */
 } fault_place;
 
 /* X(which, word, place, default size, least, most, unit, words). If least equals most, the fault has no size. */
@@ -135,7 +135,7 @@ typedef struct fault_case {
     double duration_s;
     /* While it runs: */
     int note_at;    /* in orders.output */
-    int input;      /* of the scene; for FAULT_STUCK the first of two */
+    int input;      /* index of the scene's input; for FAULT_STUCK the first of two */
     double healthy; /* the input's normal value, or a sensor's requested one */
     bool reached;   /* the note has reached its value, */
     bool active;

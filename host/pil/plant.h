@@ -65,8 +65,8 @@ typedef struct plant_wish {
                                    * else SI */
     unsigned places;              /* number of given positions */
     double jitter_s;              /* standard deviation of an edge's time */
-    double delay_s;               /* of every sample */
-    uint32_t seed;                /* of the jitter */
+    double delay_s;               /* delay of every sample */
+    uint32_t seed;                /* seed of the jitter */
     recorded *rows;               /* recording of the plant, or NULL */
 } plant_wish;
 

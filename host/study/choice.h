@@ -16,7 +16,7 @@ typedef enum choice_limit {
 } choice_limit;
 
 typedef struct choice_wish {
-    table_wish table;   /* with the error, in the unit of the trial's errors, and the rate */
+    table_wish table;   /* includes the error, in the unit of the trial's errors, and the rate */
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* with the stack; 0: no limit */

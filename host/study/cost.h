@@ -147,13 +147,13 @@ typedef struct cost {
     const char *why;          /* why figures are not known, a sentence for people; "" if all are */
     cost_figure instructions; /* a step, mean of a run */
     cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
-    cost_figure cycles;             /* of the mean step */
+    cost_figure cycles;             /* a step, mean of a run */
     cost_figure cycles_worst;
     /* The smallest firmware around the scene, which steps and computes the outputs (boards/programs/size.c): */
     cost_figure flash_bytes;
     cost_figure ram_bytes;   /* without the stack */
-    cost_figure stack_bytes; /* deepest, in steps */
-    cost_figure state_bytes; /* of these RAM bytes, the scene's own: WH_MEMORY_BYTES */
+    cost_figure stack_bytes; /* deepest stack during a step */
+    cost_figure state_bytes; /* part of the RAM that the scene's memory takes: WH_MEMORY_BYTES */
 } cost;
 
 /* For COST_FIXED the image must contain its step in fixed point. A scene with contacts has no prediction, because its price

@@ -107,9 +107,9 @@ typedef struct measuring {
 
 /* Notes on a point that did not fail. */
 typedef struct point_notes {
-    unsigned found;    /* findings, as bits (host/check/finding.h), */
-    unsigned against;  /* the warnings among them, */
-    unsigned fails;    /* and those for which the exit status is 1 */
+    unsigned found;    /* findings, as bits (host/check/finding.h) */
+    unsigned against;  /* warnings, as bits */
+    unsigned fails;    /* findings for which the exit status is 1, as bits */
     unsigned unlooked; /* run_checks_unlooked() */
     double end_s;      /* end of the run */
 } point_notes;

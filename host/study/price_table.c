@@ -738,7 +738,7 @@ static int line_from(const char *command, const char *with, char *line, int size
 
 /* --- can it be counted? --------------------------------------------------------------------------------*/
 
-#define NO_COMMAND 127 /* of a shell */
+#define NO_COMMAND 127 /* exit status of a shell for a missing command */
 
 static bool is_host(const cost_board *board) { return strcmp(board->name, "host") == 0; }
 
@@ -824,7 +824,7 @@ static bool enter_run(const cost_board *board, char *line, table_row *to) {
     return true;
 }
 
-/* The exit status of a line, and the last line that it prints. */
+/* Runs a command line. Returns its exit status; `row` gets the last line of its output. */
 static int count_line(char *line, char *row, int size) {
     char *command = alloc_words("%s 2>/dev/null", line);
     row[0] = '\0';

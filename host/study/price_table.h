@@ -59,7 +59,7 @@ typedef struct table_wish {
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
     double
         error; /* steps get finer until the error is half of this; 0: until round-off stops the gain */
-    double rate_Hz;   /* of calls, each of which takes whole steps; 0: any step */
+    double rate_Hz;   /* rate of calls, each of which takes a whole number of steps; 0: any step */
     uint64_t periods; /* number of 1/rate_Hz in a record's spacing; 1 without a rate */
     int workers;
     void (*progress)(void *context, int done, int of); /* may be NULL */
@@ -89,7 +89,7 @@ table_price table_price_of(const cost *c, double step_s, bool *known);
 enum { THREE_ROWS = 3 };
 
 typedef struct three_rows_wish {
-    const trial_source *source; /* of one point */
+    const trial_source *source; /* has one point */
     const cost_board *board;
     setting setting;         /* the run's, in the board's number */
     image_settings plain;    /* of the reference's image */
@@ -128,7 +128,7 @@ typedef struct table_words {
     const char *target;
     const char *changes; /* "" or " --set m=3 ..." */
     bool all;            /* every row */
-    double operations;   /* of --effort */
+    double operations;   /* value of --effort */
 } table_words;
 
 /* "cycles/s", ...: heads of a column of prices, by table_unit. */

@@ -130,8 +130,7 @@ static long double logarithm(long double x) {
         return x < 0.0L ? (long double)NAN : x > 0.0L || x != x ? x : -(long double)INFINITY;
     }
     if (x > 0.8L && x < 1.25L) {
-        const long double s =
-            (x - 1.0L) / (x + 1.0L); /* below 1/9, so each term adds 6 binary digits */
+        const long double s = (x - 1.0L) / (x + 1.0L); /* below 1/9: a term adds 6 bits */
         long double sum = 0.0L;
         for (int k = 2 * (LDBL_MANT_DIG / 6) + 1; k >= 1; k -= 2) {
             sum = 1.0L / (long double)k + s * s * sum;
@@ -378,7 +377,7 @@ struct extrapolation {
     long double *row[2]; /* [columns][count]: two rows of the tableau */
     long double *before, *here, *work;
     double *rounding;   /* [results] of the list */
-    long double step_s; /* to try next; 0: not chosen yet */
+    long double step_s; /* length of the next tried step; 0: not chosen yet */
     double operations;
     double most_operations;
 };

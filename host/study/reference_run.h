@@ -119,8 +119,8 @@ typedef struct reference {
     reference_kind kind;
     records *shape;           /* names and units of the columns, as `whirl run --csv` has them */
     int columns;              /* as in the shape; column 0 is the time */
-    int wanted;               /* requested records after the start, */
-    int records;              /* and those that can be trusted */
+    int wanted;               /* requested records after the start */
+    int records;              /* trusted records after the start */
     long double *row;         /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
     double

@@ -9,7 +9,7 @@
 #include "host/io/records.h"
 #include "host/lang/model.h"
 
-/* Most effects of a scene, and most that act for which all subsets are run. */
+/* The most effects of a scene. With up to SUBSETS_ALL_MOST acting effects, all of their subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
 /* Figures of a price, in float; NAN: unknown. With contacts only SUBSET_WORST is known, as declared. */

@@ -15,7 +15,7 @@ typedef struct setting {
     const engine_kind *number;
 } setting;
 
-/* X(id, heading of a column, words), in the order of the options. The first word of an axis is its default. */
+/* X(id, heading of a column), in the order of the options. The first word of an axis is its default. */
 #define SETTING_AXES(X) \
     X(AXIS_METHOD, "method") \
     X(AXIS_NUMBER, "number") \
