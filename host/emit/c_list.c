@@ -43,7 +43,11 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
         case 'n': or_no_number(out, t, o->b, style); break;
         case 'i': fprintf(out, "%d", o->a); break;
         case 'v': fprintf(out, "%.0f", o->value); break;
-        default: style->leaf(out, style->context, *at, o->a); break;
+        default:
+            if (style->leaf != NULL) {
+                style->leaf(out, style->context, *at, o->a);
+            }
+            break;
         }
     }
 }
