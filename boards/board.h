@@ -1,5 +1,4 @@
 /* board.h: the interface of every board, including the PC. Boards differ in nothing else.
- *
  * On bare metal the startup code clears and copies memory, switches the FPU on, paints the stack and calls main(); main()'s
  * result goes to board_exit(). On the PC main() is main(). */
 #ifndef BOARDS_BOARD_H

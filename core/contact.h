@@ -106,10 +106,8 @@ typedef struct wh_contact {
         direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if one
                     * with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
                     * rate. Else 0. */
-    int16_t pin; /* the only coordinate of a constant J_k, whose rate is then exactly zero; else
-                  * -1 */
-    uint8_t first_set; /* crossing: index of its first assignment; hold without a pin: its index in
-                    * wh_state's held[] */
+    int16_t pin; /* only coordinate of a constant J_k, whose rate is then exactly zero; else -1 */
+    uint8_t first_set; /* of a crossing's first assignment, or of a hold without a pin in held[] */
     uint8_t sets;
 } wh_contact;
 

@@ -73,10 +73,8 @@ typedef struct wh_orders {
     uint32_t until_ticks;    /* time of the next readings */
     uint32_t acted_timer;    /* counts from the readings' arrival until the outputs were set */
     uint32_t busy_timer;     /* counts until these orders were sent */
-    uint32_t step_timer;     /* timer counts of the longest control step since the last orders; 0:
-                           * not measured */
-    uint32_t watchdog_ticks; /* if no WH_ORDER_ALIVE comes for this long, the plant sets the outputs
-                         * to zero; 0: never */
+    uint32_t step_timer;     /* longest control step since the last orders; 0: not measured */
+    uint32_t watchdog_ticks; /* so long without WH_ORDER_ALIVE: outputs to zero; 0: never */
     uint8_t flags;
     unsigned outputs;             /* number of outputs and notes together */
     float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */

@@ -1,5 +1,4 @@
 /* function_angle_float.c: the inverse circular functions in float.
- *
  * Minimax polynomials in the argument's square, with the first coefficient fixed at one, so that a small argument is
  * returned unchanged. */
 #include "function_float.h"

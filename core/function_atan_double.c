@@ -1,5 +1,4 @@
 /* function_atan_double.c: angles from ratios in double.
- *
  * For a point (x, y) with 0 <= y <= x, a table of pairs has the angle of the next ray whose slope c is a multiple of 1/64.
  * The remaining angle has the tangent (y - c x)/(x + c y), at most 1/128, so a short series suffices. The other functions
  * are such angles: the arc sine of s is that of (root(1 - s^2), s). */

@@ -1,5 +1,4 @@
 /* function_exp_double.c: e^x in double.
- *
  * x = k ln(2)/64 + r with |r| < 2^-7.5, e^x = 2^(k/64) e^r. The fractions of k are from a table of pairs, e^r from its
  * series. */
 #include "function_double.h"

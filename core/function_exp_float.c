@@ -1,5 +1,4 @@
 /* function_exp_float.c: exp, log and power in float, by 2^x and the logarithm to base 2.
- *
  * The logarithm has 55 digits after the point, of which at least 39 are right. So a power's error is little more than its
  * one rounding: an exact result that is a float is returned exactly. Polynomials are minimax, with integer coefficients. */
 #include "function_float.h"

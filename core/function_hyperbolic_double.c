@@ -4,9 +4,7 @@
 
 #if WH_DOUBLE
 
-#define SMALL \
-    0x1p-28 /* up to here the sine and the tangent equal the argument, rounded, and the cosine is
-             * one */
+#define SMALL 0x1p-28  /* up to here sine and tangent equal the argument, and the cosine is one */
 #define BY_SERIES 0.25 /* up to here */
 #define TANH_IS_ONE 22.0
 #define BEYOND 711.0 /* sine and cosine are infinite */

@@ -1,5 +1,4 @@
 /* function_hyperbolic_float.c: the hyperbolic functions in float.
- *
  * Below one: minimax polynomials in the argument's square, so that a small argument is returned unchanged, and the tangent
  * as their quotient. From one on: by e^x and e^-x. */
 #include "function_float.h"

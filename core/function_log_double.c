@@ -1,5 +1,4 @@
 /* function_log_double.c: the natural logarithm in double.
- *
  * x = 2^e m with m about 1, and m = (1 + r)/c with c from a table and |r| <= 2^-8. Then log x = e log 2 - log c + log(1 +
  * r). c has 15 bits, so r is exact; about 1, c is 1. The result is a pair, since pow() needs more than 53 bits of it. */
 #include "function_double.h"

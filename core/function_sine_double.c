@@ -1,5 +1,4 @@
 /* function_sine_double.c: sine, cosine and tangent in double, for angles of any size.
- *
  * The angle is counted in quarter turns with as many bits of 2/pi as its size requires (Payne and Hanek, ACM SIGNUM
  * Newsletter 18 (1983) 1): in integers, 190 bits after the point. No double comes nearer to a multiple of a quarter turn
  * than 2^-62 of one, so the remainder has at least 70 right bits. */

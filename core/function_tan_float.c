@@ -1,5 +1,4 @@
 /* function_tan_float.c: the tangent in float, of radians of any size.
- *
  * Quarter turns are subtracted in integers, with as many digits of 2/pi as needed. No float is nearer to one than 2^-30 of
  * a quarter turn, and about 60 digits after the point are used (M. Payne and R. Hanek, "Radian reduction for trigonometric
  * functions", SIGNUM Newsletter 18 (1983) 1). */

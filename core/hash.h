@@ -1,5 +1,4 @@
 /* hash.h: a hash of a state's bits, to compare runs between machines (FNV-1a, 64 bits).
- *
  * Words are taken in a fixed byte order, low byte first, so the hash does not depend on the machine's endianness. */
 #ifndef WH_HASH_H
 #define WH_HASH_H

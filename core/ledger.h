@@ -38,13 +38,10 @@ struct wh_ledger_form {
      * total derivative in the energies, such as th^2 th', drops out of the equations but not out of dL/dth */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] account of each smooth entry */
-    const uint8_t *input;   /* [inputs] inputs that the energies name; each has one of the last
-                           * entries */
+    const uint8_t *input;   /* [inputs] inputs that the energies name, for the last entries */
     uint16_t smooth;        /* number of smooth entries: those of powers and forces */
-    uint16_t
-        entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized, <= WH_LEDGER_MAX */
-    uint8_t accounts; /* words stored: two levels for each account (the energy, and a momentum for
-                   * each coordinate), the inputs, and one more word if stabilized */
+    uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
+    uint8_t accounts; /* stored words: two levels for each account, the inputs, one if stabilized */
     uint8_t coordinates; /* number of integrated coordinates */
     uint8_t angles;      /* number of them that are stored as turn angles */
     uint8_t inputs;
@@ -104,7 +101,6 @@ WH_INLINE void wh_ledger_exchange(const wh_ledger_form *form, const wh_state *st
     kept[k] = input;
 }
 
-/* The accounts at the present state. */
 WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *state, wh_real *level) {
     const unsigned linears = (unsigned)form->coordinates - form->angles;
     form->levels(form->model, state->angle, state->real, state->real + linears, state->input,

@@ -1,5 +1,4 @@
 /* method.h: the integration methods, one row each.
- *
  * A row holds every property of its method. The stepping, the ledger, the evaluation counts, the command line, the listings
  * and the tests all read it. To add a method, add its row and its line in docs/dev/numerics.md (a test compares the two). */
 #ifndef WH_METHOD_H

@@ -1,5 +1,4 @@
 /* real.h: the number the core computes with, and the macros every core file needs.
- *
  * Boards and `whirl run --number float` use float. Compiling with WH_DOUBLE=1 gives the reference build in double. Both are
  * freestanding and neither calls libm. They use only IEEE 754 additions, multiplications, divisions, square roots and
  * conversions. So the same source gives the same bits on every machine, unless the compiler changes the operations. This

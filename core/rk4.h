@@ -103,8 +103,7 @@ WH_INLINE wh_status wh_rk4_step(const wh_rk4_system *f, wh_real h, wh_state *sta
     const wh_real half = h / WH_R(2.0);
     const wh_real sixth = h / WH_R(6.0);
     wh_rk4_slopes k1;
-    wh_rk4_slopes k2 = {.angle = {0}, .real = {0}}; /* zeros only for static analysers: a stage
-                                                     * fills k2 */
+    wh_rk4_slopes k2 = {.angle = {0}, .real = {0}}; /* zeros for static analysers only */
     wh_rk4_slopes k3 = {.angle = {0}, .real = {0}};
     wh_rk4_slopes k4 = {.angle = {0}, .real = {0}};
     wh_phase phase[WH_COORDS] = {0};

@@ -1,5 +1,4 @@
 /* root.c: the square root in integers.
- *
  * The number is x * 4^k, 1 <= x < 4, and the root's bits are those of sqrt(x) with exponent k. No root lies halfway
  * between two numbers (its square would have more bits than x can), so rounding to the nearest never meets a tie. */
 #include "root.h"

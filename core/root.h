@@ -1,5 +1,4 @@
 /* root.h: the square root, correctly rounded, without a library.
- *
  * WH_SQRT(x) is the processor's instruction if the compiler surely emits only that, and wh_sqrt() otherwise, with the same
  * bits. The obstacle is errno: without -fno-math-errno, compilers add a call of libm's sqrtf for negative numbers, or emit
  * only the call (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors the flag saves

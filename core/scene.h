@@ -55,8 +55,7 @@ struct wh_scene {
     uint8_t outputs;  /* computed by observe(), never in the step */
     uint8_t contacts; /* stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
     uint8_t held;     /* holds that could slip: they involve several coordinates, or are curved */
-    uint8_t driven;   /* inputs with a rate; the last positions and the last rates follow these
-                       * inputs */
+    uint8_t driven;   /* inputs with a rate: they set the last positions and the last rates */
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     wh_fraction step; /* step_s as an exact fraction, for wh_scene_time(); {0, 0}: not known */

@@ -60,10 +60,8 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts if compensated, else NULL */
     wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held;         /* [scene->held] values of the holds, SI units: a curved hold's value, a
-                    * straight hold's slip so far */
-    wh_real
-        *ledger; /* the ledger's totals, carries, levels at the start, and corrections; or NULL */
+    wh_real *held;         /* [scene->held] SI: value of a curved hold, slip of a straight one */
+    wh_real *ledger;       /* totals, carries, levels at the start, corrections; or NULL */
     /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or WH_E_SINGULAR: the
      * contact, in the order of contact.h; after WH_E_ARITHMETIC: the failed probe, a wh_probed (arithmetic.h) */
     int fault;

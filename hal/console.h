@@ -1,5 +1,4 @@
 /* console.h: the connection to a person or a program: a UART; on the PC standard output, or a pseudo-terminal.
- *
  * The board implements it (boards/<family>/), because programs without a rig need it, too: tests, benches. Bytes are
  * not converted, not even line ends. */
 #ifndef HAL_CONSOLE_H

@@ -1,5 +1,4 @@
 /* link.h: a two-way line of bytes to the simulator of the plant.
- *
  * The board implements it (boards/<family>/link.c): by semihosting with files on the debugger's side under an emulator, by
  * two file descriptors on the PC; on silicon a UART would do. Bytes arrive in order and without loss; a read may return
  * fewer than there is room for. If the other side is gone, the program ends by itself, with exit status HAL_LINK_GONE. */

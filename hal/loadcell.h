@@ -1,5 +1,4 @@
 /* loadcell.h: the load cell in the loading train and its converter.
- *
  * Raw counts are proportional to the force of the rig on the cell along the loading-train axis. They are positive towards
  * the mass at theta = 0, which is straight down. The force includes the rig's weight: the controller subtracts this tare. */
 #ifndef HAL_LOADCELL_H

@@ -1,5 +1,4 @@
 /* motor.h: the motor's drive stage: a chopper (PWM) of the supply, in one direction only, and an enable.
- *
  * The enable is the second way to switch off: without it the motor has no drive at any chopper setting. */
 #ifndef HAL_MOTOR_H
 #define HAL_MOTOR_H
@@ -12,8 +11,7 @@ extern "C" {
 
 typedef enum hal_motor_off_way {
     HAL_MOTOR_COAST, /* the enable goes off: no torque, the rotor turns freely */
-    HAL_MOTOR_BRAKE  /* the enable stays on, the voltage is 0: a drive stage that can short the
-                     * motor brakes it */
+    HAL_MOTOR_BRAKE  /* the enable stays on at 0 V: a drive stage that can short the motor brakes */
 } hal_motor_off_way;
 
 /* Status bits of the drive stage: */

@@ -1,5 +1,4 @@
 /* reset.h: the cause of the processor's start, and data that survive a reset.
- *
  * A reset makes the pins float, so the drive stage is off from that instant until the program enables it. The
  * program loses all data except a few bytes in memory that a reset does not clear, if the chip has such memory. */
 #ifndef HAL_RESET_H
@@ -15,8 +14,7 @@ typedef enum hal_reset {
     HAL_RESET_POWER_ON, /* the supply came on: no data survive */
     HAL_RESET_WATCHDOG, /* the watchdog timed out and reset the processor */
     HAL_RESET_OTHER,    /* a pin or a debugger; or the cause is unknown */
-    HAL_RESET_FAULT,    /* a fault of the program or the crystal; the handler switched the motor
-                         * off first */
+    HAL_RESET_FAULT,    /* a fault of program or crystal; the handler switched the motor off */
     HAL_RESET_SUPPLY    /* a dip of the processor's supply */
 } hal_reset;
 

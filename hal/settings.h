@@ -1,5 +1,4 @@
 /* settings.h: permanent memory for settings: two slots in separate sectors, for core/station/store.h.
- *
  * Call these functions with the motor off: erasing a flash sector may block the processor for half a second. That
  * exceeds any watchdog's timeout, so the caller must lengthen the timeout first. Not from an interrupt. */
 #ifndef HAL_SETTINGS_H
@@ -19,8 +18,7 @@ extern "C" {
 
 typedef enum hal_settings_result {
     HAL_SETTINGS_DONE,
-    HAL_SETTINGS_OUTSIDE, /* no such slot or bytes, or a start that is not allowed: nothing was
-                           * changed */
+    HAL_SETTINGS_OUTSIDE, /* no such slot or bytes, or a forbidden start: nothing was changed */
     HAL_SETTINGS_BUSY,    /* the memory stays busy: nothing was changed */
     HAL_SETTINGS_FAILED   /* the memory reports an error: it is protected, worn out or absent */
 } hal_settings_result;

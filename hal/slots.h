@@ -1,5 +1,4 @@
 /* slots.h: the two infrared slot sensors on the rotor's slotted disc.
- *
  * Almesallmy (2006), I.1.1 and I.3.3.2: the slot is in line with the arms. Sensor 1 is on the loading-train axis
  * (theta = 0), sensor 2 is 90 degrees later in the sense of rotation. Amplifier, Schmitt trigger and monostable make
  * one pulse for each passage of the slot. The pulse begins at the slot's leading edge, when the arms are

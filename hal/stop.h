@@ -1,5 +1,4 @@
 /* stop.h: the stop input: a button, or a chain of contacts, that a person at the rig opens.
- *
  * All functions may be called from anywhere. The controller switches the motor off in the control step that sees the
  * stop. A circuit that cuts the drive without the processor is separate. */
 #ifndef HAL_STOP_H
@@ -21,8 +20,7 @@ bool hal_stop_pressed(void);
 /* The source of a pressed stop. If the drive stage's fault shares a line with the stop contacts, the source is unknown. */
 typedef enum hal_stop_source {
     HAL_STOP_EITHER,
-    HAL_STOP_INPUT, /* the stop contacts: the drive stage has no fault line of its own, or that
-                     * line is inactive */
+    HAL_STOP_INPUT, /* the stop contacts, because no fault of the drive stage is known */
     HAL_STOP_DRIVE  /* the fault of the drive stage, on its own line */
 } hal_stop_source;
 hal_stop_source hal_stop_source_now(void);

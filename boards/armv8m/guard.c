@@ -1,5 +1,4 @@
 /* guard.c: stack guard on Armv8-M (Armv8-M Architecture Reference Manual, B3.21 and B10).
- *
  * It has two parts. The core refuses to move the stack pointer below MSPLIM, so that an overflow faults before any
  * store. The memory protection unit protects the strip below the stack from stores through any pointer. Privileged code
  * cannot be denied reading there, so the strip is read-only. */

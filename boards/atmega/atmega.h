@@ -98,7 +98,6 @@ typedef enum atmega_fault_kind {
 /* Switch the motor off, record the fault, reset. `at`: the byte address of the fault; 0: unknown. */
 _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at);
 
-/* A fault's record, in memory that a reset does not clear. */
 typedef struct atmega_fault_record {
     uint8_t kind; /* an atmega_fault_kind */
     uint32_t at;

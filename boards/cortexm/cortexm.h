@@ -49,7 +49,6 @@ BOARD_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
  * (board_data.h), X(address, value), which cut the power of the board's outputs. */
 void board_fault(void);
 
-/* A fault's record. */
 typedef struct board_fault_facts {
     uint32_t exception; /* its number */
     uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are unknown */

@@ -7,7 +7,6 @@
 
 #include "cortexm.h"
 
-/* A fault's record. */
 typedef struct board_fault_record {
     board_fault_facts facts;
     uint32_t ticks;  /* time of the fault; the board's clock restarts at each start */

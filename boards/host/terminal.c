@@ -1,5 +1,4 @@
 /* terminal.c: a pseudo-terminal instead of a board's serial line: any terminal program opens its other end.
- *
  * RIG_TTY names a link to it (default build/rig.tty), which is removed when the program ends, also by Ctrl-C. */
 #define _XOPEN_SOURCE 700
 

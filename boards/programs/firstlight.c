@@ -158,7 +158,6 @@ static void say_stack(void) {
 #if LIGHT_HARDWARE
 #define PERIODS 1000U /* two seconds: rest is known after 1.5 */
 
-/* Least and most of some values. */
 typedef struct range {
     int32_t least;
     int32_t most;

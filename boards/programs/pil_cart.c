@@ -1,5 +1,4 @@
 /* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`.
- *
  * It has two encoders every millisecond, a light barrier in the middle of the rail, and a motor. State feedback puts
  * the poles of the linear system at -6, -6, -2 and -2 per second, by hand (docs/pil.md). The force is a sum of angle,
  * position and their rates, which are smoothed differences of counts. Exit status 0: the rod is upright in the middle

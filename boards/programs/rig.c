@@ -1,5 +1,4 @@
 /* rig.c: the firmware of the eccentric-mass rig, the same on every board.
- *
  * The controller of core/rig/rig.h on the hardware of hal/. Without a console it gives the orders of one test run
  * itself: `arm` as soon as the rotor rests, `start` at 330 rpm; then it reports. After a reset other than power-on, and
  * after a stop, it gives no orders. Exit status 0: done. 1: the guard tripped, stop was pressed, the processor was

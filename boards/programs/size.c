@@ -1,5 +1,4 @@
 /* size.c: the smallest firmware around one scene, to measure its size: it steps, and computes the outputs.
- *
  * Built once a scene with PRICE_SCENE as its name, and the scene's header included first. Its memory suffices for
  * either number, compensated or not. It is linked, never run. */
 #include "boards/board.h"

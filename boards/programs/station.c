@@ -1,5 +1,4 @@
 /* station.c: the rig's firmware with a console (core/station): its user gives the orders.
- *
  * It never ends. If the model simulates the hardware (hal/virtual), the model's time follows the clock's. */
 #include "core/station/station.h"
 

@@ -21,8 +21,7 @@ typedef struct wh_scene_bound {
 } wh_scene_bound;
 
 extern const wh_scene *const wh_scenes[];
-extern const wh_scene_bound wh_scene_bounds[];        /* one for each scene; only index.sh makes
-                                                       * them */
+extern const wh_scene_bound wh_scene_bounds[];        /* one for each scene; index.sh only */
 extern const wh_fixed_scene *const wh_fixed_scenes[]; /* only index.sh --fixed makes them */
 extern const unsigned wh_scene_count;
 

@@ -1,5 +1,4 @@
 /* convert.c: 64-bit integers to float, rounded to nearest, ties to even.
- *
  * The compiler calls these two by their names. Its support library has them too. But if they are not written in
  * assembler there (RISC-V, Cortex-M0), they use double-precision arithmetic, which firmware here does not have. */
 #include <stdint.h>

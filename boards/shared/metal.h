@@ -4,7 +4,6 @@
 
 #include <stdint.h>
 
-/* A 32-bit register by its address. */
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
 /* Access to a register; on the PC, tests replace it and see every access in its order (tests/chip). */

@@ -82,8 +82,7 @@ static void start_converter(void) {
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
-        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* the reset value gives half of APB2's clock, too
-                                               * fast */
+        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* at reset it is half of APB2's clock */
     }
     sample_for(BOARD_CELL_INPUT);
     sample_for(BOARD_SUPPLY_INPUT);

@@ -17,15 +17,13 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole;        /* the compare value that is always on */
-static volatile bool driving; /* between hal_motor_start() and hal_motor_off(), even if stop
-                               * keeps MOE clear */
+static volatile bool driving; /* started and not yet off, even while stop keeps MOE clear */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* a debugger sets this bit, and it survives
-                                                     * a reset */
+    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* a debugger sets it; it survives resets */
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     reg_store(TIM_CR1(TIM1), 0);
@@ -57,8 +55,7 @@ static uint32_t compare_of(float volts) {
 unsigned hal_motor_start(void) {
     const uint32_t before = stm32f4_hold(); /* an off that comes now takes effect after this */
     if (!driving) {
-        driving = true; /* even if stop prevents MOE below: is_cut() then reports the motor as
-                         * cut */
+        driving = true; /* even if stop keeps MOE clear: the motor then counts as cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);

@@ -1,5 +1,4 @@
 /* stm32f405.h: data common to all boards with an STM32F405; a board's own data are crystal and pins.
- *
  * The complement of TIM1's channel 1 is on PB13: on each of these boards that pin is on a header, and so are PB14 and
  * PA6, TIM1's break. */
 #ifndef BOARDS_STM32F405_H

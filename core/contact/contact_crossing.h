@@ -1,5 +1,4 @@
 /* contact_crossing.h: crossings: their assignments, and their sides of zero afterwards.
- *
  * A crossing's mode is its side of zero, +1 or -1. A crossing is located with an error, so after the event its value is
  * not exactly zero. If the value then turns back or stands still, it may pass zero again by that small error. That
  * counts as one crossing. */

@@ -235,8 +235,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((rest >> k & 1U) != 0 && was[k] == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
-            spot.but = wh_contact_stuck(of, w); /* a body at rest beyond the stop: friction does not
-                                          * keep it there */
+            spot.but = wh_contact_stuck(of, w); /* the body rests beyond the stop */
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
@@ -297,8 +296,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         if ((mover == WH_CONTACTS_MAX && over == 0) || pass + 1U == looks) {
             break;
         }
-        if (mover == WH_CONTACTS_MAX) { /* Nothing is passed: move back until the stops touch.
-                                         * Only here may a stop pull. */
+        if (mover == WH_CONTACTS_MAX) { /* move back until they touch: only here may a stop pull */
             unsigned kept = 0;
             for (unsigned i = 0; i < count; i++) {
                 const unsigned k = member[i];
@@ -343,8 +341,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* stops that lost their body by the move: they do not rest and are
-                            * not hit */
+        unsigned open = 0; /* stops that lost their body: they do not rest and are not hit */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -412,8 +409,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
             if (WH_ABS(by) <=
-                WH_ABS(rates[2 * k + 1]) * h / 64) { /* a larger move: the condition does not
-                                                      * depend on this expression */
+                WH_ABS(rates[2 * k + 1]) * h / 64) { /* larger: not a limit of this hold */
                 wanted[i] = by;
                 mover = k;
             }

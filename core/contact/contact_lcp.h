@@ -49,8 +49,7 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
 typedef struct wh_contact_set {
     const uint8_t *member; /* [count] contact numbers */
     unsigned count;
-    const int8_t
-        *at; /* [count] -1: at the low limit, 1: at the high one, 0: between. NULL: all between */
+    const int8_t *at; /* [count] -1: low limit, 0: between, 1: high limit; NULL: all 0 */
 } wh_contact_set;
 
 /* Finds redundant contacts that contradict the others. At a dead centre two rows are parallel, but only one of the paths
@@ -164,8 +163,7 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     int8_t fixed[WH_CONTACTS_MAX];
     wh_real less[WH_CONTACTS_MAX];
-    wh_real share[WH_CONTACTS_MAX]; /* change of each force if contact i takes a unit of force
-                                     * and the motion stays the same */
+    wh_real share[WH_CONTACTS_MAX]; /* change of each force by a unit force of i */
     wh_real soonest = WH_LIMITLESS;
     unsigned first = count;
     *limit = push;
@@ -302,8 +300,7 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* the acceleration may be lost in
-                                                        * round-off here */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* perhaps lost in round-off */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }

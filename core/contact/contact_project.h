@@ -110,8 +110,7 @@ typedef struct wh_contact_place {
     const wh_contact_state *from; /* begin of the try, or NULL */
     wh_real h;                    /* length of the try, s */
     unsigned but;                 /* contacts that are left out, as bits */
-    unsigned mover; /* contact whose entry gets the energy; WH_CONTACTS_MAX: the first contact
-                     * with an error */
+    unsigned mover; /* whose entry gets the energy; WH_CONTACTS_MAX: the first with an error */
 } wh_contact_place;
 
 #define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
@@ -150,8 +149,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
         if (off[i] != WH_R(0.0) && pin >= 0) {
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
             const wh_real rest = off[i] + entry * moved[pin];
-            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* not yet corrected through
-                                                                * another contact */
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* not yet corrected */
                 moved[pin] -= rest / entry;
                 wh_contact_move(of, (unsigned)pin, -rest / entry, s);
             }

@@ -267,8 +267,7 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     if (wh_contact_any_of(of, WH_FRICTION)) {
         wh_contact_stick(of, w, rate);
     }
-    for (unsigned k = 0; k < of->forced; k++) { /* no event if another release has relieved the
-                                                 * contact */
+    for (unsigned k = 0; k < of->forced; k++) { /* no event: another release relieved it */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;

@@ -25,8 +25,7 @@ typedef struct wh_contact_work {
     wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
     /* J q'' + J' q' that the forces of the active contacts had to cancel */
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real rough[WH_CONTACTS_MAX]; /* bound on the magnitudes of the terms of `wanted`, if
-                                     * contacts are redundant */
+    wh_real rough[WH_CONTACTS_MAX]; /* bound on the terms of `wanted`, if contacts are redundant */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
     /* bits: stops whose gap was closed when the try began; they may be opening */
     unsigned inside;
@@ -36,9 +35,7 @@ typedef struct wh_contact_work {
      * zero that is no second crossing. A hold that began a try at the limit of its condition: the distance beyond the
      * limit that still counts as true. Else 0. */
     wh_real slack[WH_CONTACTS_MAX];
-    wh_real
-        due[WH_CONTACTS_MAX]; /* a crossing that turned back: a step must end farther than this from
-                            * zero, or the crossing is on no side */
+    wh_real due[WH_CONTACTS_MAX]; /* distance at which a turned-back crossing has a side again */
     /* a crossing on no side: its value when the try began, or when the crossing came to stand */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates when the present moment began */
@@ -58,7 +55,6 @@ typedef struct wh_contact_work {
 #endif
 } wh_contact_work;
 
-/* The integrator's model. */
 typedef struct wh_contact_model {
     const wh_contact_system *of;
     wh_contact_work *work;

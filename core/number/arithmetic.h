@@ -1,5 +1,4 @@
 /* arithmetic.h: checks that the file that includes it computes as Whirl must, on the machine it runs on.
- *
  * real.h refuses compiler flags that macros reveal. No macro reveals contraction that the pragmas do not reach, clang's
  * -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, or another rounding mode.
  * These show in numbers that the compiler cannot evaluate. The file computes them here, with its own flags; scene.c

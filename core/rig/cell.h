@@ -1,5 +1,4 @@
 /* cell.h: the load cell's counts as newtons, for the controller.
- *
  * For any hardware the controller sees a time, a force and a status. Gain, offset and the delay of filter and converter
  * are applied only here. */
 #ifndef WH_RIG_CELL_H

@@ -1,5 +1,4 @@
 /* datasheet.h: the eccentric-mass rig's data for its controller.
- *
  * Weights and radii: Almesallmy (2006), the force formula of I.3.2.1. The rig's physics is in
  * core/models/eccentric.whirl; tests/core/test_virtual_rig.c compares the two. */
 #ifndef WH_RIG_DATASHEET_H

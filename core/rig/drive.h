@@ -13,8 +13,7 @@ typedef struct wh_drive_config {
     wh_real proportional_V_per_radps; /* volts per rad/s of error */
     wh_real integral_V_per_rad;       /* volts per second, per rad/s of error */
     wh_real ramp_radps2;              /* fastest change of the set-point, > 0 */
-    wh_real gentle_radps; /* below this speed the ramp is a quarter as steep: a dip of the loop must
-                       * not stop the rotor */
+    wh_real gentle_radps; /* below this the ramp is a quarter as steep, to survive a dip */
 } wh_drive_config;
 
 typedef struct wh_drive {

@@ -40,8 +40,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
         swing->forward =
-            true; /* a rotor that swings backwards cannot get over the top: a pulse was lost, and
-                   * the rotor turns */
+            true; /* backwards it cannot get over the top: a pulse was lost, and the rotor turns */
         swing->swings = false;
         swing->kept = 0;
         swing->passed = 0;
@@ -198,8 +197,7 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
         result->why = WH_SWING_SIDES;
     } else {
         result->why =
-            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* also for
-                                                                                       * NaN */
+            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* or NaN */
     }
 }
 
@@ -234,8 +232,7 @@ static wh_swing_piece move(wh_swing *swing) {
 /* After a pulse: goes on to the next one, or back to the first passage and on to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
-    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* wraps before the first
-                                                                    * pulse */
+    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* may wrap */
     if (take(config, rotor, swing) && next < swing->kept) {
         swing->at = next;
     } else if (later && swing->first > 0) {

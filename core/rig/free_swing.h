@@ -186,8 +186,7 @@ typedef struct wh_swing {
     wh_real soft_rad2;                  /* variance added to the pulses' own */
     wh_free_rotor way;                  /* the rotor during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place and q' at the first passage, g, f, c, sensor
-                                    * positions, */
+    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place, q', g, f, c, sensor positions */
     wh_real guess[WH_NORMAL_UNKNOWNS];  /* guess of x */
     wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];

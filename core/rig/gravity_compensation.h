@@ -1,5 +1,4 @@
 /* gravity_compensation.h: feed-forward of gravity's torque to the motor.
- *
  * Gravity pulls arms in a vertical plane back with S g sin(theta - gamma). S is the sum of mass times radius, gamma the
  * direction of gravity. The rotor's speed would vary by E = S g/(I omega^2) about its mean. A motor with that torque
  * added holds it at the mean. theta is the observer's angle at the middle of the time for which the voltage will be
@@ -17,10 +16,9 @@ typedef struct wh_compensation_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
     wh_real gravity_rad; /* gamma: the angle at which the arms hang */
     wh_real stall_Nm;    /* motor torque at standstill and rated voltage, > 0 */
-    uint32_t
-        lead_ticks; /* from now to the middle of the time for which the voltage will be applied */
-    wh_real fade_s; /* fade-in time; 0: at once */
-    wh_real most;   /* limit, as a multiple of the rated voltage, >= 0 */
+    uint32_t lead_ticks; /* from now to the middle of the time at which the voltage acts */
+    wh_real fade_s;      /* fade-in time; 0: at once */
+    wh_real most;        /* limit, as a multiple of the rated voltage, >= 0 */
 } wh_compensation_config;
 
 typedef struct wh_compensation {

@@ -33,8 +33,7 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
 #define LONGER \
-    WH_R(1.02) /* slowing of a coasting rotor's turn: in a swing only the last two intervals slow
-                * so much */
+    WH_R(1.02) /* slowing of a coasting turn; in a swing only the last two intervals slow so much */
 #define FASTER WH_R(1.01) /* speed gain over all successive faster turns */
 #define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
 #define ALTERNATE_RISE 6U /* alternating pulses that show three turns */

@@ -43,11 +43,9 @@ typedef struct wh_guard_config {
     wh_real limit_radps;         /* largest speed, mean of a turn */
     wh_real ripple;              /* excess speed within a turn at the limit, as a fraction */
     wh_real over;                /* excess over the speed that the drive commands, as a fraction */
-    wh_real climb;               /* largest rise of a turn's speed at two successive marks, as a
-                                  * fraction */
+    wh_real climb;               /* largest rise of a turn's speed at two successive marks */
     wh_real climb_start_radps2;  /* largest rise while the loop takes the rotor over */
-    wh_real climb_behind_radps2; /* largest rise while the rotor is slower than the set-point by
-                                  * more than behind_radps */
+    wh_real climb_behind_radps2; /* largest rise while slower than the set-point by behind_radps */
     wh_real behind_radps;        /* see climb_behind_radps2 */
     wh_real climb_there_radps2;  /* largest rise otherwise */
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
@@ -60,8 +58,7 @@ typedef struct wh_guard_config {
     wh_real load_silence_max_s; /* longest time without a load sample */
     /* a load that changes by less than this times the speed's square is constant */
     wh_real load_still_kgm;
-    uint32_t stuck_pulses; /* slot pulses during a constant load after which the load cell is
-                            * stuck */
+    uint32_t stuck_pulses; /* slot pulses under constant load that show a stuck load cell */
     wh_real supply_min_V;
     wh_real supply_max_V;
     wh_real rest_s; /* the rotor rests if no pulse comes for this long */
@@ -90,8 +87,7 @@ typedef struct wh_guard_config {
 typedef struct wh_off {
     bool released;
     bool doubted;      /* the brake was released on pulses of one sensor alone */
-    bool asks;         /* it was released on pulses of both sensors in turn: the next pulse shows
-                        * if the rotor swings */
+    bool asks;         /* it was released on both sensors' pulses; the next pulse decides */
     uint8_t sensor;    /* sensor of the last pulse, 1 or 2; 0: no pulse yet */
     uint8_t alternate; /* successive pulses of alternating sensors */
     uint8_t alone;     /* successive pulses of the same sensor */
@@ -136,8 +132,7 @@ bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool f
 /* The fastest interval between two pulses of a rotor that the drive leads to at most limit_radps. Its speed exceeds that
  * by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity adds nothing. */
 #define WH_GUARD_LIGHTER \
-    WH_R(1.5) /* a rotor with half the configured inertia gains so much in a fall, with some
-               * margin */
+    WH_R(1.5) /* gain of a rotor with half the configured inertia, with some margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Limit on the rise of a turn's speed; behind_radps is how far the speed is below the commanded one. A speed above the

@@ -116,8 +116,7 @@ typedef struct wh_lockin_turn {
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
-    WH_LOCKIN_WAITS, /* waits for a mark; lockin->piece counts the finished pieces of a stage
-                      * with several */
+    WH_LOCKIN_WAITS, /* waits for a mark; lockin->piece counts a stage's finished pieces */
     WH_LOCKIN_SHAPES,
     WH_LOCKIN_CORRECTS,
     WH_LOCKIN_RESHAPES,

@@ -1,5 +1,4 @@
 /* measure.h: a run's measurement: turns from the lock-in, merged over the record to a result.
- *
  * A turn's work is done in pieces, one a control step. Only turns that lie entirely within the record count. */
 #ifndef WH_RIG_MEASURE_H
 #define WH_RIG_MEASURE_H

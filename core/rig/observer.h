@@ -23,9 +23,8 @@ extern "C" {
 #define WH_OBSERVER_SENSORS 2U
 
 typedef struct wh_observer_config {
-    const wh_scene
-        *scene;       /* one angle, its rate, one input: the motor's voltage over the rated one */
-    wh_real stall_Nm; /* the scene's motor torque at standstill and input 1, > 0 */
+    const wh_scene *scene; /* one angle, its rate, one input: motor voltage / rated voltage */
+    wh_real stall_Nm;      /* the scene's motor torque at standstill and input 1, > 0 */
     /* the motor's speed without load at the rated voltage, > 0 */
     wh_real no_load_radps;
     /* input for this motor's torque: per_drive * drive + per_radps * speed */
@@ -39,8 +38,7 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_OBSERVER_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                        /* largest magnitude of the torque */
-    wh_real trusted_rad;    /* trusted_marks successive innovations up to this make the observer
-                             * valid */
+    wh_real trusted_rad;    /* trusted_marks successive innovations up to this make it valid */
     uint32_t trusted_marks; /* see trusted_rad; one larger innovation makes the observer invalid */
     wh_real lost_rad;       /* above this the observer restarts; < pi */
     wh_real slowest_radps;  /* slowest speed at which the observer starts, > 0 */

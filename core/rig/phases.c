@@ -56,8 +56,7 @@ static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
-        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* for example because gravity cannot be
-                                                         * fed forward */
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity cannot be fed, for example */
     }
     return allowed && wh_drive_at_target(&run->drive);
 }

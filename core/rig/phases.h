@@ -1,5 +1,4 @@
 /* phases.h: a test run of the eccentric-mass rig, phase by phase.
- *
  * Repeats Almesallmy (2006), I.3.2.1 and I.3.3: tare, spin up, hold 330 rpm, record the load cell for 2 s at 500
  * samples a second together with the slot pulses, slow down, stop. */
 #ifndef WH_RIG_PHASES_H
@@ -44,8 +43,7 @@ typedef struct wh_run_config {
     wh_real settle_max_s;      /* longest time until the speed stays in the band */
     wh_real short_max_s;       /* longest time with a supply too low for the set-point */
     wh_real record_band_radps; /* band of each turn's speed during the record */
-    wh_real slow_radps;        /* speed at which the ramp down ends and the motor goes off; a
-                                * slower set-point is kept */
+    wh_real slow_radps;        /* at this speed the ramp down ends; a slower set-point is kept */
 } wh_run_config;
 
 /* While the rig settles, the mean speed of turns that overlap by half decides: two and a half turns in all. A jitter s
@@ -122,9 +120,8 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
 /* The set-point at a pulse's time, for the guard. */
 typedef struct wh_setpoint {
     wh_real setpoint_radps;
-    wh_real
-        limit_radps; /* upper bound on the actual speed: the rotor may not have slowed as far yet */
-    bool jumps;      /* the speeds of its first turns differ widely */
+    wh_real limit_radps; /* upper bound on the actual speed, which may lag behind */
+    bool jumps;          /* the speeds of its first turns differ widely */
 } wh_setpoint;
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 

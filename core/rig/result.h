@@ -57,19 +57,15 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 
 typedef struct wh_result_config {
     wh_real mount_factor; /* force relative to that on a fixed mount: 1; carriage: 1/(1 + ratio) */
-    wh_real amplitude_floor; /* calibration of the amplitude, 95 %: as a part of the force; 0:
-                              * uncalibrated */
-    wh_real phase_floor_rad; /* calibration of the sensors' positions and the delays, 95 %; 0:
-                              * uncalibrated */
-    wh_real amplitude_off;   /* a force that differs from the expected one by more than this part is
-                        * doubtful */
-    wh_real amplitude_wrong; /* a force that differs by more than this part is refused */
+    wh_real amplitude_floor; /* amplitude's calibration, 95 %, part of the force; 0: none */
+    wh_real phase_floor_rad; /* calibration of sensor positions and delays, 95 %; 0: uncalibrated */
+    wh_real amplitude_off;   /* part by which a doubtful force differs from the expected one */
+    wh_real amplitude_wrong; /* part by which a refused force differs */
     wh_real phase_off_rad;   /* a phase that differs by more than this is doubtful */
     wh_real phase_wrong_rad;
     wh_real residual_large; /* large residual, as a part of the expected force */
     wh_real mean_off;       /* large mean, as a part of the expected force */
-    wh_real inertia_off;    /* large deviation of the inertia, as a part of the configured one,
-                             * either way */
+    wh_real inertia_off;    /* large error of the inertia, as a part of the configured one */
 } wh_result_config;
 
 /* Turns merged so far; zeros: no turns. */
@@ -120,8 +116,7 @@ typedef struct wh_measured {
     wh_real phase_half_rad;
     wh_real expected_N;      /* amplitude expected from masses, speed and mount */
     wh_real residual_N;      /* rms after orders 0 to 2 */
-    wh_real repeats_N;       /* repeating part of the residual, harmonics 3 to 6: root of the sum of
-                    * squares, or the third's */
+    wh_real repeats_N;       /* repeating residual: harmonics 3 to 6 together, or the third */
     wh_real repeats_limit_N; /* limit from noise and a healthy rig */
     wh_real jitter_s;        /* jitter of the marks, standard deviation */
     wh_real inertia_kgm2;

@@ -273,8 +273,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        wh_guard_trip(guard, WH_TRIP_STALLED); /* or no sensor sees the rotor, which must then
-                                                * not get fast */
+        wh_guard_trip(guard, WH_TRIP_STALLED); /* or unseen: it must not get fast */
     }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),

@@ -98,8 +98,7 @@ typedef struct wh_rig_config {
     /* a completed run always coasts, and its swing gives the sensors' positions; `stop` may brake */
     bool swings;
     bool host_loss_stops; /* a run ends when the giver of orders is lost; otherwise it goes on */
-    uint32_t host_max_s;  /* time of silence after which the giver of orders counts as lost; 0:
-                           * never (on the console) */
+    uint32_t host_max_s;  /* silence after which the giver of orders counts as lost; 0: never */
     uint32_t settings;    /* hash of the settings (core/station/conf.h); 0: no settings */
 } wh_rig_config;
 

@@ -1,5 +1,4 @@
 /* speed.h: speed of the rotor from the pulses of the two slot sensors.
- *
  * Sensor 0 is at 0, sensor 1 a quarter turn later. So the pulses of a turning rotor alternate and the rotor advances by 1,
  * 3, 1, 3, ... quarters. If a sensor fires twice running, a pulse of the other was lost in between. Speed is measured from
  * a sensor's pulse to its next one. Over this whole turn gravity's ripple cancels, and two new values come each turn. */
@@ -21,8 +20,7 @@ typedef struct wh_speed {
     bool seen[WH_SPEED_SENSORS]; /* seen_ticks and seen_quarter are valid */
     wh_real impossible_radps;    /* a pulse that would need a higher speed is rejected */
     wh_real turn_radps;          /* mean over the last whole turn; valid when known */
-    wh_real interval_radps;      /* mean since the pulse before the last, 0 after a gap; valid
-                                  * when known */
+    wh_real interval_radps;      /* mean of the last interval, 0 after a gap; valid when known */
     uint32_t ticks;              /* time of the last pulse taken */
     uint32_t quarter;            /* rotor's position at the last pulse, quarter turns, wrapping */
     uint32_t taken;              /* pulses taken */

@@ -79,9 +79,8 @@ typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refu
 
 /* The result of an event in a state. */
 typedef struct wh_rig_transition {
-    wh_rig_state next; /* the next state, if no other condition refuses the event */
-    wh_refusal
-        refusal; /* WH_ALLOWED, or the reason for refusal: `next` is then the present state */
+    wh_rig_state next;  /* the next state, if no other condition refuses the event */
+    wh_refusal refusal; /* WH_ALLOWED, or the reason; `next` is then the present state */
 } wh_rig_transition;
 
 #define wh_rig_transition_of WH_NAME(wh_rig_transition_of)

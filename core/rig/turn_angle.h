@@ -61,8 +61,7 @@ typedef struct wh_turn_angle {
     wh_real inertia_kgm2; /* present estimate of the inertia */
     bool fed;
     wh_real stall_Nm_per_V; /* the motor's torque per volt at standstill, while fed */
-    wh_real held_V;         /* the drive's voltage without the feed: updated by the drive's
-                             * caller */
+    wh_real held_V;         /* the drive's voltage without the feed; the caller updates it */
     wh_real part;           /* estimated part of gravity that remains: 1 without feed */
     uint32_t splits;        /* number of turns in the estimate of inertia or part */
     wh_real whole_rad;      /* E of the whole gravity */

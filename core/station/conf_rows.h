@@ -1,5 +1,4 @@
 /* conf_rows.h: the settings of a rig, one row each.
- *
  * X(name, number, kind, unit, least, most, goes, member, words). The name is typed, and never changes. The number is
  * stored, never changes and is never used again. The range is in the unit. `goes` is the setting's effect on the
  * configuration (conf.c), `member` its place in wh_rig_config. */

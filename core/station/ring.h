@@ -10,8 +10,7 @@ extern "C" {
 #endif
 
 typedef struct wh_ring {
-    uint32_t put; /* bytes put and taken so far, wrapping; the difference is the number of
-                   * waiting bytes */
+    uint32_t put; /* bytes put and taken so far, wrapping; put - taken bytes wait */
     uint32_t taken;
     uint32_t size; /* a power of two */
     char *bytes;   /* memory of the caller */

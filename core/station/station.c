@@ -14,7 +14,6 @@
 #define HOST_MOST_S WH_R(3600.0)
 #define DIALOGUE 1U /* a program at the other end finds it by `id` */
 
-/* A command's context. */
 typedef struct request {
     wh_station *station;
     wh_rig *rig;

@@ -1,5 +1,4 @@
 /* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g.
- *
  * The scene's list computes the products. It omits entries of 0, and entries of 1 cost no product. If a step hardly changes
  * a component, x+ = x + ((Phi - 1) x + Gamma u + g). Rounding the entries of Phi - 1 is then a small part of the change;
  * rounding those of Phi would be a small part of the state. Bounds, statuses and turn angles are those of every step

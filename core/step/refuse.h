@@ -15,7 +15,6 @@
 /* True for finite numbers within the limit; false for NaN. */
 WH_INLINE bool wh_believable(wh_real value, wh_real limit) { return WH_ABS(value) < limit; }
 
-/* Refuse the step because component `fault` left its bounds. */
 WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     state->fault = (int)fault;
     return WH_E_DIVERGED;

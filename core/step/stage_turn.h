@@ -83,8 +83,7 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    wh_sine_parts parts[WH_WAVES]; /* pairs at the begin, and their increments if turning is
-                                    * precise */
+    wh_sine_parts parts[WH_WAVES]; /* pairs at the begin; increments if turning is precise */
     wh_wave at[WH_WAVES];          /* pairs rotated by the rates at the begin alone */
     wh_wave way[WH_WAVES];         /* increment of the next rotation, or of the last one */
     wh_real bend[WH_WAVES];        /* 2 (cos d - 1) */
@@ -324,15 +323,13 @@ WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_tur
     }
 }
 
-/* A step of q'' = f(q, q', u) in progress. */
 typedef struct wh_turned_second {
     const wh_real *linear; /* at the begin */
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;
     wh_real a1[WH_COORDS];                /* accelerations of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* change of the rates at the later stages since the
-                                           * begin */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* change of the rates since the begin */
     wh_real rates[WH_STAGES][WH_COORDS];
     wh_real accels[WH_STAGES][WH_COORDS];
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
@@ -418,12 +415,10 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
     return wh_turn_second_told(model, accel, waves, &to, h, NULL, state);
 }
 
-/* A step of x' = f(x, u) in progress. */
 typedef struct wh_turned_first {
     wh_turning t;
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
-    wh_real gained[WH_STAGES][WH_COORDS]; /* for angles: derivatives of later stages minus the
-                                           * first stage's */
+    wh_real gained[WH_STAGES][WH_COORDS]; /* derivatives minus the first stage's */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_turned_first;

@@ -91,7 +91,6 @@ typedef struct wh_trial {
     wh_real carry[2 * WH_COORDS];
 } wh_trial;
 
-/* Copy the trial to the state. */
 WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals, bool compensated,
                          wh_state *state) {
     WH_UNROLL
@@ -120,7 +119,6 @@ WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned r
     return WH_OK;
 }
 
-/* Count a completed step. */
 WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
     if (status == WH_OK) {
         state->steps++;

@@ -1,5 +1,4 @@
 /* rig_frames.c: the rig's hal_ functions, with a plant at the other end of a line.
- *
  * Names are those of docs/plants/rig.whirl, with its dials or those of docs/plants/carriage.whirl. Simulated time stops
  * while the controller computes. The computing time is sent with the outputs, and the plant delays them by it. */
 #include "rig_frames.h"

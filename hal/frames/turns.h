@@ -1,5 +1,4 @@
 /* turns.h: remote hardware: a controller and its plant take turns over a line (link.h, core/exchange.h).
- *
  * Time advances only while the controller waits: hal_turns_wait() sends the outputs and returns with the time and the
  * sensors' readings. A program declares its signals and uses this file, or a HAL based on it (rig_frames.c). */
 #ifndef HAL_FRAMES_TURNS_H

@@ -66,8 +66,7 @@ typedef struct hal_virtual_rig {
     bool cut;     /* the watchdog has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
-    bool stop_cuts;    /* a short press of stop has cut the drive until the next hal_motor_off().
-                     * May be set at any time */
+    bool stop_cuts;    /* a short press of stop has cut the drive until hal_motor_off() */
     bool stop_pressed; /* a person at the rig presses stop: may be set at any time */
     hal_reset cause;   /* why the processor started */
     bool in_reset;     /* the processor is in reset or starting; the plant goes on meanwhile */
@@ -98,7 +97,6 @@ bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
 uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig);
 float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig);
 
-/* The rig that the hal_ functions use. */
 hal_virtual_rig *hal_virtual_rig_instance(void);
 
 /* The model that hal_clock_start() starts: core/models/eccentric.whirl, scene rig_fixed. */
