@@ -68,9 +68,8 @@
 /* Projections after a step with too many events. */
 #define WH_SQUEEZE_LOOKS 3U
 
-/* Most projections of a body that is beyond a stop when a step begins, for example after a correction of the state.
- * They replace the search of one of the step's rounds, so their number is at most that of its probes. A curved gap
- * takes several. */
+/* Most projections of a body that is beyond a stop when a step begins, for example after a correction of the state. This
+ * round of the step needs no search, so there may be as many projections as probes. A curved gap takes several. */
 #define WH_PUSH_LOOKS 12U
 
 /* A stop rests if its next flight is shorter than this share of a step. */

@@ -137,8 +137,8 @@ union wh_method_stages {
 /* Most stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
-/* Weights of the stages: the derivative of stage j has the weight share[j] / parts. Shares are not integers, because
- * rows of higher order have shares that are not ratios of small integers. */
+/* Weights of the stages: the derivative of stage j has the weight share[j] / parts. Shares are reals, because
+ * higher-order methods have weights that are not ratios of small integers. */
 typedef struct wh_shares {
     wh_real parts;
     wh_real share[WH_STAGES_MAX];

@@ -65,7 +65,7 @@ static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control
     return high == ((*control & _BV(ICES4)) != 0) && (*flags & _BV(ICF4)) == 0;
 }
 
-/* Wait for the other edge from now on; the change may set the flag (DS 17.6.3). */
+/* Wait for the other edge from now on. The change of edge may set the capture flag (DS 17.6.3), which is then cleared. */
 static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *flags) {
     *control ^= _BV(ICES4);
     *flags = _BV(ICF4);

@@ -31,9 +31,9 @@ void uart_write(const char *bytes, unsigned count);
 /* The free-running clock's device. */
 void timer_start(void);
 
-/* Vectors that a program may handle, by their names: on_NAME(). A vector that no file defines is a fault. The core's
- * are here, X(exception, NAME). The chip's are BOARD_VECTOR_ROWS of board_data.h, X(interrupt, NAME), those of its
- * drivers. The four fault vectors are reserved: the motor must be off before any other code runs. */
+/* Vectors that a program may handle by a function on_NAME(). A vector without such a function is a fault. X(exception,
+ * NAME) lists the core's vectors. BOARD_VECTOR_ROWS of board_data.h lists those of the chip's drivers, X(interrupt,
+ * NAME). The four fault vectors are reserved: the motor must be off before any other code runs. */
 #define CORTEXM_VECTOR_ROWS(X) \
     X(2, nmi) \
     X(11, svcall) \

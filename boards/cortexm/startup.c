@@ -13,7 +13,7 @@ typedef void (*vector)(void);
 /* A row deliberately overrides the range of fault handlers before it. */
 #pragma GCC diagnostic ignored "-Woverride-init"
 
-/* Sixteen system vectors, then the chip's interrupts. Rows replace the fault handler, which serves all others. */
+/* Sixteen system vectors, then the chip's interrupts. The fault handler serves all vectors without a row of their own. */
 __attribute__((section(".vectors"), used)) static const vector vectors[16 + BOARD_INTERRUPTS] = {
     [2 ... 16 + BOARD_INTERRUPTS - 1] = board_fault,
     [0] = (vector)(uintptr_t)board_stack_top,

@@ -52,7 +52,7 @@ static hal_turns plant;
 /* An encoder's value and its rate. */
 typedef struct motion {
     float value;
-    float rate; /* a second */
+    float rate; /* change per second */
     int32_t raw;
     bool known;
 } motion;

@@ -46,7 +46,8 @@ typedef struct wh_guard_config {
     wh_real climb;               /* largest rise of a turn's speed at two successive marks */
     wh_real climb_start_radps2;  /* largest rise while the loop takes the rotor over */
     wh_real climb_behind_radps2; /* largest rise while slower than the set-point by behind_radps */
-    wh_real behind_radps;        /* see climb_behind_radps2 */
+    wh_real behind_radps;        /* speed below the set-point from which climb_behind_radps2
+                                  * applies */
     wh_real climb_there_radps2;  /* largest rise otherwise */
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
@@ -94,7 +95,7 @@ typedef struct wh_off {
     struct wh_off_turns {
         uint32_t ticks;       /* time of the last pulse */
         uint32_t turn_ticks;  /* time from the previous pulse to the last one; 0: no such pulse */
-        uint32_t first_ticks; /* time of the last turn before the turns got faster */
+        uint32_t first_ticks; /* duration of the last turn before the turns got faster */
         uint8_t faster;       /* successive turns that were faster than the previous one */
         uint8_t longer;       /* successive turns that were clearly slower */
         bool seen;

@@ -34,7 +34,7 @@ typedef struct wh_run_config {
     wh_real no_load_radps;   /* the motor's speed without load at the rated supply */
     wh_real drag_V;          /* approximate voltage that friction takes */
     wh_real spin_up_V;       /* first voltage of the spin-up */
-    wh_real spin_up_V_per_s; /* rate at which it rises, up to rated_V */
+    wh_real spin_up_V_per_s; /* rate of rise of the spin-up voltage, up to rated_V */
     wh_real take_over_radps; /* the loop closes at this speed */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;

@@ -421,7 +421,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->loads = 0;
 }
 
-/* Keeps the result's age before the timer wraps. */
+/* Counts the result's age in seconds, because the timer would wrap. */
 static void age(wh_rig *rig, uint32_t now_ticks) {
     if (now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
         rig->result_ticks += WH_RIG_TICKS_PER_S;

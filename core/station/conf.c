@@ -137,7 +137,7 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
 
 /* --- into the rig's configuration --------------------------------------------------------------------- */
 
-/* Effects of gravity and of the masses' force on other settings, in proportion: docs/rig.md has the reasons. */
+/* Scales the settings that depend on gravity and on the masses' force: docs/rig.md has the reasons. */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moment = conf->value[WH_CONF_mass_moment];
     const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];

@@ -37,7 +37,7 @@ typedef enum wh_conf_goes {
 typedef struct wh_conf_row {
     wh_real least;
     wh_real most;
-    uint16_t place; /* of the member */
+    uint16_t place; /* offset of the member in the configuration */
     uint8_t number;
     unsigned char kind : 2; /* a wh_conf_kind */
     unsigned char unit : 4;

@@ -137,7 +137,7 @@ typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh
 
 /* All zeros: off. Large members come last: instructions for near ones are shorter. */
 typedef struct wh_tel {
-    bool reads; /* the ring is being sent, from: */
+    bool reads; /* the ring is being sent, from step read_at on */
     uint16_t sequence[WH_TEL_CHANNELS];
     uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
     unsigned read_at;
