@@ -1,23 +1,23 @@
 # board.mk: images for BOARD, from its boards/<board>/board.mk (variables only, explained in boards/cortexm/cortexm.mk).
 
 BOARDS_ALL := $(sort $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk)))
-# Those that `whirl price` has a row for: an STM32F405 is priced as its processor, mps2-an386.
+# Boards with a row in `whirl price`. An STM32F405 is priced as its processor, mps2-an386.
 BOARDS_PRICED := $(sort $(patsubst boards/%/board.mk,%,$(shell grep -L stm32f4.mk boards/*/board.mk)))
 ifeq ($(filter $(BOARD),$(BOARDS_ALL)),)
 $(error There is no boards/$(BOARD)/board.mk. Boards: $(BOARDS_ALL))
 endif
 
-# BOARD_WHEN says what takes a board by itself: `test` (`make test` and the gates of `make check`), `check` (the gates
-# alone), or `all` (only what takes every board: `make test-boards`, `make hashes-all`).
+# BOARD_WHEN says which targets include a board: `test` (`make test` and the gates of `make check`), `check` (the gates
+# alone), or `all` (only targets of all boards: `make test-boards`, `make hashes-all`).
 board_whens := test check all
 board_of_family := $(addprefix BOARD_,DEPS CC NM SIZE OBJCOPY OBJDUMP CFLAGS LDFLAGS SOURCES TIDY EMULATOR EMULATE)
 
-# A family asks its boards for what it builds on: $(call board_needs,VARIABLES).
+# A family checks that its boards set the variables that it needs: $(call board_needs,VARIABLES).
 board_needs = $(foreach v,$(1),$(if $(strip $(value $(v))),,$(error boards/$(board)/board.mk: $(v) is missing$(2))))
 board_before := $(filter BOARD_%,$(.VARIABLES))
 
-# Every board is read, so that none drops out unseen; then it is forgotten, but for what takes it: boards_test,
-# boards_check, boards_all; for what is flashed; and for what has no room for the portable suites.
+# Every board is read, so that none is dropped silently. Only lists remain of it: boards_test, boards_check, boards_all,
+# boards that are flashed, and boards without room for the portable suites.
 define read_board
 board := $(1)
 include boards/$(1)/board.mk
@@ -34,11 +34,11 @@ $(foreach b,$(BOARDS_ALL),$(eval $(call read_board,$(b))))
 board := $(BOARD)
 include boards/$(BOARD)/board.mk
 
-# Sanitizers and the like stay on this machine: boards have an EXTRA of their own.
+# Sanitizers and similar flags are for this machine only: boards have an EXTRA of their own.
 BOARD_EXTRA ?=
 $(eval $(call build,$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA)))
 
-# What is flashed may be a build of its own, as on a chip with little memory: BOARD_FLASHED_FLAGS.
+# The flashed image may be a build of its own, as on a chip with little memory: BOARD_FLASHED_FLAGS.
 FLASHED := $(BOARD)$(if $(BOARD_FLASHED_FLAGS),-flashed)
 ifneq ($(BOARD_FLASHED_FLAGS),)
 $(eval $(call build,$(FLASHED),$(BOARD_CC),$(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA)))
@@ -64,14 +64,15 @@ $(ELF)/$(1).elf: $(call objects,$(BOARD),$(2) $(5)) $(BOARD_OBJECTS) $(call libr
 	$$(link_board)
 endef
 
-# Linear scenes that are built again, each step one product with a matrix (mk/price.mk, tests/matrix_hashes.sh).
+# Linear scenes that are built a second time, with each step as one product with a matrix (mk/price.mk,
+# tests/matrix_hashes.sh).
 MATRIX := two_mass_relative cartesian_flight
 
-# Every scene; and the rig's firmware, whose hardware hal/virtual plays.
+# Every scene, and the rig's firmware, whose hardware hal/virtual simulates.
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
 $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
-# What runs once in a while is made small, so that what runs each step has the flash.
+# Code that runs rarely is compiled for size, so that the code of each step has the flash.
 $(foreach o,$(STATION_C) boards/programs/rig.c boards/programs/station.c \
     $(VIRTUAL_C) core/rig/swing_guess.c core/rig/state_machine.c core/text.c core/frame.c core/cobs.c $(BOARD_FLASHED),$(B)/$(BOARD)/$(o:.c=.o)): \
     FILE_FLAGS = -Os
@@ -80,15 +81,15 @@ ifneq ($(BOARD_FLASHED),)
 $(B)/$(FLASHED)/boards/programs/station.o: FILE_FLAGS += -DHAL_VIRTUAL=0
 endif
 
-# The rig's firmware with a console: here on a pseudo-terminal.
+# The rig's firmware with a console; on this machine the console is a pseudo-terminal.
 STATION := $(ELF)/station.elf
 $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c boards/host/settings.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
-# A board with hardware of its own has the rig's, and no model: what is flashed never ends, and knows no debugger.
+# A board with hardware uses the rig's hardware and no model. A flashed image never ends and knows no debugger.
 FLASHED_OBJECTS := $(call objects,$(FLASHED),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
-# What mk/size/size.sh holds them to.
+# Limits that mk/size/size.sh applies to the images.
 SIZE_MOST := $(if $(FLASHED_IMAGES),$(BOARD_MOST) MOST_OF="$(FLASHED_IMAGES)")
 ifneq ($(BOARD_FLASHED_LDFLAGS),)
 $(STATION): BOARD_LDFLAGS := $(BOARD_FLASHED_LDFLAGS)
@@ -98,7 +99,7 @@ $(STATION): $(call objects,$(FLASHED),boards/programs/station.c) $(or $(FLASHED_
     $(call libraries,$(FLASHED),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
 	$(link_board)
 
-# Firmware whose plant is at the other end of a line (`whirl pil`), of families that have one: BOARD_LINK.
+# Firmware with its plant at the other end of a line (`whirl pil`), for families that have one: BOARD_LINK.
 pil_program = $(call program,$(1),$(2),$(3),boards/host/link.c,$(BOARD_LINK))
 $(foreach p,pil_rig pil_swing pil_dialled pil_carriage,$(eval $(call pil_program,$(p),boards/programs/$(p).c,frames rig whirl scenes)))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
@@ -109,12 +110,12 @@ pil_own := own/$(basename $(notdir $(firstword $(CONTROLLER))))
 $(foreach f,$(CONTROLLER),$(if $(wildcard $(f)),,$(error CONTROLLER=$(f): there is no such file)))
 $(eval $(call pil_program,$(pil_own),$(abspath $(CONTROLLER)),$(CONTROLLER_LIBRARIES)))
 endif
-# Over the board's own console, of every board that has room for it; here on a pseudo-terminal.
+# The same over the board's own console, for boards with room for it; on this machine over a pseudo-terminal.
 $(eval $(call program,pil_line,boards/programs/pil_line.c boards/shared/link_console.c,frames rig whirl scenes,boards/host/terminal.c))
 PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf) $(ELF)/pil_line.elf)
 
-# On BOARD and on an M3: the tape of one on the other.
+# Runs on BOARD and on an M3, and replays the tape of each on the other.
 PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)
 ##@ Tests and quality
 pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
@@ -125,31 +126,31 @@ pil-now: $(B)/whirl
 	+@$(foreach b,$(PIL_BOARDS),$(call on_board,$(b),pil-images) &&) true
 	@sh mk/demo/pil.sh $(B)/whirl $(PIL_BOARDS)
 
-# Only the test framework takes something from a C library: the jump out of a failed test.
+# Only the test framework uses the C library: the jump out of a failed test.
 $(ELF)/tests.elf $(ELF)/tests_less.elf: IMAGE_LIBS := -lc
 $(ELF)/tests.elf: $(call objects,$(BOARD),$(CORE_TEST_PARTS))
 $(ELF)/tests_less.elf: $(call objects,$(BOARD),$(CORE_LESS_PARTS))
 $(ELF)/tests.elf $(ELF)/tests_less.elf: $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes station rig virtual whirl)
 	$(link_board)
-# SUITES=less: all but CORE_RUNS.
+# SUITES=less: all suites except CORE_RUNS.
 TESTS_ELF := $(ELF)/tests$(SUITES:%=_%).elf
 
 emulate = $(call BOARD_EMULATE,$(1))
 
-# What only this board has, for those who look at each file.
+# Files that only this board has, for checks of single files.
 BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
     $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
-# And that of a build of its own.
+# The same for its separate build.
 BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
 
 ifeq ($(BOARD_IMAGES),single)
 include mk/single.mk
 else
-# The images that are held to the firmware rules and whose sizes are told.
+# Images that must follow the firmware rules, and whose sizes are printed.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 
-# Programs that touch what guards the stack, and must not come back (tests/boards/guard.sh); the watchdog, of boards that have one
-# (tests/boards/watchdog.sh).
+# Programs that touch the guard of the stack and must not return (tests/boards/guard.sh), and the watchdog, for boards with
+# one (tests/boards/watchdog.sh).
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
 WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
 $(WATCHDOG): $(call objects,$(BOARD),$(BOARD_WATCHDOG))
@@ -164,7 +165,7 @@ run-suites: # the portable suites, what guards the stack, the watchdog, and firs
 print-hashes: # a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
-# The first steps of each scene. A specs file is given once.
+# The first steps of each scene. A specs file may be given only once.
 $(ELF)/scenes_short.elf: boards/programs/scenes.c $(BOARD_OBJECTS) $(call libraries,$(BOARD),scenes whirl)
 	@mkdir -p $(@D)
 	$(say) LINK $@
@@ -181,17 +182,17 @@ print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one 
 	@$(call emulate,$<)
 endif
 
-# A board is built and run by a make of its own: $(call on_board,NAME,TARGET).
+# Each board is built and run by its own make: $(call on_board,NAME,TARGET).
 BOARDS_TEST := $(sort $(filter-out $(boards_without_suites),$(BOARD)) $(boards_test))
 BOARDS := $(sort $(BOARD) $(boards_test) $(boards_check))
-# Those with an image for each scene run so many steps of it at most: what takes this machine seconds takes them hours.
+# Boards with one image per scene run at most this many steps: they take hours for seconds of this machine.
 BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))
 SINGLE_STEPS ?= 2000
 on_board = $(MAKE) -s BOARD=$(1) $(2)
 emulate-command: # of an image named IMAGE
 	@echo '$(call emulate,IMAGE)'
 
-# What a family has beside its boards, whichever BOARD is asked for: rules for its tools and tests' programs; its gate, named in
+# Things that a family has beside its boards, whatever BOARD is: rules for tools and test programs, and gates, named in
 # FAMILY_GATES.
 include $(wildcard boards/*/family.mk)
 

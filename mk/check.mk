@@ -1,5 +1,5 @@
-# check.mk: the quality gates of `make check`, gate-NAME each. tests/gates.sh runs them, keeps what they say in
-# build/check/NAME.log and prints a line for each. Those joined by a plus run at the same time.
+# check.mk: the quality gates of `make check`, each a target gate-NAME. tests/gates.sh runs them, stores their output in
+# build/check/NAME.log and prints a line for each. Gates joined by a plus run at the same time.
 GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware size boards$(FAMILY_GATES:%=+%)
 GATES += libm cycles hashes+flashed hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
@@ -16,7 +16,7 @@ gate-house:
 	@sh tests/english.sh
 
 # --- warnings are errors, with both compilers, in every build -------------------------------------
-# What is compiled for boards only; a board's own make lints its part (tidy-board).
+# Files compiled for boards only; a board's own make lints them (tidy-board).
 TARGET_C := $(filter-out boards/programs/% boards/host/%,$(BOARD_C))
 PC_BOARD_C := $(PROGRAM_C) $(wildcard boards/host/*.c)
 
@@ -30,8 +30,8 @@ objects: $(call objects,host,$(WHIRL_MAIN_C) $(WHIRL_C) $(GEN)/builtin_models.c 
 board-objects: board-own-objects $(call objects,$(BOARD),$(PORTABLE_C) $(PROGRAM_C) $(CORE_TEST_C) $(SCENE_C))
 board-own-objects: $(call objects,$(BOARD),$(BOARD_OWN_C)) $(call objects,$(FLASHED),$(BOARD_FLASHED_C))
 
-# Where the main configuration has these very settings, as in CI (.ci/run), what it compiled already counts. Other gates
-# take both compilers' objects from where these two put them.
+# If the main configuration has these settings, as in CI (.ci/run), its objects are used. Other gates use the objects of
+# these two.
 STRICT := EXTRA=-Werror BOARD_EXTRA=-Werror OPT=-O2
 GCC_FOLDER := $(if $(filter gcc|-O2|-Werror|-Werror,$(CC)|$(OPT)|$(EXTRA)|$(BOARD_EXTRA)),build,build/check/gcc)
 CLANG_FOLDER := build/check/clang
@@ -42,7 +42,7 @@ gate-gcc: $(GEN)/.stamp
 	+@$(GCC_BUILD) -k objects test-objects board-objects
 	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(GCC_BUILD) -k BOARD=$(b) board-own-objects &&) true
 
-# Nothing runs the tests as clang compiles them, and it warns before it optimises.
+# Nothing runs the tests compiled by clang, and clang warns before it optimises.
 syntax = printf '%s\n' $(1) | xargs -n 8 -P $(JOBS) clang $(LINT_FLAGS) $(2) -Werror -fsyntax-only
 gate-clang: $(GEN)/.stamp
 	+@$(CLANG_BUILD) -k objects
@@ -55,9 +55,9 @@ gate-format:
 	@$(call need,clang-format)
 	@clang-format --dry-run -Werror $(C_FILES)
 
-# One process a file, so that two cores have work to the end. The core is linted as double, too. The analyzer follows so
-# many paths of a function: a fifth of the time that 75000 take, and of 81 null pointers planted before the returns of long
-# functions it misses two that those find. `make gate-tidy TIDY_PATHS=` follows all.
+# One process per file keeps two cores busy to the end. The core is also linted as double. The analyzer follows this many
+# paths of a function, which takes a fifth of the time of 75000 paths. Of 81 null pointers planted before returns of long
+# functions it misses two that 75000 paths find. `make gate-tidy TIDY_PATHS=` follows all.
 TIDY_PATHS := -Xclang -analyzer-config -Xclang max-nodes=10000
 tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2) $(TIDY_PATHS)' _
 CHIP_TIDY_C := $(filter tests/chip/%,$(CHIP_TEST_C)) tests/boards/f405_plant.c
@@ -72,7 +72,7 @@ gate-tidy: $(GEN)/.stamp
 tidy-board:
 	@$(call tidy,$(sort $(BOARD_OWN_C) $(BOARD_FLASHED_C)),$(BOARD_TIDY) $(LINT_FLAGS))
 
-# The core, the HAL and the boards, which others compile: with the host it takes half an hour. clang-tidy reads both.
+# Core, HAL and boards, which others compile; with the host it would take half an hour. clang-tidy reads all of them.
 gate-cppcheck:
 	@$(call need,cppcheck)
 	@mkdir -p build/check/cppcheck
@@ -82,14 +82,14 @@ gate-cppcheck:
 	    --suppressions-list=mk/setup/cppcheck.txt -I. \
 	    $(filter core/%.c hal/%.c boards/%.c,$(C_FILES))
 
-# Gates build into the same folders: those that are asked for together run one after the other.
+# Gates build into the same folders. Gates requested together run one after the other.
 ifneq ($(word 2,$(filter gate-%,$(MAKECMDGOALS))),)
 .NOTPARALLEL:
 endif
 
 # --- what `make test` leaves out, to be quick ---------------------------------------------------------------
 gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'WHIRL_FEW=1 sh tests/each.sh build/tests/host $(2)'
-# Scripts of which it takes few cases: the others draw more of the same, or run more of the built-in scenes.
+# Scripts of which `make test` takes few cases, because others draw more of the same or run more built-in scenes.
 LONG_FEW := $(foreach t,price embed_names faults odd_values trust,tests/cli/$(t).sh)
 LONG_SUITES := $(filter-out $(HOST_FULL),$(HOST_GATED))
 gate-long: $(GEN)/.stamp
@@ -101,7 +101,7 @@ gate-long: $(GEN)/.stamp
 	    $(call run_cli,$(filter-out $(LONG_FEW) $(CLI_FULL),$(CLI_GATED)))
 
 # --- all cases of what `make test` takes fewer of -----------------------------------------------------------
-# Those that ask for WHIRL_FULL, `rest`: what `make test` and gate-long do whole is not done again; and those that they leave out.
+# Scripts that read WHIRL_FULL. With `rest` they leave out the cases that `make test` and gate-long run completely.
 CLI_ASKS = $(sort $(LONG_FEW) $(shell grep -l WHIRL_FULL $(CLI_TESTS)))
 FULL_LIST := build/check/full.list
 full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'sh tests/each.sh build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
@@ -113,23 +113,23 @@ full-now: $(GEN)/.stamp
 	    $(foreach t,$(CLI_FULL),"$(t)" "WHIRL_FULL=1 sh $(t)")
 
 # --- sanitizers -----------------------------------------------------------------------------------
-# WHIRL_FEW: a part of the cases of `make test`, of every class some, for an instrumented program takes six times as long;
-# what only compiles generated code, which is not instrumented, is left to `make test`.
+# WHIRL_FEW: some cases of every class, because an instrumented program takes six times as long. Scripts that only compile
+# generated code, which is not instrumented, run in `make test` alone.
 # Generated scenes with contacts take gcc half a minute each when they are optimised and instrumented.
-# In double scenes are linked with tests alone.
+# In double, scenes are linked with tests alone.
 $(B)/float/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
 $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(or $(SCENE_OPT),$(LEAST_O2))
-# Tests of the host's suites are not what is asked: their arrays are guarded, and no more.
+# The tests themselves are not the subject: their arrays are guarded, and no more.
 ASAN_TEST_OPT := -O0 -fno-sanitize=undefined,float-cast-overflow
-# Nor are generated scenes: the core that they include is asked in the suites and in the interpreter. It halves what they compile.
+# Nor are generated scenes: the suites and the interpreter run the core that they include. That halves the compilation.
 ASAN_SCENE_OPT = $(ASAN_TEST_OPT)
 ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT="$(ASAN_SCENE_OPT)" TEST_OPT="$(ASAN_TEST_OPT)" \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
-# Scripts that run no instrumented program, or have it do what other scripts or a suite have it do, too.
+# Scripts that run no instrumented program, or run only code that other scripts or suites run too.
 CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags foreign fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
-# And what is left to `make sanitizers-all`: scripts and suites that derive and step as others do, to compare digits,
-# or whose many runs each try their cures.
+# Left to `make sanitizers-all`: scripts and suites that derive and step as others do to compare digits, or that try the
+# remedies of many runs.
 CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage columns command_line commands coverage_sum doc_examples \
     effects_cost_nothing embed_fixed embed_headers embed_names embed_sketch emitted_c faults figures fixed \
     float_range forms full_output measure memory noise odd_values pil plot plots price price_pages printed_zeros \
@@ -145,8 +145,8 @@ HOST_LESS_ASAN := aliasing angle_parts apart arm asked_first blurred books_told 
 ASAN_REALS := float
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))
-# What scripts make themselves belongs to the main configuration, and must have its settings, not ours: with ours it would
-# be compiled anew, and once more by the next gate.
+# Files that scripts make belong to the main configuration and need its settings. With the sanitizers' settings, this gate
+# and the next would compile them again.
 asan-run: $(filter-out $(if $(filter double,$(ASAN_REALS)),,%/core_double) %/price_table,$(TEST_PROGRAMS)) $(B)/tests/quick_suites.list $(B)/whirl
 	@mkdir -p build/tests
 	@printf 'test_%s.c\n' $(HOST_LESS_ASAN) | grep -vxFf - $(B)/tests/host_suites.list >$(ASAN_LIST)
@@ -163,7 +163,7 @@ gate-sanitizers: $(GEN)/.stamp
 sanitizers-all: $(GEN)/.stamp ##- gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
 	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= CORE_RUNS= SCENE_OPT=-O0 ASAN_REALS="float double" asan-run
 
-# Values read before they are written, which the sanitizers do not see.
+# Reads of uninitialized values, which the sanitizers do not detect.
 MEMCHECK = valgrind -q --error-exitcode=9
 gate-memcheck: test-programs build/whirl
 	@$(call need,valgrind)
@@ -173,13 +173,13 @@ gate-memcheck: test-programs build/whirl
 	            echo "$(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet"; done; done; \
 	    } | xargs -P $(JOBS) -I COMMAND sh -c '$(MEMCHECK) COMMAND'
 
-# Files that are broken in every way: each must be refused with a message, and nothing else. And what fuzzers kept.
+# Broken files of every kind must be refused with a message. Also the inputs that fuzzers have found.
 gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
 	+@$(ASAN_BUILD) kept-now
 
-# What reads a line, from the console and from a rig: anew each time, half a minute each, at the same time.
+# Fuzzes the readers of lines, from the console and from a rig, each time anew: half a minute each, at the same time.
 GATE_FUZZ_SECONDS ?= 30
 gate-fuzz:
 	@$(call need,clang)
@@ -194,8 +194,8 @@ image-rules: board-images $(PIL_IMAGES) $(LIGHT_IMAGE)
 	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(FLASHED_IMAGES) $(if $(BOARD_FLASHED),$(LIGHT))" UNDRIVEN="$(LIGHT)" \
 	    sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES) $(LIGHT_IMAGE)
 
-# Boards with hardware of their own: what is flashed onto each, held to these rules, compiled and linted; its bytes and stack;
-# and one of them in the emulator, few cases; its control steps, which are longer than those of mps2-an386.
+# Boards with hardware of their own: each flashed image follows these rules, is compiled and linted, and has limits of bytes
+# and stack. One runs in the emulator in few cases; its control steps are longer than those of mps2-an386.
 gate-flashed: $(GEN)/.stamp
 	+@$(foreach b,$(boards_flashed),$(call on_board,$(b),BOARD_EXTRA=-Werror flashed-rules tidy-board) &&) true
 	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror flashed-tests)
@@ -204,7 +204,7 @@ gate-flashed: $(GEN)/.stamp
 	+@for board in $(filter-out $(BOARDS_SINGLE),$(boards_flashed)); do sh tests/boards/firstlight.sh $$board || exit 1; done
 	+@$(MAKE) -s small-now
 
-# The core, the controller and the console as what is flashed has them where flash is short, on this machine.
+# Core, controller and console on this machine, as in flashed images with little flash.
 small-now: $(GEN)/.stamp
 	@$(MAKE) -s B=build/small EXTRA="-Werror -DWH_SMALL=1" build/small/tests/core_float
 	@build/small/tests/core_float >build/small/suites.log || { grep FAIL build/small/suites.log >&2; exit 1; }
@@ -219,25 +219,25 @@ flashed-tests: $(FLASHED_TESTS) $(STATION) $(LIGHT) build/tools/f405
 gate-size:
 	@for board in $(BOARDS); do $(MAKE) BOARD=$$board size-now || exit 1; done
 
-# No mathematical library: unoptimised, where compilers put in nothing of their own for a library's function.
+# No mathematical library: checked unoptimised, so that compilers cannot replace a library function by code of their own.
 gate-libm:
 	@for cc in gcc clang; do $(MAKE) B=build/libm/$$cc CC=$$cc OPT=-O0 build/libm/$$cc/whirl || exit 1; done
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
-# Boards that `make test` does not take: the suites without the rig's runs, and what guards the stack. mps2-an505 has the instructions
-# of the board that `make test` takes: its suites are left to `make test-boards`.
+# Boards that are not in `make test`: the suites without the rig's runs, and the stack's guard. mps2-an505 has the same
+# instructions as the board in `make test`: its suites are left to `make test-boards`.
 BOARDS_CHECKED = $(filter-out mps2-an505 $(BOARDS_TEST) $(boards_without_suites),$(BOARDS))
 gate-boards: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS_CHECKED),$(call on_board,$(b),SUITES=less board-tests) &&) true
 	@SUITES=less sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
 
-# Both ways to estimate a Cortex-M's cycles say the same.
+# Both estimates of a Cortex-M's cycles must agree.
 gate-cycles: $(GEN)/.stamp
 	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
 	    $(call on_board,$(b),cycles-agree) &&) true
 
 # --- what the pages print -----------------------------------------------------------------------------
-# README's commands take only what `make run` builds; other pages take more.
+# README's commands need only `make run`; other pages need more.
 DOC_PAGES ?= README.md $(sort $(wildcard docs/*.md docs/*/*.md))
 docs-programs: $(GEN)/.stamp
 	+@$(MAKE) whirl $(B)/firmware
@@ -260,10 +260,10 @@ docs-renew: docs-programs ##- all pages with what their commands print now: DOC_
 	@sh mk/commands.sh page >build/commands.md && cp build/commands.md docs/commands.md
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
-# In the gate, and by `make hashes-all`.
+# Boards in the gate, and in `make hashes-all`.
 HASH_BUILDS ?= gcc-O0 gcc-O2 clang-O2 clang-O3
 HASH_BUILDS_ALL := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
-# Builds by this machine's compilers of what HASHED names; those of the warnings' gates have their objects from there.
+# Programs of HASHED built by this machine's compilers; the warning gates provide their objects.
 HASHED ?= scenes
 hash_folder = $(or $(hash_folder_$(1)),build/hash/$(1))
 hash_folder_gcc-O2 := $(GCC_FOLDER)
@@ -292,8 +292,8 @@ hashes-now: $(GEN)/.stamp
 	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
 
-# In the gate one board runs the scenes to their ends, the others their first steps: a board that computes otherwise shows that
-# in the first steps, and `make hashes` runs them all. Of settings: with an FPU and without.
+# In the gate one board runs the scenes to their ends, the others only the first steps, in which a different arithmetic
+# shows. `make hashes` runs all. Settings: with an FPU and without.
 BOARDS_FIRST = $(filter-out $(BOARDS_TEST),$(BOARDS))
 BOARDS_KINDS = $(BOARDS_TEST) $(filter %-an385 rv32%fc,$(BOARDS))
 gate-hashes: $(GEN)/.stamp
@@ -306,14 +306,14 @@ gate-hashes: $(GEN)/.stamp
 	@$(MAKE) hashes-matrix HASH_BOARDS="$(BOARDS_KINDS)"
 	@$(MAKE) hashes-hard HARD_BUILDS="gcc-O0 clang-O2" HARD_BOARDS="$(BOARDS_KINDS)"
 	@$(MAKE) hashes-settings SETTINGS=some SETTINGS_BUILDS=clang-O2 SETTINGS_BOARDS="$(BOARDS_TEST) mps2-an385"
-# HASH_BOARDS="mps2-an386 rv32imac": on these.
+# HASH_BOARDS="mps2-an386" limits the boards.
 HASH_BOARDS ?= $(BOARDS)
 hashes-matrix: $(GEN)/.stamp ##- the same bits on every board of linear scenes, a step as one matrix (minutes)
 	@$(MAKE) build/scenes_matrix
 	@$(call compare_matrix_hashes,$(HASH_BOARDS))
 
-# Processors that are no boards of ours but must have the same bits: builds of this machine's program for them
-# (mk/hosts.mk), run by qemu-user and by node.
+# Processors that are not boards but must give the same bits: qemu-user and node run this machine's program, built for them
+# (mk/hosts.mk).
 HASH_HOSTS := aarch64 wasm
 hash_hosts = $(foreach h,$(1),"$(h)" "$(host_run_$(h)) build/hosts/$(h)/scenes")
 .PHONY: $(addprefix hash-host-,$(HASH_HOSTS))
@@ -321,7 +321,7 @@ $(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
 	@$(call host_needs,$*)
 	@$(call host_make,$*) $(HASHED:scenes%=build/hosts/$*/scenes%)
 
-# Every board; those with an image for each scene beside this machine's program that runs as few steps.
+# Every board. Boards with one image per scene run beside this machine's program with as few steps.
 BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
 hashes-all-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))

@@ -2,7 +2,7 @@
 COVERAGE = build/coverage
 COVERAGE_BUILD = $(MAKE) B=$(COVERAGE) CC=gcc OPT=-O2 LINK_EXTRA=--coverage \
     COUNTED="-O0 --coverage -fprofile-update=single -Dalways_inline=unused -fkeep-inline-functions -w"
-# The least of each, in per cent.
+# The required coverage of each, in per cent.
 LINES_LEAST = 99
 BRANCHES_LEAST = 97
 

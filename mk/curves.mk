@@ -1,12 +1,12 @@
 # curves.mk: what accuracy costs (`make price`): docs/price.md, docs/dev/fronts.md, their charts.
 
 CURVES := build/curves
-# Every method, on every board. SCENE+4s: of that motion the first 4 s, in which it has not yet carried errors far.
+# Every method, on every board. SCENE+4s: only the first 4 s of that motion, before errors have grown much.
 CURVE_SCENES ?= two_mass_relative epicyclic_from_rest epicyclic_conserved thomson_a thomson_a+4s thomson_a_conserved rig_fixed \
     driven_hinge_from_rest spherical_flight
-# Those that are drawn.
+# Scenes with a chart.
 CURVE_CHARTS := epicyclic_from_rest thomson_a thomson_a+4s rig_fixed
-# Where fronts are counted: a processor with an FPU and one without. The first chart of all has another beside them.
+# Boards with counted fronts: a processor with an FPU and one without. The first chart shows a third board as well.
 CURVE_COUNTED := mps2-an386 mps2-an385-m0
 CURVE_FIRST := epicyclic_from_rest fronts $(CURVE_COUNTED) atmega328p
 CURVE_PAGES := docs/price.md docs/dev/fronts.md

@@ -22,8 +22,7 @@ conclusions-now: build/whirl build/firmware
 conclusions-renew: build/whirl build/firmware ##- the same, written into docs/conclusions.md
 	@sh mk/conclusions/table.sh renew docs/conclusions.md
 
-# What docs/hard_cases.md and docs/stability.md show of runs. What a run says of the step, the range or the angle is what the page
-# is about.
+# Runs shown in docs/hard_cases.md and docs/stability.md. Messages on step, range or angle are the page's subject.
 HARD_FIGS := $(sort $(wildcard mk/stability/*.fig))
 stability-now: build/whirl
 	@$(call need,gnuplot)

@@ -1,7 +1,7 @@
 # firstlight.mk: first light of a board (boards/programs/firstlight.c, docs/firstlight.md): scenes' hashes, cycles and a self-test in
 # one record. The motor is never enabled.
 
-# A board with hardware of its own has the rig's; compiled as its other programs are, so that cycles are those of `make bench`.
+# A board with hardware uses the rig's, compiled like its other programs, so that cycles are those of `make bench`.
 LIGHT := $(ELF)/firstlight.elf
 LIGHT_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(BOARD),$(FLASHED))
 LIGHT_SCENES := $(patsubst %,$(GEN)/%.c,$(shell sed -n 's/^    X(\([a-z_]*\)).*/\1/p' core/light_fields.h))
@@ -22,7 +22,7 @@ endif
 LIGHT_FITS := $(if $(shell grep -sxh 'program firstlight' $(TOO_LARGE) /dev/null),,yes)
 LIGHT_IMAGE := $(if $(LIGHT_FITS),$(LIGHT))
 LIGHT_RECORD := $(ELF)/firstlight.txt
-# An emulator of a board with hardware has no converter and no stop line: the scenes' hashes are what it can show.
+# An emulated board with hardware lacks the converter and the stop line: it can show only the scenes' hashes.
 LIGHT_CHECK = build/whirl firstlight $(LIGHT_RECORD) --board $(BOARD)
 LIGHT_FLASH = $(if $(BOARD_FLASHED_BY),by $(BOARD_FLASHED_BY) (docs/boards.md): $(LIGHT),make flash BOARD=$(BOARD) PROGRAM=firstlight PROBE=stlink)
 

@@ -1,4 +1,4 @@
-# flash.mk: what is flashed onto a board of its own, and a debugger on it. Both print the command that does it.
+# flash.mk: flashing a board, and a debugger on it. Both print the command that they run.
 PROBE ?= stlink
 PROBES := stlink cmsis-dap dfu
 # The rig with its console; its control software with the plant at the other end of that line (`whirl pil --port`); first light
@@ -7,11 +7,11 @@ PROGRAM ?= station
 PROGRAMS := station pil_line firstlight
 FLASH_IMAGE := $(ELF)/$(PROGRAM).elf
 
-# Sectors that the image has are erased and written, no others: settings stay.
+# Only sectors of the image are erased and written: settings stay.
 OPENOCD_FOR = openocd -f interface/$(PROBE).cfg -f target/stm32f4x.cfg
 FLASH_COMMAND = $(if $(filter dfu,$(PROBE)),$(DFU_COMMAND),$(OPENOCD_FOR) -c "program $(FLASH_IMAGE) verify reset exit")
-# The loader in the chip's ROM (BOOT0 high in a reset, USB) takes plain bytes, in two pieces: the vectors last, so that a
-# transfer that broke off does not start.
+# The loader in the chip's ROM (BOOT0 high in a reset, USB) takes plain bytes, in two pieces. The vectors come last, so that
+# an incomplete image does not start.
 DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/flash_code.bin && \
     dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D $(ELF)/flash_vectors.bin
 # OpenOCD lets the watchdog stand still while the core is halted (DBG_IWDG_STOP): not here (docs/boards.md).

@@ -1,12 +1,12 @@
-# hosts.mk: what whirl writes must not depend on the compiler and the host that it was built with. Each host's build
-# writes the built-in scenes and generated mechanisms; tests/hosts/compare.sh compares them, byte by byte.
+# hosts.mk: the output of whirl must not depend on the compiler and the host of its build. Each host's build writes the
+# built-in scenes and generated mechanisms; tests/hosts/compare.sh compares them, byte by byte.
 
 # Generated mechanisms, and the seed of the first.
 MECHANISMS ?= 500
 SEED ?= 1
 
 HOSTS := gcc clang gcc-O0 musl m32 aarch64 armhf wasm
-# In CI: two builds that other gates have made, another C library, and another kind of machine.
+# In CI: two builds made by other gates, another C library, and another kind of machine.
 HOSTS_CI := gcc-O2 clang-O2 musl wasm
 MULTIARCH = $(shell gcc -print-multiarch)
 
@@ -29,7 +29,7 @@ host_cc_aarch64 = aarch64-linux-gnu-gcc
 host_cc_armhf   = arm-linux-gnueabihf-gcc
 host_cc_wasm    = clang --target=wasm32-wasi --sysroot=/usr
 host_set_gcc-O0 = OPT=-O0
-# WebAssembly has no processes and no signals (host/os/none), and a small stack unless it is told.
+# WebAssembly has no processes and no signals (host/os/none), and by default a small stack.
 host_set_wasm   = SYSTEM=none AR=llvm-ar EXTRA=-D_WASI_EMULATED_SIGNAL LINK_EXTRA=-Wl,-z,stack-size=8388608
 host_run_aarch64 = qemu-aarch64
 host_run_armhf  = qemu-arm

@@ -1,10 +1,10 @@
-# peers.mk: the same step and the same derivation by other libraries and tools, beside Whirl's (mk/peers). Debian's
-# packages; none of it is linked into anything of ours.
+# peers.mk: the same step and the same derivation by other libraries and tools, compared with Whirl's (mk/peers). They are
+# Debian's packages; nothing of them is linked into Whirl.
 
 PEERS := whirl plain gsl arkode odeint
 PEER_SYSTEMS := epicyclic thomson reduced
-# Thomson's device twice: for the others as its equations are written, a sine and a cosine of every angle that occurs, and
-# with those that the addition theorems leave, which someone has to find by hand.
+# Thomson's device twice for the others: with a sine and a cosine of every angle in its equations, and with those that
+# remain after the addition theorems, which somebody has to apply by hand.
 PEER_FILE_epicyclic := tests/tools/naive_epicyclic.c
 PEER_FILE_thomson := tests/tools/naive_thomson.c
 PEER_FILE_reduced := tests/tools/careful_thomson.c

@@ -3,10 +3,10 @@
 BENCH_C := boards/programs/bench.c
 PLUGIN := build/count_plugin.so
 FIGURES := build/figures
-# The same mechanisms as one writes them by hand, to compare with.
+# The same mechanisms written by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
-# Two scenes again with compensated sums, to see what these cost, and some with many steps a call, on the board: on this
-# machine single functions are counted, not what they are called with.
+# Two scenes also with compensated sums, to see their cost, and some with many steps a call, on the board. On this machine,
+# functions are counted without the functions that they call.
 COMPENSATED := epicyclic_from_rest thomson_a
 AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
 again_compensated := --compensated
@@ -60,7 +60,7 @@ count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,$(1))" \
     mk/count/count_rows.sh $(FIGURES)/bench.csv $(1)
 
-# The worst step of scenes with contacts, all effects of their mechanisms on, over so many random steps.
+# The longest step of scenes with contacts, with all effects of their mechanisms, over this many random steps.
 WORST_STEPS ?= 1000000
 WORST_MODELS ?= $(MODELS)
 WORST_C := boards/programs/worst.c $(wildcard build/worst_step/*.c)
@@ -131,12 +131,12 @@ bench-boards-now: $(GEN)/.stamp
 	@mk/price/into_page.sh build/boards.md docs/dev/price.md boards
 	@cat build/boards.md
 
-# The estimate once more, from the disassembly.
+# A second estimate, from the disassembly.
 cycles-agree: $(ELF)/bench.elf $(PLUGIN)
 	@BOARD=$(BOARD) NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) TIMING=$(BOARD_TIMING) PLUGIN=$(PLUGIN) \
 	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
 
-# Flash, memory and stack of images: by what the compiler says of calls; or by the code, where a family says so (BOARD_SIZE_BY).
+# Flash, memory and stack of images: from the compiler's call graph or, if a family says so (BOARD_SIZE_BY), from the code.
 size_of = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJDUMP=$(BOARD_OBJDUMP) OBJECTS="$(sort $(ELF) $(B)/$(FLASHED))" $(SIZE_MOST) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" $(or $(BOARD_SIZE_BY),mk/size/size.sh) $(FIGURES)/size.csv $(1)
 

@@ -1,8 +1,8 @@
-# rig.mk: what the rig's controller costs, and its measurement against noise.
+# rig.mk: cost of the rig's controller, and its measurement with noise.
 
-# A control step of the rig on BOARD: no more instructions than this.
+# Largest number of instructions of a control step on BOARD.
 RIG_STEP_MOST ?= 1500
-# The board that was named, if any: without one, the firmware runs as a program of this machine.
+# The named board, if any. Without one, the firmware runs as a program of this machine.
 ASKED_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$(BOARD))
 # What is flashed as a whole is counted so, but for who counts.
 RIG_STEPS_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(FLASHED),$(BOARD))
@@ -47,16 +47,16 @@ faults-now: $(GEN)/.stamp
 	@build/tools/faults --firmware $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
-# The same firmware against a bench that is written from docs/dev/pil.md alone.
+# The same firmware on a bench that was written from docs/dev/pil.md alone.
 rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ##- the rig's firmware against a bench written from docs/dev/pil.md alone: SEED (ten minutes)
 	@code=0; for campaign in bench healthy stuck runouts; do build/tools/rig_bench $$campaign --seed $(SEED) || code=1; done; exit $$code
 
-# Telemetry over a line of 115,200, 57,600 and 9,600 baud, in simulated time: every sample is there, or is counted as lost.
+# Telemetry over a line of 115,200, 57,600 and 9,600 baud, in simulated time: every sample arrives or is counted as lost.
 TEL_SECONDS ?= 3600
 tel-hour: $(B)/whirl $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check ##- an hour of telemetry at three speeds of the line, simulated (minutes; TEL_SECONDS=n)
 	@WHIRL=$(B)/whirl TEL_SECONDS=$(TEL_SECONDS) sh tests/cli/monitor.sh
 
-# Its longest control steps once more, counted from outside.
+# The longest control steps of the campaign, counted again from outside.
 ##@ Tests and quality
 rig-worst: $(PLUGIN) ##- the longest control steps of the last make faults BOARD=..., counted by the emulator (a minute)
 	@NM=$(BOARD_NM) PLUGIN=$(PLUGIN) mk/count/rig_worst.sh build/whirl $(ELF)/pil_dialled.elf build/faults_$(BOARD).md
@@ -66,7 +66,7 @@ faults-page: ##- docs/dev/rig.md shows what the last make faults found
 	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
 	@mk/price/into_page.sh build/faults.md docs/dev/rig.md faults
 
-# The suites that ask the rig's controller, in a program of their own: what a change of the controller takes to be asked.
+# The suites of the rig's controller in a program of their own, which is linked quickly after a change of it.
 RIG_SUITES := $(patsubst tests/core/test_%.c,%,$(sort $(wildcard $(addprefix tests/core/test_,rig*.c virtual_rig*.c lockin*.c station*.c))))
 RIG_TEST_C := $(filter-out tests/core/test_%,$(CORE_TEST_C)) $(RIG_SUITES:%=tests/core/test_%.c)
 $(eval $(call listed,$(B)/tests/rig_suites.list,$(RIG_SUITES)))
@@ -79,14 +79,14 @@ $(B)/tests/rig_double: $(call rig_tests,double)
 $(B)/tests/rig_float $(B)/tests/rig_double:
 	$(link)
 
-# Thirty bugs as somebody would write them, and who notices: the rig's suites, else a small campaign of faults.
+# Thirty bugs of a typical kind: the rig's suites must notice each, or else a small campaign of faults.
 RIG_CAMPAIGN = build/tools/faults --firmware $(1) --runs 60 --seed 1
 rig-bugs: build/tests/rig_float build/tools/faults $(B)/pil_rig ##- bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
 	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/rig_float SUITES="$(RIG_SUITES)" \
 	    MORE="build/tools/faults build/pil_rig" LAST="$(call RIG_CAMPAIGN,build/pil_rig)" HELD=95 \
 	    sh mk/mutants/guards.sh
 
-# The same of changes drawn at random, as `make mutants` draws and tells them.
+# The same for random changes, drawn and reported as by `make mutants`.
 rig-mutants: ##- small changes of the rig's controller: do its suites, else a small campaign, notice? MUTANTS (100), SEED (half an hour)
 	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
 	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity

@@ -11,11 +11,11 @@ Q :=
 say = @:
 else
 Q := @
-# On a terminal one line that each file writes over; in a log the programs alone.
+# On a terminal, each file writes over one line. A log has only the programs.
 say = @said() { if [ -t 1 ]; then printf '\033[K  %-5s %s\r' "$$@"; elif [ "$$1" = LINK ]; then printf '  %-5s %s\n' "$$@"; fi; }; said
 endif
 
-# A long target tells its stages, in a log as well.
+# A long target names its stages, also in a log.
 stage = @[ ! -t 1 ] || printf '\033[K'; echo "$(1)"
 
 comma := ,
@@ -35,7 +35,7 @@ FORCE:
 need = command -v $(firstword $(1)) >/dev/null 2>&1 || \
     { echo "make: '$(firstword $(1))' is missing; 'make deps' installs what Whirl needs." >&2; exit 1; }
 
-# listed FILE WORDS: a file that holds these words, and is new only when they are others.
+# listed FILE WORDS: a file that contains these words, rewritten only if they change.
 define listed
 $(1): FORCE
 	@mkdir -p $$(@D)
@@ -62,7 +62,7 @@ $(eval $(call build,double,$(CC),$(FLAGS_double)))
 # objects BUILD FILES: where the objects of these files are.
 objects = $(patsubst %.c,$(B)/$(1)/%.o,$(2))
 
-# library ARCHIVE OBJECTS: made anew as a whole, also when a file joins or leaves.
+# library ARCHIVE OBJECTS: the archive is made anew as a whole, also when a file joins or leaves.
 define library
 $(1): $(2) $(1:.a=.list)
 	$$(say) AR $$@
@@ -70,7 +70,7 @@ $(1): $(2) $(1:.a=.list)
 $(call listed,$(1:.a=.list),$(2))
 endef
 
-# What Whirl makes needs no mathematical library. Tests and tools compare with one.
+# The program and the firmware need no mathematical library. Tests and tools compare with one.
 LIBM = $(if $(filter $(B)/tests/% $(B)/tools/%,$@),-lm)
 # The linker for WebAssembly looks through all archives anyway, and knows no groups.
 GROUP := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--start-group)
@@ -96,7 +96,7 @@ PROGRAM_C := $(wildcard boards/programs/*.c)
 BOARD_C := $(wildcard boards/*/*.c)
 HOST_TOOL_C := $(wildcard mk/*/*.c boards/*/run/*.c)
 WHIRL_MAIN_C := $(wildcard host/*.c)
-# What an operating system has, or what replaces it.
+# Code for an operating system, or its replacement.
 WHIRL_C := $(wildcard host/*/*.c host/os/$(or $(SYSTEM),posix)/*.c)
 TEST_C := $(wildcard tests/*.c tests/*/*.c)
 C_FILES := $(sort $(PORTABLE_C) $(BOARD_C) $(HOST_TOOL_C) $(WHIRL_MAIN_C) $(WHIRL_C) $(TEST_C) \

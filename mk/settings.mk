@@ -1,6 +1,6 @@
-# settings.mk: the same bits on every board with every setting that `whirl price` tries (host/study/trial.h). The program
-# writes some scenes with every setting that each takes, and the interpreter's hashes (host/cli/scenes.c); what is
-# compiled of that, for this machine and for boards, must print the same.
+# settings.mk: the same bits on every board with every setting of `whirl price` (host/study/trial.h). The program writes
+# some scenes with every setting that they accept, and the interpreter's hashes (host/cli/scenes.c). The compiled code, on
+# this machine and on boards, must print the same hashes.
 
 # Between them: a matrix, tables, angles that turn and that are looked up, every method, first order, stops, fixed point.
 SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl \
@@ -8,7 +8,7 @@ SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl
 # One of four: they are those of the gear, but with an input and gravity.
 SETTINGS_PARTS := rig_fixed
 SETTINGS_STEPS := 500
-# `all` of them, or `some`: one of so many and all that have a word that none before has, as in the gate hashes.
+# `all` of them, or `some`: one in so many, and all that have a word that none before has, as in the gate hashes.
 SETTINGS ?= all
 SETTINGS_SCENES_all := $(foreach s,$(SETTINGS_WHOLE),1 $(s)) $(foreach s,$(SETTINGS_PARTS),4 $(s))
 SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE),$(if $(findstring .whirl,$(s)),11,37) $(s)) \

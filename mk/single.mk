@@ -1,7 +1,7 @@
 # single.mk: boards with too little memory for whole images: one image a suite and one a scene.
 #
-# What does not fit is in boards/<board>/too_large.txt, a line "suite NAME", "scene NAME" or "program NAME" each. `make too-large` makes
-# that list; `make hashes-all` and `make test-boards` find when it is not true any more.
+# Programs that do not fit are in boards/<board>/too_large.txt, each a line "suite NAME", "scene NAME" or "program NAME".
+# `make too-large` makes that list; `make hashes-all` and `make test-boards` find when it is out of date.
 
 SINGLE := $(ELF)/single
 TOO_LARGE := boards/$(BOARD)/too_large.txt
@@ -22,7 +22,7 @@ endef
 SCENE_NEEDS := $(wildcard boards/programs/*.[ch]) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) mk/count/index.sh
 # Behind a command: an image that does not fit is an empty file.
 or_empty = 2>$(@:.elf=.log) || { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
-# print_of ELF...: what they say; "without NAME" of one that is empty or whose stack had too little room (exit status 123).
+# print_of ELF...: their output; "without NAME" if one is empty or its stack had too little room (exit status 123).
 print_of = printf '%s\n' $(1) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename $$1 .elf | sed s/^hard_//); \
     [ -s $$1 ] || { echo "without $$name"; exit 0; }; status=0; \
     $(call emulate,$$1) >$${1%.elf}.said || status=$$?; \
@@ -36,7 +36,7 @@ $(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
 $(SINGLE)/bench_matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
 	$(call scene_link,boards/programs/bench.c,build/matrix,-DBENCH_SMALL=1)
 
-# What several suites share: each takes what it needs of it.
+# Files shared by several suites: each uses what it needs.
 $(SINGLE)/shared.a: $(call objects,$(BOARD),$(filter-out tests/core/test_%,$(wildcard tests/core/*.c)))
 	@mkdir -p $(@D)
 	$(say) AR $@
@@ -68,7 +68,7 @@ bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(BOARD_RUN_BY) # a step 
 print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(BOARD_RUN_BY)
 	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 
-# What does not link, and what has too little room for its stack when it runs (exit status 123).
+# Programs that do not link, or whose stack has too little room when they run (exit status 123).
 too-large-now: $(BOARD_RUN_BY)
 	@mkdir -p $(SINGLE); : >$(TOO_LARGE)
 	@for image in $(SUITE_NAMES:%=suite_%) $(SCENE_NAMES:%=scene_%); do \

@@ -16,10 +16,10 @@ $(B)/%/unity.o: FILE_FLAGS = $(UNITY_FLAGS) -w
 $(foreach b,host float double $(BOARD),$(eval $(B)/$(b)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS)) \
     $(eval $(B)/$(b)/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS)))
 
-# The programs of tests are not what is measured, and most of them compile longer than they run: what double computes is asked
-# without optimisation, the portable suites in float and the host's at -O1, on boards (and so warned of) at the level of the
-# programs; a file of all methods by all forms takes -O2 four times as long as -O1.
-# Below -O2 gcc takes values for uninitialized and texts for cut off that are not, and says nothing at -O2.
+# Test programs are not measured, and most take longer to compile than to run. So double is tested without optimisation, the
+# portable suites in float and the host's at -O1, and boards (whose warnings thus count) at the programs' level. A file of
+# all methods by all forms takes four times as long at -O2 as at -O1.
+# Below -O2 gcc gives false warnings about uninitialized values and truncated texts.
 QUIET = $(if $(findstring clang,$(CC)),,-Wno-maybe-uninitialized -Wno-format-truncation)
 LESS = $(if $(filter -O0,$(OPT)),,-O1 $(QUIET))
 LESS_O2 = $(if $(filter -O2,$(OPT)),-O1 $(QUIET))
@@ -49,8 +49,9 @@ $(foreach t,core host chip,$(B)/tests/$(t)_suites.c): $(B)/tests/%_suites.c: tes
 	$(Q)sh $< tests/$*/test_*.c >$@
 
 CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
-# Those that boards leave to mps2-an386, but for `make test-boards`: whole runs of the rig, whose bits are those of every board
-# (gate-hashes); what differs between processors, conversions, roots, functions and the core's steps, they keep.
+# Suites that boards leave to mps2-an386, except in `make test-boards`: whole runs of the rig, whose bits are equal on all
+# boards (gate-hashes). Boards keep suites of conversions, roots, functions and the core's steps, which differ between
+# processors.
 CORE_RUNS := rig_gravity rig_lead rig_motor rig_observer rig_off rig_pulses rig_run rig_slope rig_swing rig_swing_pulses \
     virtual_rig_faults
 CORE_LESS_C := $(filter-out $(CORE_RUNS:%=tests/core/test_%.c),$(CORE_TEST_C))
@@ -71,8 +72,8 @@ $(B)/tests/host: $(call objects,host,$(HOST_TEST_PARTS)) $(LIB_HOST) \
     $(call libraries,float,scenes rig whirl) $(LIB_DOUBLE) | $(B)/pil_cart
 	$(link)
 
-# The drivers of the STM32F405 on a chip that is played from its manual (tests/chip), which takes interrupts and resets: the
-# drivers' variables are in sections of their own, so that a start of the chip can put them back to what the image has.
+# The drivers of the STM32F405 on the chip model (tests/chip), which takes interrupts and resets. The drivers' variables are
+# in sections of their own, so that a start of the chip can restore them from the image.
 CHIP_TEST_C := tests/main.c $(sort $(wildcard tests/chip/*.c))
 CHIP_DRIVERS_C := boards/cortexm/board.c boards/cortexm/fault_words.c $(addprefix boards/shared/,reset_words.c rig_time.c wait.c) $(addprefix boards/stm32f4/,brown_out.c cell.c clock.c flash.c motor.c pins.c reset.c ring.c \
     rig_clock.c slots.c stop.c time_base.c usart.c watchdog.c)
@@ -82,7 +83,7 @@ $(eval $(call build,chip,$(CC),$(FLAGS_host) $(CHIP_FLAGS)))
 $(B)/chip/tests/%.o $(B)/chip/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
 CHIP_TEST_PARTS := $(CHIP_TEST_C) $(B)/tests/chip_suites.c $(UNITY_DIR)/unity.c
 $(call objects,chip,$(CHIP_TEST_PARTS)): | $(UNITY_DIR)/unity.c
-# First light's image is run there as a whole (firstlight.mk).
+# The chip model runs the image of first light as a whole (firstlight.mk).
 CHIP_LIGHT_C := boards/programs/firstlight.c
 $(foreach b,$(CHIP_BOARDS),$(B)/chip_$(b)/$(CHIP_LIGHT_C:.c=.o)): private FILE_FLAGS = -Dmain=firstlight_main -DLIGHT_HARDWARE=1
 $(foreach b,$(CHIP_BOARDS),$(B)/chip_$(b)/$(CHIP_LIGHT_C:.c=.o)): | $(GEN)/.stamp
@@ -111,23 +112,24 @@ TEST_PROGRAMS := $(CHIP_BOARDS:%=$(B)/tests/chip_%) $(B)/tests/core_double $(B)/
 test-programs: $(TEST_PROGRAMS) $(B)/tests/quick_suites.list
 
 # --- running ------------------------------------------------------------------------------------
-# tests/run.sh takes pairs: what it is, and the command.
-# What no board has of its own is run once.
+# tests/run.sh takes pairs: a name and a command.
+# Suites that are the same on every board run once.
 RUN_CHIP = $(foreach b,$(CHIP_BOARDS),"drivers of the STM32F405 on a played chip$(comma) $(b)" \
     "$(B)/tests/chip_$(b) $(if $(filter netduinoplus2,$(b)),,chip_clock chip_slots chip_cell chip_firstlight)")
 RUN_CORE = "portable suites, double" $(B)/tests/core_double "portable suites, float" $(B)/tests/core_float
-# The host suites in four parts, so that all processors have work to the end; what takes longest goes first. Of drawn cases CI
-# takes few of every class (WHIRL_FEW); a suite by hand takes the usual ones, and `make full` all.
+# The host suites run in four parts, so that all processors are busy to the end; the longest start first. Of random cases CI
+# takes few of every class (WHIRL_FEW), a suite by hand the usual number, and `make full` all.
 part = "host suites$(comma) part $(1) of 4" 'WHIRL_FEW=1 sh tests/each.sh $(B)/tests/host $$(sh tests/part.sh $(2) $(1) 4)'
 run_host = $(foreach p,0 1 2 3,$(call part,$(p),$(1)))
 CLI_LONG := $(foreach t,docs commands embed_sketch,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
-# What `make test` leaves to gate-long, so that it stays below five minutes: what compares digits of what other tests run,
-# too, or takes long.
+# Left to gate-long, so that `make test` takes less than five minutes: suites that take long, or that compare digits of
+# things that others run too.
 CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names emitted_c faults figures fixed flags headers map measure odd_values pil plots price \
     printed_zeros prove recorded_lists settings_bits structure trust,\
     tests/cli/$(t).sh)
-# Of these, what only `make full` takes: each compares many runs for a minute or more. Of price.sh gate-long takes few cases.
+# Of these, `make full` alone runs the suites that compare many runs for a minute or more. Of price.sh gate-long takes few
+# cases.
 CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)
 HOST_FULL := asked_first choice lockin_truth trajectory trust trust_scenes turned_errors
 HOST_GATED := asked_first busy choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
@@ -146,13 +148,13 @@ test-now: $(GEN)/.stamp
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality
-# Until when runs can be trusted, as `whirl trust` has it, against references in long double (docs/stability.md).
+# The time until which runs are accurate by `whirl trust`, against references in long double (docs/stability.md).
 TRUST_SEED ?= 14
 trust-check: build/tests/host ##- whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
 	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_scenes
 	@WHIRL_CASES=30 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust_drawn
 
-# Parts of it, for while one works on something.
+# Parts of the tests, for work on one part.
 test-cli: $(GEN)/.stamp ##- the scripts of tests/cli alone
 	@$(MAKE) test-programs
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_CLI)
@@ -161,15 +163,15 @@ test-board: $(GEN)/.stamp ##- the portable suites alone, on the emulated boards 
 	+@$(call build_board_tests,$(BOARDS_TEST))
 	@sh tests/run.sh build/tests/log $(RUN_BOARD)
 
-# Every board, and what its images hold.
+# Every board, with the tests that its images contain.
 BOARDS_SUITES := $(filter-out $(boards_without_suites),$(BOARDS_ALL))
 test-boards-now: $(GEN)/.stamp
 	+@$(call build_board_tests,$(BOARDS_SUITES))
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
 	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_SUITES),$(call run_board,$(b)))
 
-# Generated mechanisms against references of another kind; the seed is printed, and a new one taken unless it is given.
-# What the suites print of their figures stays in build/tests/log_properties, and is shown at the end.
+# Generated mechanisms against references of another kind. The seed is printed; without a given one it is new. The suites'
+# figures stay in build/tests/log_properties and are printed at the end.
 PROPERTIES ?= 10000
 PROPERTY_SUITES := hybrids hard_scales linkages
 properties-now: $(GEN)/.stamp
@@ -212,7 +214,7 @@ FUZZERS := $(patsubst tests/fuzz/%.c,build/fuzz/%.fuzzer,$(wildcard tests/fuzz/f
 SANITIZE := address,undefined,float-cast-overflow
 
 FUZZED := $(LIB_HOST) $(call libraries,float,station rig whirl) $(LIB_DOUBLE)
-# What reads lines takes little of it, and `make check` fuzzes it anew each time.
+# Fuzzing the readers of lines takes little time, and `make check` does it each time.
 FUZZERS_OF_LINES := build/fuzz/fuzz_console.fuzzer build/fuzz/fuzz_wire.fuzzer
 $(filter-out $(FUZZERS_OF_LINES),$(FUZZERS)): $(FUZZED)
 build/fuzz/fuzz_console.fuzzer: $(call libraries,float,station rig whirl)
@@ -222,7 +224,7 @@ build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
 	    -Wl,--start-group $(filter %.a,$^) -Wl,--end-group -lm
 
-# What they found worth keeping, once more, without a fuzzer.
+# Replays the stored inputs of the fuzzers, without a fuzzer.
 KEPT_INPUTS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%.kept,$(wildcard tests/fuzz/fuzz_*.c))
 $(B)/fuzz/%.kept: $(B)/host/tests/fuzz/%.o $(B)/host/tests/fuzz/kept.o $(FUZZED)
 	@mkdir -p $(@D)

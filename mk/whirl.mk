@@ -24,8 +24,8 @@ $(call library,$(B)/$(1)/libframes.a,$(call objects,$(1),$(FRAMES_C)))
 $(call scenes_library,$(B)/$(1)/libscenes.a,$(1))
 endef
 
-# Which scenes there are is known only once they are made: whoever needs their library has them made, and it is
-# packed by a make of its own, which reads the folder anew.
+# The list of scenes is known only after they are made. A target that needs their library has them made first; a second
+# make, which reads the folder anew, packs the library.
 ifdef SCENES_ARE_MADE
 scenes_library = $(call library,$(1),$(call objects,$(2),$(SCENE_C)))
 else
@@ -49,7 +49,7 @@ $(B)/whirl: $(call objects,host,$(WHIRL_MAIN_C)) $(LIB_HOST) $(LIB_FLOAT) $(LIB_
 	$(link)
 
 # --- built-in models ----------------------------------------------------------------------------
-# Follows the list of models too: a model taken away must leave the program.
+# Depends on the list of models too: a removed model must leave the program.
 $(eval $(call listed,$(GEN)/models.list,$(MODELS) $(sort $(wildcard mk/figures/*.fig))))
 
 FIGURE_TEXTS := $(sort $(wildcard mk/figures/*.fig))
@@ -62,8 +62,8 @@ $(GEN)/builtin_models.c: mk/setup/embed_models.sh $(GEN)/models.list $(MODELS) $
 # them; the gates compile the same files with other compilers and flags. Files that come out as they
 # were are left alone, so that a change in the program does not compile every scene anew.
 #
-# The rig's observer goes with the same model, one step a control step, corrected twice a turn: what a step of the second order
-# is off in a turn is 1e-4 rad there.
+# The rig's observer uses the same model. It makes one step a control step and is corrected twice a turn. The error of a
+# second-order step over a turn is 1e-4 rad there.
 RIG_OBSERVED := --step 2ms --method heun
 ifeq ($(B),build)
 $(GEN)/.stamp: build/whirl $(MODELS) mk/setup/update_files.sh

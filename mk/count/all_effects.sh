@@ -7,7 +7,7 @@ shift 2
 rm -rf "$out"
 mkdir -p "$out"
 
-# lines "FILE:SCENE SCENE" of those where the mechanism, one of its effects or the scene itself has contacts
+# lines "FILE:SCENE SCENE" of scenes with contacts, in the mechanism, in one of its effects or in the scene itself
 "$whirl" list --as table "$@" >"$out/table"
 awk -F '\t' '
     $8 ~ /contacts/ && $1 != "scene" { has[$4, $3] = 1 }

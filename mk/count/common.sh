@@ -1,8 +1,8 @@
-# common.sh: what the counting scripts share; to be sourced.
+# common.sh: shared functions of the counting scripts, to be sourced.
 
 CSV_HEADER="commit,board,compiler,flags,scene,number,method,metric,value"
 
-# The commit the figures belong to, "+" if files differ from it.
+# The commit that the figures belong to, with "+" if files differ from it.
 commit_of_checkout() {
     commit=$(git rev-parse --short HEAD 2>/dev/null) || commit=none
     if [ "$commit" != none ] && [ -n "$(git status --porcelain 2>/dev/null)" ]; then
@@ -17,7 +17,7 @@ compiler_of() {
     echo "${1##*/} $version"
 }
 
-# figures_into FILE: rows of $BOARD's images, by row(), go there; $work is a folder that goes with us.
+# figures_into FILE: row() appends the rows of $BOARD's images to it; $work is a folder that is deleted at the end.
 figures_into() {
     csv=$1
     work=$(mktemp -d)
@@ -67,8 +67,8 @@ address_of() {
     echo "$found"
 }
 
-# count MORE-PLUGIN-ARGUMENTS: one run of $elf by $EMULATE under $PLUGIN; the console to $work/console, the counts
-# to $work/counts, how it ended to $status.
+# count MORE-PLUGIN-ARGUMENTS: runs $elf once by $EMULATE under $PLUGIN. Writes the console to $work/console, the counts to
+# $work/counts and the exit status to $status.
 count() {
     begin=$(address_of wh_count_begin)
     end=$(address_of wh_count_end)
@@ -89,8 +89,8 @@ count() {
     fi
 }
 
-# callgrind ELF: the intervals of a program of this machine, as the plugin says them, in $work/counts, and the console. A part is
-# dumped and cleared at either end of each, so every second part is one.
+# callgrind ELF: writes the intervals of a program of this machine to $work/counts, as the plugin does, and the console. The
+# counts are dumped and cleared at both ends of an interval, so every second part is an interval.
 callgrind() {
     status=0
     valgrind --tool=callgrind --callgrind-out-file="$work/parts" --combine-dumps=yes \
@@ -105,8 +105,8 @@ callgrind() {
         END { for (i = 2; i in total; i += 2) { print "interval", i / 2 - 1, total[i] } }' "$work/parts" >"$work/counts"
 }
 
-# counted ELF: its rows (figures.awk) go to $work/rows: by callgrind on the host, by $PLUGIN, or by simavr. $EMULATE runs the
-# image IMAGE.
+# counted ELF: writes its rows (figures.awk) to $work/rows, by callgrind on this machine, by $PLUGIN, or by simavr. $EMULATE
+# runs the image IMAGE.
 counted() {
     elf=$1 image=${image:-${EMULATE:-}} obtained=
     EMULATE=$(echo "$image" | sed "s:IMAGE:$elf:")

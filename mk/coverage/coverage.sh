@@ -16,7 +16,7 @@ find "$folder" -name '*.gcda' | sort | xargs -n 1 gcov -b -c -t 2>"$folder/log/g
         -v branches_least="${BRANCHES_LEAST:-0}" -f mk/coverage/coverage.awk >"$folder/files.txt"
 status=$?
 cat "$folder/files.txt"
-# A file with functions that no test includes would not even count as missed.
+# A file with functions that no test includes would otherwise not even count as missed.
 for file in $(grep -lx '}' core/*.c core/*/*.c) $(grep -lE '^(WH_INLINE|WH_APART|static inline)' core/*.h core/*/*.h); do
     grep -q "^$file " "$folder/files.txt" || { echo "make coverage: no test of tests/core includes $file"; status=1; }
 done

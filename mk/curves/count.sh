@@ -17,7 +17,7 @@ numbers=$(awk -F, -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK' | sort -
 AWK
 )
 for number in $numbers; do
-    # ID SCENE OPTIONS, and the same line's command. IDs of one length: an image holds them
+    # ID SCENE OPTIONS, and the command of the same line. IDs have one length, because an image contains them
     awk -F, -v number="$number" -v out="$out" -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK'
 number_of($2) == number {
     printf "c%04d %s %s\n", ++n, scene_of($2), derive_options($2) > (out "/cases_" number)

@@ -1,4 +1,4 @@
-# default_methods.awk: how many times as much the cheapest row of the default methods costs as the cheapest of all, for each
+# default_methods.awk: price of the cheapest row of the default methods divided by that of the cheapest of all, for each
 # scene, board and error of the tables: awk -F, -f words.awk -f decades.awk -f default_methods.awk docs/figures/price.csv
 
 FNR == 1 { header(); next }

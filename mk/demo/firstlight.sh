@@ -1,6 +1,6 @@
 #!/bin/sh
-# firstlight.sh OUT COMMAND: run a board's image of first light by its emulator's command until it has printed a whole record, and keep
-# that in OUT. What is flashed never ends by itself.
+# firstlight.sh OUT COMMAND: runs a board's image of first light by its emulator's COMMAND until it has printed a whole
+# record, and stores that in OUT. A flashed image never ends by itself.
 set -u
 
 : >"$1"

@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...: the whole way once, for someone who sees Whirl for the first time: energies,
-# equations, motion, firmware. Called by `make run`, which has built everything that is used here. EMULATE is the command that
-# runs an image, with IMAGE where its path belongs. Exit status 0 when everything agreed.
+# run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...: energies, equations, motion and firmware once, for a first look at Whirl.
+# `make run` calls it after it has built everything. EMULATE is the command that runs an image, with IMAGE in place of its
+# path. Exit status 0 if everything agreed.
 set -eu
 
 whirl=$1 scenes=$2 firmware=$3
@@ -30,7 +30,7 @@ for scene in epicyclic_from_rest thomson_a; do
     "$whirl" run "$scene" --every 1ms --csv "$out/$scene.csv" --plot "$out/$scene.svg" >"$out/$scene.txt"
     "$whirl" run "$scene" --every 1ms --plot "$out/$scene.png" --quiet
     sed -n '1,2p' "$out/$scene.txt"
-    # the centre of mass must stay where it started; anything else is the method's error
+    # the centre of mass must stay at its start; the difference is the method's error
     tr -d '\r' <"$out/$scene.csv" | awk -F, '
         NR == 1 { for (i = 1; i <= NF; i++) if ($i == "x_cm") c = i; next }
         NR == 2 { start = $c }
@@ -69,7 +69,7 @@ row "epicyclic gear: centre of mass moves at most" "$(cat "$out/epicyclic_from_r
 row "Thomson's device: centre of mass at most" "$(cat "$out/thomson_a.spread") m in 10 s"
 row "epicyclic gear, PC and controller" "$(cat "$out/epicyclic_from_rest.same")"
 row "Thomson's device, PC and controller" "$(cat "$out/thomson_a.same")"
-# measured NAME, formula NAME: what the rig's report says of it
+# measured NAME, formula NAME: numbers of the rig's report
 measured() { sed -n '/^Measured/,/^Formula/s/^ *'"$1"'  *//p' "$out/rig.txt"; }
 formula() { sed -n '/^Formula/,$s/^ *'"$1"'  *//p' "$out/rig.txt"; }
 row "rig: speed, asked for $(formula speed)" "$(measured speed)"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# into_page.sh TABLES PAGE NAME: put the tables between the page's two marks, in place of what is there. The marks are
-# comments "NAME: begin" and "NAME: end".
+# into_page.sh TABLES PAGE NAME: replaces the text between two marks of the page by the tables. The marks are the comments
+# "NAME: begin" and "NAME: end".
 set -eu
 tables=$1
 page=$2

@@ -113,7 +113,7 @@ give_up() {
 }
 have apt-get || give_up "This is no Debian: these are the packages' names there."
 
-# What it comes to with all that these packages need themselves; fails when they are not in the package lists.
+# The total size with everything that these packages need; fails if the package lists lack them.
 size() {
     # shellcheck disable=SC2086 # $missing is a list of words
     LC_ALL=C apt-get install --no-install-recommends -o Debug::NoLocking=1 --print-uris $missing 2>/dev/null </dev/null |
@@ -142,5 +142,5 @@ install() { $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev
 size || { update && size; } || true
 echo "Installing them: $as_root${as_root:+ }$line"
 install || { update && install; } || { tail -n 5 "$log" >&2; give_up "Installing did not work."; }
-# Believe the tools, not the package manager.
+# The tools decide, not the package manager.
 DEPS_DRY_RUN=1 "$0" "$@" || give_up "Still missing after installing."

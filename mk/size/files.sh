@@ -33,7 +33,7 @@ else
         else { sub(/\.o$/, "", file); file = part[n - 1] "/" file }
         print $2, $3, file
     }' "$1" | while read -r at size file; do echo "$((at)) $((size)) $file"; done | sort -k 1,1n -k 2,2n | awk '
-    # What the next one begins within, or where it begins too, is not counted twice.
+    # A part that the next symbol overlaps is not counted twice.
     held != "" { bytes[held] += $1 < end ? $1 - begin : end - begin }
     { begin = $1; held = $3; end = begin + $2 }
     END {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# maps.sh WHIRL DOCS: the stability maps that docs/stability.md shows, DOCS/figures/map_*.svg: each is drawn by the command
-# that stands below it there, so that no map is of another run than it says.
+# maps.sh WHIRL DOCS: draws the stability maps of docs/stability.md, DOCS/figures/map_*.svg, each by the command printed
+# below it on the page, so that the two agree.
 set -eu
 whirl=${1:?usage: maps.sh WHIRL DOCS}
 docs=${2:?usage: maps.sh WHIRL DOCS}
