@@ -74,7 +74,6 @@ void chip_power_stays(void);
 unsigned chip_stores(void);
 /* Called after each store; NULL: no call. */
 extern void (*chip_stored)(void);
-/* The program has disabled interrupts. */
 bool chip_is_masked(void);
 
 uint64_t chip_now(void);

@@ -56,7 +56,6 @@ static inline void expect_edges(function_of_one *f, const edge *edges, unsigned 
 #define EXPECT_EDGES(f, edges, is_odd) \
     expect_edges(f, edges, sizeof(edges) / sizeof((edges)[0]), is_odd)
 
-/* -1 to 1. */
 static inline wh_real part(void) { return (wh_real)(int32_t)(scattered() >> 32) * WH_R(0x1p-31); }
 
 static inline wh_real any(void) {

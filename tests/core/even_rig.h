@@ -59,7 +59,6 @@ typedef struct even_rig {
 
 wh_rig_config even_config(void);
 
-/* Idle, at rest. */
 void even_start(even_rig *even);
 
 void even_step(even_rig *even);
@@ -78,7 +77,6 @@ void even_rest(even_rig *even);
 void even_arm(even_rig *even);
 void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
-/* Idle, or tripped and at rest. */
 bool even_is_over(const even_rig *even);
 
 /* Steps until a phase begins, or the rig is done. */
@@ -90,7 +88,6 @@ void even_reach(even_rig *even, wh_rig_phase phase);
 /* A whole run; checks that the motor is off at the end. */
 void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
-/* The run is finished without a trip. */
 bool even_is_done(const even_rig *even);
 
 #endif

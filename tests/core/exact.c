@@ -250,7 +250,6 @@ static void note(exact *e, unsigned events, double at_s, const double *impulse) 
     }
 }
 
-/* All events of one moment. Returns them. */
 static unsigned happen(exact *e, unsigned events, double *impulse) {
     const double zero[HAND_CONTACTS] = {0.0};
     const unsigned let_go = events & exact_those(e, WH_HOLD, WH_ACTIVE);

@@ -28,7 +28,6 @@ unsigned exact_forced(void);
 bool exact_is(unsigned k, wh_contact_kind kind);
 /* Contacts of a kind in a mode, as bits. Crossings have no mode. */
 unsigned exact_those(const exact *e, wh_contact_kind kind, int mode);
-/* Sets this mode for those in `bits`. */
 void exact_give(exact *e, unsigned bits, int mode);
 /* All contacts that keep J_k q' at zero, as bits. */
 unsigned exact_holding(const exact *e);
@@ -45,7 +44,6 @@ bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double
 /* Finds the case that meets the conditions and changes x and the members' lambda[]. Returns the contacts with J x beyond
  * target, as bits. */
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda);
-/* Are the members' rows dependent? */
 bool exact_repeat(const exact *e, unsigned members);
 
 /* Accelerations and forces in the current modes. A contact that would have to pull does pull. */

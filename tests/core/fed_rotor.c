@@ -22,7 +22,6 @@ void fed_rotor_standard(fed_rotor *fed, uint64_t seed) {
     fed->rotor.ticks = UINT32_MAX - UINT32_C(2500000); /* the timer wraps on the way */
 }
 
-/* The voltage for this speed. */
 static wh_real voltage_of(const rotor_kind *kind, wh_real speed_radps) {
     return (kind->drag_Nms * speed_radps + kind->friction_Nm) / kind->stall_Nm +
            speed_radps / kind->no_load_radps;

@@ -47,7 +47,6 @@ void plant_begin(on_plant *on, float target_rpm);
 void plant_go_on_until(on_plant *on, wh_rig_phase phase);
 void plant_go_on_to_the_end(on_plant *on);
 
-/* The run is finished without a trip. */
 bool plant_is_done(const on_plant *on);
 
 /* The rotor ends at rest, hanging, with the motor off. */

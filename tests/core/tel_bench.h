@@ -60,7 +60,6 @@ void tel_hear_frame(const wire_frame *frame);
 /* Makes this step's input: one sample a step, evenly, or now and then two, none, a late or an invalid one. Also pulses. */
 void tel_draw_seen(bool evenly);
 
-/* Steps the station with this step's input. */
 void tel_step(void);
 
 /* A control period of the firmware, in which the line takes this many bytes. */

@@ -9,7 +9,6 @@ static wh_contact_work w;
 static wh_contact_state s;
 static wh_ledger_work books;
 
-/* Total energy and both momenta. */
 static void level_of(wh_real *level) {
     const wh_real *rate = s.real + 2;
     level[0] = WH_R(0.0);

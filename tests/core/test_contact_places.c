@@ -115,7 +115,6 @@ static bool slips(const wh_contact_work *w, unsigned k) {
     return c->kind == WH_HOLD && c->pin < 0 && w->mode[k] == WH_ACTIVE;
 }
 
-/* The constraint error of contact k. */
 static wh_real drift_of(const wh_contact_work *w, unsigned k, const wh_contact_state *from,
                         const wh_contact_state *to) {
     const wh_contact *c = &bench_now.contact[k];

@@ -68,7 +68,6 @@ static bool meets_its_conditions(const wh_contact_work *w, const uint8_t *member
     return giving == 0;
 }
 
-/* One to three contacts in any order. */
 static unsigned draw_members(uint64_t *seed, uint8_t *member) {
     const unsigned first = (unsigned)draw_bits(seed) % CONTACTS;
     const unsigned step = 1U + (unsigned)draw_bits(seed) % 2U;

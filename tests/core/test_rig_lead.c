@@ -13,7 +13,6 @@ static rotor_kind kind;
 static rotor_state rotor;
 static wh_real fastest_radps; /* since the last reset */
 
-/* Random inertias, mostly without a brake. */
 static void draw_rotor(uint64_t *seed) {
     kind = rotor_nominal();
     kind.inertia_kgm2 *= draw_broken(seed, 1, 6);
@@ -51,7 +50,6 @@ static void go_on(wh_real drive, unsigned steps) {
 
 #define AS_ASKED WH_R(-1.0)
 
-/* Turns settled at this speed. */
 static void turns_at(wh_real speed_radps) {
     const wh_real torque_Nm = kind.drag_Nms * speed_radps + kind.friction_Nm;
     const wh_real volts =

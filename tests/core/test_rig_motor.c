@@ -37,7 +37,6 @@ static void own(wh_rig_config *c) {
     c->observer.scene = &rig_observed;
 }
 
-/* Enters the settings. False: refused. */
 static bool is_entered(const wh_rig_motor *typed) {
     bool fine = true;
     const wh_conf_id ids[] = {WH_CONF_no_load_speed, WH_CONF_stall_torque, WH_CONF_rated_voltage};
@@ -77,7 +76,6 @@ static void step(void) {
     (void)wh_rig_step(&config, &rig, &inputs);
 }
 
-/* A whole run, or its refusal. */
 static wh_refusal run(wh_real target_rpm) {
     rotor = (rotor_state){.ticks = (uint32_t)draw_bits(&seed) * 2U, .seed = draw_bits(&seed)};
     wh_rig_start(&config, &rig, rotor.ticks, NULL);

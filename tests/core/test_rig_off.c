@@ -124,7 +124,6 @@ static void steps_on(unsigned steps) {
     }
 }
 
-/* At rest, idle: any rotor, any allowed supply. */
 static void draw_bench(void) {
     b = (bench){.config = wh_rig_standard, .kind = rotor_nominal(), .dead = 2U};
     b.config.measure.cell = (wh_cell_config){.newton_per_count = WH_R(1.0) / COUNTS_PER_N,

@@ -30,7 +30,6 @@ typedef struct flight {
     wh_state state;
 } flight;
 
-/* Sets the energy's drift. */
 static void set_out(flight *f, wh_real first, wh_real second, wh_real drift, bool compensated) {
     *f = (flight){.real = {WH_R(1.0), WH_R(2.0), first, second}};
     f->ledger[2] = WH_R(0.5) * (first * first + second * second) - drift;

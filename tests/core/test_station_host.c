@@ -23,7 +23,6 @@ static void period(void) {
     wh_station_step(&station, &even.rig);
 }
 
-/* Sends a line, which must be accepted. */
 static void obey(const char *line) {
     char heard[WH_STATION_OUT_BYTES];
     type(line);

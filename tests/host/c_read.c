@@ -176,7 +176,6 @@ static void enter(name_list *l, c_word w, bool is_parameter) {
 
 static bool is_name(c_word w) { return isalpha((unsigned char)*w.at) || *w.at == '_'; }
 
-/* Keywords, and names from the core's headers. */
 static bool is_known(c_word w) {
     static const char *const words[] = {
         "const", "static", "inline",  "void",     "bool", "int",    "for",     "return",

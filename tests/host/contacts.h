@@ -15,7 +15,6 @@ double contacts_error(const motion *m, const char *scene, const char *time);
 uint64_t contacts_events(const motion *m);
 uint64_t contacts_overruns(const motion *m);
 
-/* Steps until the scene's end. */
 uint64_t contacts_steps(const motion *m);
 
 #endif

@@ -40,14 +40,12 @@ double drawn_whole(uint64_t *seed, int least, int most);
 drawn_contact *drawn_add(drawn *b, char kind);
 /* A nonzero integer row; every third has one coordinate. */
 void drawn_row(const drawn *b, uint64_t *seed, double *row);
-/* A row exactly orthogonal to the rates. */
 void drawn_row_at_rest(const drawn *b, uint64_t *seed, double *row);
 
 /* J_k x; M^-1 y. */
 double drawn_along(const drawn *b, int k, const double *x);
 void drawn_inverse(const drawn *b, const double *y, double *x);
 
-/* Starts its scene with the energy balance. */
 void drawn_open(motion *m, const drawn *b, const engine_kind *kind);
 
 /* Solves for x (rates or accelerations) and lambda in x = from + M^-1 J^T lambda. A hold has J x = target. A stop has

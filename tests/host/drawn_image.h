@@ -23,7 +23,6 @@ void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix);
 
 /* The name of a column in text[40]: "theta'" of a component, "M" of an input after them. */
 const char *drawn_image_name(const drawn_image *d, int column, char *text);
-/* Its SI unit. */
 const char *drawn_image_unit(const drawn_image *d, int column);
 
 #endif

@@ -80,7 +80,6 @@ const char *drawn_scene_statement(int line);
 /* "theta''" of a component, in text[40]. */
 const char *drawn_scene_name(const drawn_scene *d, component c, char *text);
 
-/* Names of the lists, by role. */
 extern const char *const drawn_scene_roles[IMAGE_ROLES];
 
 /* Number of reals in the memory of the scene's state, without angles: states, carries, inputs, contacts and accounts. */

@@ -35,7 +35,6 @@ extern lockstep_wish talk_wish;
 void talk_die(dice with); /* generator of all draws */
 unsigned talk_one_of(unsigned count);
 
-/* Draws a new talk_drawn: a hello and turns. */
 void talk_draw(void);
 
 /* Appends frames: orders of turn i, preceded by the values to be remembered. */

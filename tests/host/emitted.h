@@ -16,7 +16,6 @@ typedef struct emitted_c {
 extern emitted_c emitted;
 extern dice emitted_die;
 
-/* Calls `check` for each random scene. */
 void each_emitted(void (*check)(const image *im));
 
 /* Does the code contain these words in this order? */

@@ -28,7 +28,6 @@ bool rig_is_idle(const float *note);
 bool rig_may_drive(const float *note);
 const char *rig_tripped_when(void); /* NOTE=VALUE */
 const char *rig_trip_word(int trip);
-/* Speed limit of the shaft. */
 double rig_limit_rpm(void);
 double rig_nominal_rpm(void);
 /* If the drive ignores the voltage in a run at target_rpm: the greatest speed allowed before the enable is off. */
@@ -190,7 +189,6 @@ typedef struct judge {
 
 /* *until_s: when to end the run. Some time after a trip nothing more can happen, so *until_s becomes the present time. */
 tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
-/* Completes the verdict after the run. */
 void judge_end(judge *j, const lockstep_report *report);
 
 /* --- summary (faults_table.c) ------------------------------------------------------------------------------------- */

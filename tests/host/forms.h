@@ -8,7 +8,6 @@ enum { FORM_SYMBOLS = 7, FORM_PRIMES = 3 };
 
 extern const symbol form_symbols[FORM_SYMBOLS];
 
-/* Index of a symbol in form_symbols. */
 int form_place(const symbol *sym);
 
 /* A random expression of finite numbers and at most 12 terms. */

@@ -4,7 +4,6 @@
 
 static int most(int a, int b) { return a > b ? a : b; }
 
-/* Pairs of the first `variables`. */
 static int pairs(int variables) { return variables * (variables + 1) / 2; }
 
 long double jet_curve(const jet *a, int i, int j) {

@@ -49,7 +49,6 @@ linkage linkage_draw(uint64_t *seed);
 /* The same with y for -y: angles and torques change sign, displacements along rails do not. */
 linkage linkage_mirrored(const linkage *of);
 
-/* Springs, damping, drag and drives. */
 typedef enum linkage_forces {
     LINKAGE_BARE,        /* without them */
     LINKAGE_INSIDE,      /* in the mechanism */
@@ -87,7 +86,6 @@ void linkage_evaluate(const linkage *of, const long double *q, const long double
 long double linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
                           long double *x);
 
-/* Values, then rates. */
 typedef struct linkage_motion {
     long double state[2 * LINKAGE_BODIES];
     long double least; /* the least result of linkage_solve() on the way */

@@ -63,7 +63,6 @@ static placed place_body(const linkage_body *b, const placed *parent, jet q, jet
     return made;
 }
 
-/* T - V, and F. */
 typedef struct sums {
     jet lagrangian;
     jet dissipation;

@@ -62,7 +62,6 @@ double made_run_stored(const double *s) {
 
 double made_run_energy(const double *s) { return made_run_kinetic(s) + made_run_stored(s); }
 
-/* Input and loss. */
 double made_run_power(const double *s, int which) {
     return which == 0 ? made_run.push * s[VY] : made_run.damping * s[VX] * s[VX];
 }

@@ -34,7 +34,6 @@ typedef struct session_said {
 /* The first makes an empty folder for the file, the second deletes it. */
 void sessions_open(void);
 void sessions_close(void);
-/* The file's name; the second truncates the file. */
 const char *sessions_path(void);
 void sessions_cut(size_t length);
 session_said sessions_sit(const made_sweep *m, session_settings settings);

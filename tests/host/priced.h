@@ -30,7 +30,6 @@ extern const char *const priced_spring[1];
 enum { PRICED_SCENES = 3 };
 extern const char *const priced_scenes[PRICED_SCENES];
 
-/* Opens scene `s` of each text. */
 void priced_open(priced *p, const char *const *texts, int points);
 /* Begins trials of these with their references. Returns the result of trial_begin(). */
 bool priced_begin(priced *p, const char *board, whole_ratio spacing, int count, const char *of);

@@ -19,7 +19,6 @@ void ranges_of(const char *which, stepping how, double until_s, double every_s, 
 
 double range_width(const range *r);
 
-/* Largest distance from the value at the start. */
 double range_drift(const range *r);
 
 /* Fails the test unless least <= got <= most; prints a line either way. */

@@ -69,7 +69,6 @@ static void draw_pendulum(dice *d, rated *r) {
              n[0], n[1], n[2], n[3], r->start[0], r->start[1]);
 }
 
-/* A planet in polar coordinates. */
 static void orbit_slope(const double *n, const long double *x, long double *slope) {
     slope[0] = x[2];
     slope[1] = x[3];

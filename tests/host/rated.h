@@ -24,7 +24,6 @@ typedef struct rated {
     linear linear; /* if slope is NULL */
 } rated;
 
-/* Draws every kind, method and number format. */
 void rated_draw(dice *d, rated *r);
 /* The motion at multiples of `spacing_s`: row[(records + 1)][states]; to be freed. */
 long double *rated_motion(const rated *r, double spacing_s, int records);

@@ -60,7 +60,6 @@ static double kinetic_J(const bars *b, const motion *m) {
     return sum;
 }
 
-/* Gap of the linkage: along, and across. */
 static double gap_m(const bars *b, const motion *m, int across) {
     static const char *const names[] = {"a", "b", "c"};
     double sum = -b->at_m[across];
@@ -71,7 +70,6 @@ static double gap_m(const bars *b, const motion *m, int across) {
     return sum;
 }
 
-/* The report on the start; to be freed. */
 static char *said_of(motion *m, const char *text) {
     char *told = NULL;
     size_t size = 0;

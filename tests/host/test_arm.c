@@ -446,7 +446,6 @@ static void expect(bool holds, const char *what, double figure, const char *text
 
 /* --- accelerations ------------------------------------------------------------------------------------------- */
 
-/* Index of unknown q0, q1, ... */
 static int unknown_of(const derived *d, int k) {
     char name[8];
     snprintf(name, sizeof name, "q%d", k);

@@ -54,7 +54,6 @@ static char *full_report_on(const char *file, const char *text, size_t length, b
     return report;
 }
 
-/* The language's messages without derivation. */
 static char *report_on(const char *file, const char *text, size_t length, int *errors) {
     return full_report_on(file, text, length, false, errors);
 }

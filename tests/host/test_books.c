@@ -213,7 +213,6 @@ static gauge random_gauge(uint64_t *seed) {
     return g;
 }
 
-/* dG/da and dG/db. */
 static void slopes(const gauge *g, double a, double b, double slope[2]) {
     slope[0] = slope[1] = 0.0;
     for (int k = 0; k < 3; k++) {

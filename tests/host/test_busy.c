@@ -71,7 +71,6 @@ static bool step_said(const said *what, char word[40], bool *is_float) {
     return hint != NULL && sscanf(hint, "\nhint: --step %39s", word) == 1;
 }
 
-/* Largest number of bounces, perhaps thousands. */
 static double bounces_of(const rattle *r) {
     return r->kind == BALL ? fabs(r->speed_mps) * r->step_s * r->steps / r->number[0] : 0.0;
 }

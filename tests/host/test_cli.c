@@ -472,7 +472,6 @@ static const char *right_value(const char *name, const said *hashes) {
     return value;
 }
 
-/* The record with one field changed. */
 static void write_record(const said *hashes, const char *other, const char *value) {
     size_t length = (size_t)snprintf(record, ROOM, WH_LIGHT_BEGIN "\n");
     for (int i = 0; i < LIGHT_FIELDS; i++) {

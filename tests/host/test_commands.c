@@ -8,7 +8,6 @@
 #include "host/cli/load.h"
 #include "host/cli/options.h"
 
-/* Captures standard error until said() returns it. */
 static FILE *listening;
 static int before;
 

@@ -670,7 +670,6 @@ static bool draw_mixed(uint64_t *seed, drawn *b) {
     return true;
 }
 
-/* Violation of contact k's conditions at any time. */
 static double broken(const motion *m, const drawn *b, int k, double time_s) {
     const drawn_contact *of = &b->contact[k];
     double total[64] = {0.0};

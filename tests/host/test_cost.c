@@ -65,7 +65,6 @@ TEST(cost, prices_are_whole) {
     TEST_ASSERT_GREATER_THAN_INT(30 * cost_board_count, each_builtin_scene(check_whole));
 }
 
-/* Predicted instructions of a step with these settings. */
 static double instructions(image *im, const cost_board *board, wh_method method, bool compensated) {
     const image_settings before = im->settings;
     im->settings.method = method;

@@ -279,7 +279,6 @@ static bool keeps_its_place(const drawn_column *c) {
     return 1e9 * moved <= fmax(size, c->one) || 1e3 * moved <= c->alike;
 }
 
-/* Definition from horizon.h. */
 static horizon_column judged(const drawn_column *all, int k, double tolerance,
                              const step_doubling *t) {
     const double left_out = t->left_out;
@@ -557,7 +556,6 @@ TEST(horizon, words_and_rows) {
 
 #define TURN 6.28318530717958648
 
-/* A mass of 1 kg. */
 typedef struct two_springs {
     double soft; /* N/m */
     double hard; /* additional N/m beyond gap */

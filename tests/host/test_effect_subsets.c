@@ -45,7 +45,6 @@ typedef struct state {
     int slides; /* sign of y' under friction; 0: sticking or without friction */
 } state;
 
-/* A run: its effects, and those that acted. */
 typedef struct world {
     const carts *of;
     bool with[KINDS];
@@ -180,7 +179,6 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
 
 /* --- random cases --------------------------------------------------------------------------------------- */
 
-/* A number of three digits. */
 static double drawn(dice *d, double low, double high, bool is_log) {
     const double value = dice_between(d, low, high);
     char text[32];

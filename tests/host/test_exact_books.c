@@ -11,7 +11,6 @@
 
 /* === exact books ============================================================================== */
 
-/* Two driven, damped masses between springs. */
 static char *made_up(uint64_t *seed) {
     double r[8];
     for (int i = 0; i < 8; i++) {

@@ -230,7 +230,6 @@ TEST(far_origin, coarse_steps_are_told) {
     model_drop();
 }
 
-/* Final value of a run with two records. */
 static double end_of(const said *what) {
     const char *last = what->out;
     for (const char *line = what->out; (line = strchr(line, '\n')) != NULL && line[1] != '\0';) {

@@ -89,7 +89,6 @@ static motion_rows rows_of(const slope_case *c, const char *text, double far_m) 
     return m;
 }
 
-/* Largest error relative to a column's range. */
 static double off_by(const motion_rows *m, const motion_rows *reference) {
     double worst = 0.0;
     for (int k = 1; k < reference->columns; k++) {

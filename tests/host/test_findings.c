@@ -471,7 +471,6 @@ SUITE(small_told) { die = dice_of("small told", 90); }
 /* Output of a whole sweep: its rows; the points that failed, overran their events, turned too slowly or cannot be
  * trusted; and the first of each. The grids have known results at every point. */
 
-/* Begin of the point's row, after the header. */
 static size_t row_at(const char *rows, uint64_t row) {
     const char *at = rows;
     for (uint64_t i = 0; i <= row; i++) {

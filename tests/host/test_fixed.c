@@ -327,7 +327,6 @@ TEST(fixed_runs, made_up_mechanisms) {
     }
 }
 
-/* Message of fixed_plan_make() for the scene. */
 static void check_refused(const char *text, const char *why) {
     char *report;
     size_t length;

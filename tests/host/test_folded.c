@@ -563,7 +563,6 @@ static void draw_folded_numbers(dice *d, drawn *w) {
     TEST_ASSERT_EQUAL_INT(0, fclose(out));
 }
 
-/* Error relative to the range, at the end. */
 static double off_of(const drawn *w) {
     motion m;
     motion_open_text(&m, w->text, IN_DOUBLE);

@@ -867,7 +867,6 @@ TEST(taylor, in_a_box) {
 
 /* --- closed forms ------------------------------------------------------------------------------------------*/
 
-/* x' = f(x) of one variable. */
 typedef struct closed {
     graph *graph;
     int rate;

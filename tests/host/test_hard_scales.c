@@ -15,7 +15,6 @@ typedef struct moved {
     double value[2 * LINKAGE_BODIES]; /* values, then rates; in the units before scaling */
 } moved;
 
-/* The new units, in the old ones. */
 typedef struct units {
     double mass, length, time;
 } units;

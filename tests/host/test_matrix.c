@@ -317,7 +317,6 @@ static bool has_offset(void) {
     return has;
 }
 
-/* Ten digits are printed. */
 static const char *read_entry(const char *at, int i, int k) {
     const double wanted = drawn.entry[i * drawn.im.matrix.columns + k];
     double number;

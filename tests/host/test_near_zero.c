@@ -210,7 +210,6 @@ static double closed_form(const tiny_case *c, double time_s) {
            (cos(phase) + c->damping / way * sin(phase));
 }
 
-/* Largest error relative to the initial size. */
 static double off_by(const tiny_case *c, const char *csv) {
     double most = 0.0;
     double value[2]; /* the time, and y */

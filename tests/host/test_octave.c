@@ -382,7 +382,6 @@ typedef struct square {
     double at[UNKNOWNS][UNKNOWNS];
 } square;
 
-/* Gauss-Jordan with pivoting. False: singular. */
 static bool invert(square a, square *inverse) {
     const int n = a.n;
     *inverse = (square){.n = n};

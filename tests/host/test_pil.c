@@ -156,7 +156,6 @@ static void say(rig *r, const char *line) {
     r->junk[0] = '\0';
 }
 
-/* As in docs/console.md. */
 static const char *answer_of(const rig *r, const char *line) {
     static const char *const answers[][2] = {
         {"id\n", "OK program=rig board=none dialogue=1"},

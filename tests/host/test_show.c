@@ -178,7 +178,6 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     return good ? top / bottom : (double)NAN; /* it has products of these */
 }
 
-/* The text between \begin{align} and \end{align}. */
 static void check_align(const derived *d) {
     char *text = printed(d, LATEX);
     int blocks = 0;

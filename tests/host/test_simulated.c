@@ -50,7 +50,6 @@ static derived scene_of(const char *text) {
 
 static unsigned fails; /* findings of the last run, as bits */
 
-/* Its messages; static. */
 static const char *simulated(const image *im, const simulation_settings *s,
                              simulation_result wanted) {
     simulation_trust trust;

@@ -68,7 +68,6 @@ static void write_chain(const chain *c, char text[static TEXT]) {
     snprintf(text + at, TEXT - (size_t)at, "\nstep 1 [ms]\nuntil 1e6 [s]\n}\n");
 }
 
-/* Kinetic and potential energy above the hanging rest. */
 static double energy_J(const chain *c, const motion *m) {
     const double x = motion_value(m, "s");
     double vx = motion_value(m, "s'");
@@ -404,7 +403,6 @@ static double amplitude_m(const beside *b) {
     return sqrt(b->start_m * b->start_m + other_m * other_m);
 }
 
-/* Largest relative change of the slow rate. */
 static double slow_off(const beside *b, stepping how, uint64_t steps) {
     char text[900];
     motion m;

@@ -69,7 +69,6 @@ static void each_list(unsigned cases, void (*check)(scene_list *l)) {
 static void check_list_counts(scene_list *l) { check_counts(&l->list); }
 TEST(tape_used, operations_are_counted) { each_list(200, check_list_counts); }
 
-/* Does operation i depend on operation `by`? */
 static bool leads_from(const op_list *t, int i, int by) {
     int operand[2];
     bool leads = i == by;

@@ -91,7 +91,6 @@ static int on_an_arm(dice *d, char *to) {
         of(d, 0.2, 0.6), of(d, 0, 2), of(d, 2, 3), of(d, -3, 3), of(d, -4, 4));
 }
 
-/* Thomson's device with discs of any size. */
 static int planet(dice *d, char *to) {
     return snprintf(to, TEXT,
                     "mechanism drawn \"planet gear with a disc on its rim\"\ncoordinate a [rad]\n"

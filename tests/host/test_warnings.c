@@ -80,7 +80,6 @@ static void write(made_up *m, double step_s, double until_s) {
              m->rate, m->kind == PENDULUM ? "rad/s" : "m/s", step_s, until_s);
 }
 
-/* The energy above rest. */
 static double energy_J(const made_up *m, const motion *at) {
     double sum_J = 0.0;
     double before = 0.0;

@@ -43,7 +43,6 @@ void emulated_say(emulated *e, const char *words);
 /* The console's next line without its end. False after `ms` of the emulator's processor time, or 20 times that of the clock. */
 bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
 
-/* Waits `ms` and reads what arrives. */
 void emulated_wait(emulated *e, unsigned ms);
 
 uint32_t emulated_load(emulated *e, uint32_t address);

@@ -25,7 +25,6 @@ bool answers(const char *order, const char *begin, char *line, unsigned room);
 /* The same for a line that may be lost because the console does not listen yet: repeats it every few seconds. */
 bool answers_at_last(const char *order, const char *begin, char *line, unsigned room);
 
-/* Logged stores, by number. */
 const emulated_store_seen *seen_at(uint64_t number);
 bool is(const emulated_store_seen *seen, const char *device, uint32_t offset);
 bool drives(const emulated_store_seen *seen); /* the motor */

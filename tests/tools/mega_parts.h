@@ -12,7 +12,6 @@
 #define MEGA_TIMERS 4U                              /* of 16 bits: 1, 3, 4, 5 */
 extern const uint16_t mega_timer_base[MEGA_TIMERS]; /* the address of TCCRnA */
 
-/* Effects of the next instruction. */
 typedef struct mega_next {
     uint16_t captured[MEGA_TIMERS]; /* ICRn, */
     bool writable[MEGA_TIMERS];     /* and whether the CPU can write it */
