@@ -69,7 +69,7 @@ chip_end chip_try_with(void (*what)(void *), void *with);
 void chip_may_take(uint64_t units); /* limit of chip_try() from its start (default 5 s) */
 /* Power fails in place of a later store: 0 means the next store, 1 the one after it. */
 void chip_power_off_after(unsigned stores);
-void chip_power_off_at(uint64_t when); /* or at a time */
+void chip_power_off_at(uint64_t when); /* the same at a time */
 void chip_power_stays(void);
 unsigned chip_stores(void);
 /* Called after each store; NULL: no call. */

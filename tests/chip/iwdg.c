@@ -12,7 +12,7 @@ static struct {
     uint32_t pr_used, rlr_used; /* after the update */
     uint64_t pr_at, rlr_at;
     uint64_t bites_at;
-    uint64_t held_at; /* by a debugger */
+    uint64_t held_at; /* when a debugger stopped it */
     bool open, runs;
 } w;
 

@@ -28,7 +28,7 @@ enum {
 
 typedef struct timer {
     uint32_t r[21];
-    uint32_t psc, arr; /* in use */
+    uint32_t psc, arr; /* the values in use */
     uint64_t count, base;
     uint64_t most; /* the largest count */
     unsigned interrupt;

@@ -57,7 +57,7 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)rate;
     (void)input;
     for (unsigned k = 0; k < HAND_CONTACTS;
-         k++) { /* with the values after them: see hand_start() */
+         k++) { /* also the invalid contacts after the last one (hand_start()) */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;

@@ -39,7 +39,7 @@ typedef struct tel_bench {
     wh_tel tel;
     wh_step_inputs seen; /* in the last step */
     wire heard;
-    uint64_t seed; /* of the random draws */
+    uint64_t seed; /* seed of the random draws */
     uint32_t cell_ticks;
     tel_truth samples;
     tel_truth pulses;

@@ -13,7 +13,7 @@ static wh_contact_attempt a;
 
 typedef struct drawn_stop {
     wh_real gap[2];  /* at the begin and at the end */
-    wh_real rate[2]; /* the same */
+    wh_real rate[2]; /* rates at the begin and at the end */
 } drawn_stop;
 
 /* Stops on x0 from below, on x1, and on x0 from above. */

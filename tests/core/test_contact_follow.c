@@ -154,7 +154,7 @@ TEST(contact_follow, accelerations_with_their_contacts) {
 typedef struct revised {
     bool stop_moved, hold_moved, keeps;
     int8_t stop_mode;
-    int stop_pin;     /* 0, or -1: put back like a general row */
+    int stop_pin;     /* coordinate of the stop's pin; -1: none */
     int pin;          /* of the hold; -1: it slips */
     int8_t direction; /* this kind */
     wh_real gap;      /* of the stop, x0 >= 0.25 */

@@ -30,7 +30,7 @@ typedef struct made_up {
     wh_real spoilt_N;      /* have this offset, */
     wh_load_status status; /* have this status, */
     bool frozen;           /* or repeat the first of them */
-    unsigned slower_turn;  /* from this turn on each takes a 40th longer */
+    unsigned slower_turn;  /* from this turn on, each turn takes a 40th longer */
     unsigned bumpy_turn;   /* from this turn on each has a bump of 20 N, five samples wide */
 } made_up;
 

@@ -154,7 +154,7 @@ TEST(rig_carriage, swing) {
             TEST_ASSERT_FLOAT_WITHIN(
                 1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),
                 (float)(config.measure.rotor.inertia_kgm2 - WH_RIG_INERTIA_KGM2));
-            /* a tenth above the expectation, at some <w^2>: the carriage moves a tenth further */
+            /* if the force is a tenth above the expected one, the carriage moves a tenth further */
             const wh_measured force = {.amplitude_N = WH_R(1.1) * part * moment * WH_R(900.0),
                                        .expected_N = part * moment * WH_R(900.0)};
             const wh_real due = WH_R(1.1) * moment * (WH_R(1.0) - part) / WH_RIG_ECCENTRIC_KG;

@@ -172,7 +172,7 @@ TEST(rig_observer, marks_make_it_valid) {
     fed_rotor_count(&fed);
     fed_rotor_run(&fed, WH_R(330.0), WH_R(0.7));
     const uint32_t missing = fed.steps - fed.valid;
-    TEST_ASSERT_TRUE(missing > 60U && missing < 300U); /* of 91 steps a turn */
+    TEST_ASSERT_TRUE(missing > 60U && missing < 300U); /* a turn has 91 steps */
     TEST_ASSERT_TRUE(fed.observer.valid);
     check_below(DEG, fed.worst_rad);
 }

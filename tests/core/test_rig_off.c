@@ -28,9 +28,9 @@ typedef struct bench {
     /* The rotor's real turns while the motor must not drive: */
     unsigned step;
     unsigned begun;   /* start step of the current turn */
-    unsigned turns;   /* since the motor went off, */
-    unsigned powered; /* and since the enable last changed */
-    wh_real before_s; /* of the last two */
+    unsigned turns;   /* turns since the motor went off */
+    unsigned powered; /* turns since the enable last changed */
+    wh_real before_s; /* durations of the last two turns */
     wh_real last_s;
     unsigned rises;
     wh_real first_s; /* the turn before they rose */

@@ -183,9 +183,9 @@ static void expect_centre_of_mass(const wh_scene *scene, wh_real centre, wh_real
     TEST_ASSERT_TRUE_MESSAGE(off <= (WH_DOUBLE ? WH_R(1e-8) : in_float), scene->name);
 }
 
-/* To the end, 10 s (1 s on a slow board), chaotic or not. Double: the bound of every scene without outside forces. Float: X'
- * (below 8 m/s, 16 in set B) walks and is integrated. For set B over 24 torques from 1.5 to 2.35 N m the RMS drift is 5.3e-4
- * and the largest 1.2e-3, for either solver. */
+/* Runs to the end, 10 s (1 s on a slow board), chaotic or not. In double, the bound is that of every scene without outside
+ * forces. In float, the error of X' (below 8 m/s, 16 in set B) is a random walk, and X integrates it. For set B over 24
+ * torques from 1.5 to 2.35 N m the RMS drift is 5.3e-4 and the largest 1.2e-3, for either solver. */
 TEST(scenes, centre_of_mass_of_thomson_device) {
     expect_centre_of_mass(&thomson_a, WH_R(0.6), WH_R(2e-4));
     expect_centre_of_mass(&thomson_b, WH_R(0.5), WH_R(1.2e-3));

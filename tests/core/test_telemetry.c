@@ -357,7 +357,7 @@ TEST(telemetry_ring, the_ring_has_what_was) {
         TEST_ASSERT_TRUE(bench.tel.capture.state == WH_CAPTURE_FULL);
         TEST_ASSERT_TRUE(by_pulse || bench.tel.capture.count == (wait < 96U ? wait + 96U : 192U));
         check_read(at, by_pulse);
-        check_read(at, by_pulse); /* it stays */
+        check_read(at, by_pulse); /* reading does not empty the record */
     }
 }
 

@@ -21,8 +21,8 @@ typedef struct wire_frame {
 typedef struct wire {
     uint8_t chunk[WIRE_CHUNK]; /* since the last zero */
     unsigned count;
-    bool framed;               /* not text, */
-    bool text_next;            /* or text */
+    bool framed;               /* inside a frame */
+    bool text_next;            /* text follows */
     uint8_t whole[WIRE_CHUNK]; /* the last frame, decoded */
     char text[WIRE_TEXT];
     unsigned text_count;

@@ -65,8 +65,8 @@ typedef struct campaign_case {
     unsigned stage;
     uint32_t seed; /* of this run */
     double target_rpm;
-    bool breaks;      /* there is a fault as well as the noise, */
-    bool from_start;  /* and from the start */
+    bool breaks;      /* there is a fault besides the noise */
+    bool from_start;  /* the fault acts from the start */
     bool drives;      /* the plant drives more than the controller asks for */
     bool calibration; /* only calibration can find it: an error of this size is not a lie */
     bool runs_away;   /* the drive ignores the voltage */

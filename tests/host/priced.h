@@ -31,7 +31,7 @@ enum { PRICED_SCENES = 3 };
 extern const char *const priced_scenes[PRICED_SCENES];
 
 void priced_open(priced *p, const char *const *texts, int points);
-/* Begins trials of these with their references. Returns the result of trial_begin(). */
+/* Begins trials of these settings' scenes with their references. Returns the result of trial_begin(). */
 bool priced_begin(priced *p, const char *board, whole_ratio spacing, int count, const char *of);
 void priced_close(priced *p);
 /* The image of a place; to be freed. */

@@ -18,7 +18,7 @@
 typedef struct measured {
     bool busy;
     double off;       /* at every step, relative to the range */
-    double looked_at; /* at 32 of them */
+    double looked_at; /* the error at 32 steps, relative to the range */
 } measured;
 
 static measured run_beside(const rattle *of, const char *text, double step_s, bool is_float) {

@@ -409,8 +409,8 @@ TEST(folded, what_is_nearly_the_same) {
 
 /* The soft spring is `k`, or the number in the last column is chosen so that the formula of K yields k. */
 typedef struct maker {
-    const char *numbers; /* parameters on the way, */
-    const char *soft;    /* and their spring */
+    const char *numbers; /* parameters that lead to K */
+    const char *soft;    /* formula of the soft spring K */
     enum { OF_K, OF_ANGLE, OF_EXPONENT, OF_ROOT, OF_SATURATION, OF_LIMIT } by;
 } maker;
 

@@ -197,7 +197,7 @@ static void make_unequal(linkage *of, double decades, dice *d) {
         const double factor = pow(10.0, decades * ((double)dice_one_of(d, 3) - 1.0));
         of->body[i].mass_kg *= factor;
         of->body[i].inertia_kgm2 *= factor;
-        of->body[i].stiffness *= factor; /* and its support */
+        of->body[i].stiffness *= factor;
         of->body[i].damping *= factor;
         of->body[i].drag_Nspm *= factor;
         of->body[i].drive *= factor;

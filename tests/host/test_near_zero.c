@@ -185,7 +185,8 @@ typedef struct tiny_case {
 
 static tiny_case draw(dice *d, unsigned i) {
     tiny_case c = {.law = laws[i % LAWS]};
-    const double part = pow(10.0, dice_between(d, -17.5, -7.0)); /* relative to the length */
+    /* the start relative to the length */
+    const double part = pow(10.0, dice_between(d, -17.5, -7.0));
     c.start_m = pow(10.0, dice_between(d, -15.5, -7.5)) * (dice_one_of(d, 2) == 0 ? 1.0 : -1.0);
     c.length_m = fabs(c.start_m) / part;
     c.swing_radps = pow(10.0, dice_between(d, 0.0, 2.0));

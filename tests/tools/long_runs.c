@@ -83,7 +83,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
     const double begin_m = of->rates ? centre_m(&m) : 0.0;
     uint64_t end = 1000;
     int at = 0;
-    const uint64_t go = 37; /* not a fraction of the period */
+    const uint64_t go = 37; /* not a divisor of the period */
     for (uint64_t k = 0; k + go <= steps;) {
         if (motion_step(&m, go) != WH_OK) {
             printf("%-18s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);
