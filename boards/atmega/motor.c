@@ -51,11 +51,11 @@ static uint16_t parts_of(float volts) {
 
 unsigned hal_motor_start(void) {
     const unsigned status = hal_motor_status();
-    const uint8_t before = atmega_hold(); /* an off that comes now takes effect after this */
+    const uint8_t before = atmega_hold(); /* a hal_motor_off() from now on waits */
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        set_up_timer(); /* set up again, because an off may have interrupted a change of voltage */
+        set_up_timer(); /* again, because a hal_motor_off() may have interrupted a change */
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }

@@ -1,5 +1,6 @@
-/* watchdog.c: the chip's watchdog (DS 12.4), which resets it; in a reset pins float, and the drive is off. Its
- * oscillator has 128 kHz, within 15 %: it never acts before the time, and always within 2.4 times of it. */
+/* watchdog.c: the chip's watchdog (DS 12.4), which resets the chip. In a reset the pins float, so the drive is off. The
+ * watchdog's oscillator has 128 kHz, within 15 %: a reset never comes before the timeout, and always within 2.4
+ * timeouts. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"

@@ -5,7 +5,8 @@
 
 void board_guard_stack(void) {
     const uint32_t locked = 0x80U;
-    const uint32_t power_of_two = 3U << 3; /* the address's low ones give the size */
+    const uint32_t power_of_two = 3U << 3; /* the number of ones at the address's low end gives
+                                            * the size */
     const uint32_t strip = (uint32_t)(uintptr_t)board_stack_guard;
     CSR_WRITE("pmpaddr0", strip >> 2 | (BOARD_STRIP_BYTES / 8U - 1U));
     CSR_WRITE("pmpcfg0", locked | power_of_two);

@@ -53,7 +53,7 @@ static uint32_t compare_of(float volts) {
 }
 
 unsigned hal_motor_start(void) {
-    const uint32_t before = stm32f4_hold(); /* an off that comes now takes effect after this */
+    const uint32_t before = stm32f4_hold(); /* a hal_motor_off() from now on waits */
     if (!driving) {
         driving = true; /* even if stop keeps MOE clear: the motor then counts as cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);

@@ -1,6 +1,6 @@
-/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip; in a reset the drive is off. Its oscillator
- * has 17 to 47 kHz: it never acts before the time, and always within 2.8 times of it. It goes on while a debugger halts
- * the core (motor.c). */
+/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip. In a reset the drive is off. The watchdog's
+ * oscillator has 17 to 47 kHz: a reset never comes before the timeout, and always within 2.8 timeouts. It goes on while
+ * a debugger halts the core (motor.c). */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"
