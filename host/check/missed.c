@@ -532,8 +532,8 @@ struct missed {
     bool hills;             /* the accelerations contain an exponential function */
     bool edges;             /* a gap may have an edge */
     taylor_bounds *laws;    /* bounds of the contacts' laws, if a friction's limits move; or NULL */
-    double *from;           /* [angles + reals] the state before the step, */
-    double *to;             /* and after it */
+    double *from;           /* [angles + reals] state before the step */
+    double *to;             /* [angles + reals] state after the step */
     int *mode;              /* [contacts] modes before and after the step */
     int *mode_to;
     double *most;              /* [coordinates] a larger acceleration is hidden from both ends */

@@ -26,7 +26,7 @@ enum { TURNS_MOST = 4 };
 /* The least point of an even value is found by golden sections, to the last digit of its place. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
-/* Rejected places, each with more parts of the way around it. */
+/* Most parts of a way: each rejected place splits a part. */
 enum { PARTS_MOST = 16 };
 
 /* Number of sampled distances, each GROWTH_CLOSER times nearer than the one before. */
@@ -71,7 +71,7 @@ static growth growth_of(const double *value, int stride) {
     for (int k = 1; k < GROWTH_POINTS; k++) {
         const double before = value[(k - 1) * stride];
         const double now = value[k * stride];
-        const double by = before == now ? 1.0 : now / before; /* both may be zero */
+        const double by = before == now ? 1.0 : now / before; /* before and now may both be zero */
         if (isinf(now) && isfinite(before) && fabs(before) > GROWTH_BEYOND) {
             return GROWTH_POLE;
         }
@@ -395,7 +395,7 @@ enum {
     HIDDEN = 2U,   /* and on values outside the state: a highest derivative, a rate recovered from a
              * momentum */
     DIVIDES = 4U,  /* a factor of a divisor */
-    OF_A_TAN = 8U, /* the argument of a tangent */
+    OF_A_TAN = 8U, /* is the argument of a tangent */
     NEEDED = 16U,
     LEAPS = 32U, /* depends on values that an event may change at once */
     BENDS = 64U, /* depends on the state nonlinearly */
@@ -717,7 +717,7 @@ void pole_crossing_close(pole_crossing *j) {
 
 /* --- the way of a step --------------------------------------------------------------------------------*/
 
-/* Rates that jump at an impact pass through no pole. */
+/* Is the divisor tested in this step? Rates that jump at an impact pass through no pole. */
 static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
 
 /* How far this component goes in the step: turn angles are given within a turn. */

@@ -410,7 +410,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
         }
         return code;
     }
-    /* the file's only scene; with several, its mechanism */
+    /* pick the file's only scene, or with several scenes its mechanism */
     code = source_pick(from, from->model->scene_count == 1, &of, &in);
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
         code = EXIT_BAD_INPUT;

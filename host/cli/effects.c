@@ -12,7 +12,7 @@
 #include "host/study/subsets.h"
 #include "pricing.h"
 
-/* The error without --error: relative to each coordinate's range, and the round-off at rest, in SI. */
+/* The allowed error without --error, as a part of a coordinate's range; and the round-off at rest, SI. */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 
@@ -170,7 +170,7 @@ static void print_effect(const subsets *s, int k) {
                                           : "needed");
 }
 
-/* The effects of these bits. */
+/* Prints the names of the effects with these bits. */
 static void print_names(const subsets *s, const char *head, uint64_t bits, const char *between) {
     for (int k = 0; k < s->effects; k++) {
         if ((bits >> (unsigned)k & 1U) != 0) {

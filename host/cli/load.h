@@ -74,7 +74,7 @@ typedef struct loaded {
     instance *instance;   /* NULL unless stored; equations have their own */
     equations *equations; /* NULL unless stored */
     char *hint;           /* for a valid model that has a better form; or NULL */
-    char *contacts;       /* in words, whole lines; "" without contacts, and if not requested */
+    char *contacts; /* contacts in words, whole lines; "" without contacts, or if not requested */
 } loaded;
 
 /* Derive one instance to its image; errors are printed. Other data is freed; call source_forget() when the model is no

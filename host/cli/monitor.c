@@ -249,7 +249,7 @@ static void take_text(monitor *m, const char *line) {
         }
         return;
     }
-    if (line[0] != '\0') { /* an echo of stay_alive() */
+    if (line[0] != '\0') { /* an empty line echoes stay_alive() */
         show(m, line);
     }
 }

@@ -129,7 +129,7 @@ typedef struct change_options {
     int without_count;
     const char *step;
     const char *until;
-    const char *name; /* --name, for commands that have it; else NULL */
+    const char *name; /* value of --name, for commands with this option; else NULL */
     char **owned;     /* pieces of comma lists */
     int owned_count;
 } change_options;

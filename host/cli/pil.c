@@ -87,7 +87,7 @@ typedef struct pil_options {
     char machine[GUEST_MACHINE_BYTES]; /* QEMU's machine in the board's folder; "": none */
     const char *tape;
     const char *replay;
-    const char *read; /* a tape to show */
+    const char *read; /* name of a tape to show */
     const char *csv;
     const char *every;
     const char *bind;

@@ -71,10 +71,10 @@ typedef struct pricing_options {
     unsigned bit;
     common_options common;
     const char *target;
-    const char *value[PRICING_OPTIONS]; /* NULL: not given, and of --vary */
+    const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given; always NULL for --vary */
     const char **vary;                  /* [word count] */
     int vary_count;
-    bool balance; /* overrides.balance */
+    bool balance; /* value of overrides.balance */
 } pricing_options;
 
 enum { PRICING_GROUPS = OPTIONS_CHANGE };

@@ -30,8 +30,8 @@ typedef struct conservation {
 /* The symbol of time in the polys above. */
 extern const symbol conservation_time;
 
-/* The coordinates that `wanted` [equations->count] names (NULL: none), checked. NULL with an error if a named
- * coordinate's momentum is not conserved. */
+/* Recovers the coordinates that wanted[equations->count] names (NULL: none). NULL, reported, if the momentum of a named
+ * coordinate is not conserved. */
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
 void conservation_free(conservation *c);
 

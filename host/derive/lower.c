@@ -466,7 +466,7 @@ static int without_parts(const lowering *l, const poly **angles, int count) {
 /* Choose rules for `count` different angles. */
 static void waves_plan(lowering *l, const poly **angles, int count) {
     count = without_parts(l, angles, count);
-    for (int i = 1; i < count; i++) { /* smallest first; stable */
+    for (int i = 1; i < count; i++) { /* a stable sort, smallest first */
         const poly *angle = angles[i];
         int j = i;
         while (j > 0 && size_of(angles[j - 1]) > size_of(angle)) {
@@ -716,7 +716,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a phase has 1.5e-9 rad: enough for a turn angle, which has the same digits, but not for a small number */
+    /* a phase resolves 1.5e-9 rad: enough for a turn angle, which has no more digits, but not for a small number */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
@@ -865,7 +865,7 @@ static int times_in(const int *nodes, int total, int node) {
     return edge[1] - edge[0];
 }
 
-/* The node in the most products, or -1; rates first, so that sums of sines stay whole. */
+/* The node that most products share, or -1. Rates are preferred, so that sums of sines stay whole. */
 static int most_shared(const lowering *l, const product *products, int count) {
     int total;
     int *nodes = sorted_nodes(products, count, &total);

@@ -24,7 +24,7 @@ static int column_of(const image *im, const op *o) {
     if (o->code == OP_LINEAR) {
         return im->angles + o->a;
     }
-    if (o->code == OP_RATE) { /* after all positions, those of angles included */
+    if (o->code == OP_RATE) { /* rates follow all positions, angles included */
         return im->coordinates + o->a;
     }
     return o->code == OP_INPUT ? affine_states(im) + o->a : -1;

@@ -131,7 +131,7 @@ typedef struct table_functions {
     const int *function; /* [tables] operations */
 } table_functions;
 
-/* The knot `at` on a ring of 2^bits. */
+/* The value at knot `at`. Knots form a ring, and `cells` is a power of two. */
 static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
 
 static double second_difference(const double *of, int n, int i) {

@@ -61,7 +61,7 @@ static const char maths[] =
     "setpayload setpayloadsig signbit significand sin sincos sinh sinpi sqrt tan tanh tanpi "
     "tgamma totalorder totalordermag trunc ufromfp ufromfpx y0 y1 yn";
 
-/* Other names in headers: types, macros, objects, */
+/* Types, macros and objects in headers. */
 static const char types_and_macros[] =
     "BIG_ENDIAN BUFSIZ CHAR_BIT CHAR_MAX CHAR_MIN CLOCKS_PER_SEC DECIMAL_DIG EDOM EILSEQ EOF "
     "ERANGE EXIT_FAILURE EXIT_SUCCESS FD_SETSIZE FILE FILENAME_MAX FOPEN_MAX HUGE_VAL "
@@ -81,7 +81,7 @@ static const char types_and_macros[] =
     "uid_t uint uintmax_t uintptr_t ulong unreachable ushort va_copy va_end va_list va_start "
     "wchar_t wctrans_t wctype_t wint_t";
 
-/* and functions, including built-in functions of compilers. */
+/* Functions in headers, and built-in functions of compilers. */
 static const char functions[] =
     "a64l abort abs aligned_alloc alloca arc4random arc4random_buf arc4random_uniform asctime "
     "asctime_r at_quick_exit atexit atof atoi atol atoll bcmp bcopy bsearch btowc bzero "

@@ -134,8 +134,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Multiplication by `factor` of a number of up to `size` units, from one number of bits to another.
- * False: no room. */
+/* Sets the gain that multiplies a number of up to `size` units by `factor` and changes its bits after the point. False:
+ * there is no room. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;

@@ -622,7 +622,7 @@ int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) /
 /* The best list so far. */
 typedef struct scaling_search {
     const op_list *like;
-    const op_list *from; /* the last round's */
+    const op_list *from; /* the last round's list */
     int most;            /* operations */
     op_list *best;       /* NULL: not found yet */
     double bias;

@@ -55,7 +55,7 @@ static inline const char *palette_area(int i) {
     return areas[i];
 }
 
-/* gnuplot's number of the filled (even) or open shape of point i. */
+/* gnuplot's number of the shape of point i. */
 static inline int palette_point(int i) {
     static const int points[] = {7, 5, 9, 11, 13, 15, 1, 2, 3};
     return points[i % 9];

@@ -9,8 +9,8 @@
 
 /* === physical quantities: their names in messages, if unambiguous, and their usual units ====== */
 
-/* Exponents of m, kg, s, A, K; its name in messages; its unit in hints; its unit in records and the balance. "" means
- * no name, or base units. */
+/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). "" means no
+ * name, or base units. */
 #define QUANTITY_ROWS(X) \
     X(NUMBER, 0, 0, 0, 0, 0, "", "", "") \
     X(ANGLE, 0, 0, 0, 0, 0, "", "", "") \
@@ -73,7 +73,7 @@ bool dim_power(dimension base, double exponent, dimension *power);
 
 /* "force [kg*m/s^2]", "[kg/s]" or "dimensionless", cut to `size` bytes; returns `buffer`. */
 char *dim_text(dimension dim, char *buffer, size_t size);
-/* "kg*m^2/s^2"; "1" when dimensionless. */
+/* The dimension in base units, "kg*m^2/s^2"; "1" if dimensionless. */
 char *dim_symbols(dimension dim, char *buffer, size_t size);
 /* The usual unit: "N*m", "rad/s"; base units if there is no usual one. */
 char *dim_unit(dimension dim, char *buffer, size_t size);

@@ -141,7 +141,9 @@ bool dialogue_answer(dialogue *d, const char *line) {
         return true; /* the echo of the question */
     }
     const bool met = d->asked >= DIALOGUE_MET;
-    const char *from = met ? line : strstr(line, questions[0].answer); /* after a partial frame */
+    const char *from =
+        met ? line
+            : strstr(line, questions[0].answer); /* the first answer may follow a partial frame */
     const bool good = from != NULL && begins(from, questions[d->asked].answer);
     const bool refuses = met && strncmp(line, "ERR ", 4) == 0;
     if (!good && !refuses) {

@@ -204,7 +204,7 @@ double number_centred(double x, double y) {
     }
     /* the remainder by 2 y has removed an even multiple of y; a remainder of exactly y/2 then stays */
     double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
-    const bool twice = by < 0x1p-1021; /* a half of y may be no number */
+    const bool twice = by < 0x1p-1021; /* half of y may underflow */
     if (twice ? rest + rest > by : rest > 0.5 * by) {
         rest -= by;
         rest = (twice ? rest + rest >= by : rest >= 0.5 * by) ? rest - by : rest;

@@ -126,7 +126,8 @@ double number_even(double x);
 double number_remainder(double x, double y);
 double number_centred(double x, double y);
 
-/* x 2^exponent; and x as a number of 0.5 to below 1 times 2^*exponent, with zeros, infinities and NaN unchanged. */
+/* number_scaled() is x 2^exponent. number_split() returns y with x = y 2^*exponent and 0.5 <= |y| < 1; zeros, infinities and NaN are
+ * unchanged. */
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
 

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The stored start of a float angle: radians to 2^32 a turn with turns, rounded to the nearest. Below
- * PHASE_START_MOST_RAD in size: beyond it, 0. */
+/* The stored start of a float angle: radians converted to units of 2^-32 turn, with whole turns, rounded to the nearest. It is 0 for
+ * angles of PHASE_START_MOST_RAD or more. */
 #define PHASE_START_MOST_RAD 6.28e9
 int64_t phase_of_start(double rad);
 bool phase_holds_start(double rad);

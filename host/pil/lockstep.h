@@ -20,7 +20,7 @@ typedef struct talk {
     unsigned outputs;                /* declared outputs, followed by notes */
     uint16_t sequence;               /* number of the last readings */
     wh_reset remembered;             /* data that the firmware wants to find after a reset */
-    bool said_end;                   /* the firmware sent its end with this status: WH_FRAME_END */
+    bool said_end;                   /* the firmware sent WH_FRAME_END with end_status */
     int end_status;
     FILE *tape; /* or NULL */
 } talk;

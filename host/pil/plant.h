@@ -50,9 +50,9 @@ typedef struct recorded {
     uint64_t every; /* steps between rows */
 } recorded;
 
-/* A row every every_s seconds. Below 0: every millisecond, or each step if a millisecond is not a whole number of
- * steps. False, reported, if every_s is not a whole number of steps, or the file cannot be written. With `name` NULL
- * nothing is recorded. */
+/* Records a row every every_s seconds. With every_s < 0: every millisecond, or each step if a millisecond is not a whole
+ * number of steps. With `name` NULL nothing is recorded. False, reported, if every_s is not a whole number of steps, or
+ * the file cannot be written. */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
 /* False, reported, if the file is incomplete. */
 bool recorded_close(recorded *r);

@@ -231,7 +231,7 @@ enum { RECORDS_MOST = 20000, SPACING = 2 };
 #define REFERENCE_STEPS (4.0 + 2.0)
 
 double three_rows_operations(const three_rows_wish *w, const image *im) {
-    const double runs = setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* one finds the ranges */
+    const double runs = setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* one run finds the ranges */
     const double each = ROWS_STEPS * runs * wh_methods[w->setting.image.method].stages +
                         REFERENCE_STEPS * wh_methods[w->method].stages;
     return (double)w->steps * each * (double)engine_evaluation(im);

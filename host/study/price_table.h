@@ -51,7 +51,7 @@ typedef struct table {
     int broken_off;  /* settings with finer steps left untried for lack of operations */
 } table;
 
-/* The requested error, divided by the largest permitted error of a chosen row. */
+/* A chosen row's error may be at most the requested error divided by this. */
 #define TABLE_MARGIN 2.0
 
 typedef struct table_wish {

@@ -60,7 +60,7 @@ typedef struct shard {
     uint64_t of;
 } shard;
 
-/* `model_text`: the whole .whirl text; `base` and `p`: the instance without the swept values. The
+/* `model_text`: the whole .whirl text; `base` and `im`: the instance without the swept values, and its image. The
  * caller frees the result. */
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);

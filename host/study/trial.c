@@ -17,8 +17,8 @@
 
 /* === settings ================================================================================= */
 
-/* Numbers: the arithmetic, and if sums are compensated. The number of generated C is chosen when it is compiled, except for
- * fixed point. */
+/* The number types: the arithmetic, and whether sums are compensated. Generated C gets its number type when it is compiled, except
+ * in fixed point. */
 static const struct {
     const char *word;
     const char *run;    /* additional options of `whirl run` */
