@@ -218,8 +218,7 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 /* === one object for equal things ============================================================== */
 /* Interning: atoms, products and sums are looked up before they are made. */
 
-/* Limit of the work of a derivation: some 500 MB, or half a minute. An arm of six joints with no zero length needs
- * 0.42e9. */
+/* Limit of the work of a derivation: some 500 MB, or half a minute. An arm of six joints with no zero length needs 0.42e9. */
 #define WORK_MAX ((size_t)1 << 29)
 /* Work of handling a term, in bytes. */
 #define WORK_OF_TERM 2U

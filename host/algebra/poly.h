@@ -64,8 +64,8 @@ const poly *poly_expanded(algebra *a, const poly *p);
 /* The value of p; `value` returns the value of each symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
-/* The sum of the sizes of its terms: the reference for round-off in poly_evaluate(). Sines and cosines count as one, as
- * their errors do. */
+/* The sum of the sizes of p's terms, the reference for the round-off in poly_evaluate(). Sines and cosines count as one,
+ * because their errors are absolute. */
 double poly_magnitude(const poly *p, poly_value *value, void *context);
 /* Are all numbers in p finite, including those inside functions? */
 bool poly_is_finite(const poly *p);

@@ -233,8 +233,8 @@ double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* Error bound of the work of two steps: the difference of Simpson's and the trapezoidal rule if the powers are smooth, else
- * their change. */
+/* Error bound of the work of two steps. If the powers are smooth, it is the difference of Simpson's and the trapezoidal rule; if
+ * not, the work of the change of the powers. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
@@ -312,8 +312,7 @@ static bool find_leans(books *b) {
 
 /* Largest mechanism that is tested. */
 enum { FRAME_MOST = 24 };
-/* A place near a state, in seconds of its motion. Smaller parts of the momenta's changes than FRAME_LEAST are
- * round-off. */
+/* A place near a state, in seconds of its motion. Smaller parts of the momenta's changes than FRAME_LEAST are round-off. */
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 

@@ -94,8 +94,7 @@ void kept_account_free(kept_account *k);
 /* Prints the entries of the energy balance by source, and the conserved momenta. */
 void books_print(FILE *out, const books *b, const energy_residual *balance);
 
-/* The energy's and the momenta's accounts by statement, from the run's own ledger (`with ledger`). `b` provides
- * the levels. */
+/* The energy's and the momenta's accounts by statement, from the run's own ledger (`with ledger`). `b` provides the levels. */
 void books_print_kept(FILE *out, const image *im, const engine_kind *kind, const void *run,
                       const books *b);
 

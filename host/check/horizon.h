@@ -40,8 +40,7 @@ typedef struct horizon {
 horizon horizon_of(const step_doubling *t, double tolerance);
 /* Does the scene move or displace column k? A column that symmetry keeps at zero does not count, despite round-off. */
 bool horizon_moves(const step_doubling *t, int k);
-/* The run is accurate until this time, s; below 0: unknown, for lack of digits or because the finer run has the same
- * error. */
+/* The run is accurate until this time, s; below 0: unknown, for lack of digits or because the finer run has the same error. */
 double horizon_trusted_s(const horizon *h);
 void horizon_free(horizon *h);
 

@@ -794,8 +794,7 @@ static int look_edge(missed *m, int i, double low, double high, double most) {
                                                               : -1;
 }
 
-/* Does the slope of stop k's gap jump on the way? A contact that lies on an edge all the way slides
- * over no edge. */
+/* Does the slope of stop k's gap jump on the way? A contact that lies on an edge all the way slides over no edge. */
 static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {

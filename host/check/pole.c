@@ -16,8 +16,7 @@
 enum { HALVINGS = 56 };
 /* Factor of the distance if round-off hides the growth of a value. */
 #define FARTHER 2.5
-/* A smooth expression has few zeros on its way to a pole. Round-off alternates its sign, at distances that grow by
- * FURTHER. */
+/* A smooth expression has few zeros on its way to a pole. Round-off alternates its sign, at distances that grow by FURTHER. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
@@ -750,8 +749,7 @@ static double relative_way_of(const pole_crossing *j, int c) {
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
 }
 
-/* The largest relative way of the components that this divisor depends on; a derived divisor may
- * depend on any. */
+/* The largest relative way of the components that this divisor depends on; a derived divisor may depend on any. */
 static double relative_way(const pole_crossing *j, const divisor *d) {
     double most = 0.0;
     for (int c = 0; c < j->components && d->derived; c++) {

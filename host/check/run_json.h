@@ -10,7 +10,7 @@ enum { RUN_JSON_FILES = 4 };
 
 typedef struct run_json_wish {
     const struct run_checks *verdict;
-    const records *records; /* with the last state */
+    const records *records; /* their current row is the last state */
     const char *said;       /* text of the findings, or of the failure, with hints; or NULL */
     double until_s;         /* the run is accurate until this time; below 0: unknown */
     bool failed;

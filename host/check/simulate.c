@@ -235,7 +235,7 @@ static void say_saturated(const simulation *sim) {
     }
 }
 
-/* A restitution that depends on the motion has left its range. */
+/* Says that a restitution, which depends on the motion, has left its range. */
 static void say_clamped(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const engine_clamped c =

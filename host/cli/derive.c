@@ -190,8 +190,7 @@ static void print_usage(FILE *out) {
         forms_with(has_steps, said));
 }
 
-/* Is the option, such as "--header", with its value's word, valid for this form? Else the forms that accept it are
- * reported. */
+/* Is the option, such as "--header", with its value's word, valid for this form? Else the forms that accept it are reported. */
 static bool goes_with(const char *option, const char *value, bool (*of)(const form_row *form),
                       const form_row *as) {
     char said[FORMS_TEXT_SIZE];

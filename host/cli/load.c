@@ -70,7 +70,7 @@ bool files_same(const char *one, const char *other) {
 typedef struct sought {
     const char *mechanism; /* [mechanism_length]; NULL: any */
     size_t mechanism_length;
-    const char *name; /* of a scene or a mechanism */
+    const char *name; /* name of a scene or a mechanism */
 } sought;
 
 static sought wish_of(const char *target) {

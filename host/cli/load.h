@@ -41,8 +41,7 @@ typedef struct source_model {
     diags *errors;
 } source_model;
 
-/* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Prints errors; returns an exit
- * status. */
+/* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Prints errors; returns an exit status. */
 int source_open(source_model *source, const char *target);
 void source_close(source_model *source);
 /* Free the model and its text when they are no longer needed; names and errors stay until source_close(). */

@@ -102,8 +102,7 @@ bool options_help(int count, char **words, const command_usage *usage);
  * the other. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
-/* A number between two bounds, inclusive, for this option of this command; false, reported with the hint, for other
- * text. */
+/* A number between two bounds, inclusive, for this option of this command; false, reported with the hint, for other text. */
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 

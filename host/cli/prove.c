@@ -86,7 +86,7 @@ static bool is_affordable(const image *im, double effort) {
     return wanted <= effort;
 }
 
-/* within[states]: SI, 0 if not given. False: reported. */
+/* Fills within[states], SI; 0 for a state without --within. False: reported. */
 static bool read_within(const prove_options *o, const mechanism *of, const exact_motion *m,
                         double *within, diags *errors) {
     struct arena *memory = arena_new();

@@ -136,8 +136,7 @@ static double operations_for(trials *t, const setting *s, deviation_pace pace, d
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
 }
 
-/* The number of the first pace that satisfies the error; -1, reported, if there is none. *longest: it is the first tried
- * pace. */
+/* The number of the first pace that satisfies the error; -1, reported, if there is none. *longest: it is the first tried pace. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = -1.0;

@@ -1,5 +1,4 @@
-/* scenes.c: for the project's own build: every built-in scene, or every scene of some files, as C, and its
- * state hash. */
+/* scenes.c: for the project's own build: every built-in scene, or every scene of some files, as C, and its state hash. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,8 +20,7 @@
 #include "host/study/trial.h"
 
 /* === every scene ============================================================================== */
-/* The common part of the commands of the project's own build: files in a folder, and lines of
- * hashes. */
+/* The common part of the commands of the project's own build: files in a folder, and lines of hashes. */
 
 /* Called for a scene: the first before the equations are freed (NULL: no call), the second with the image. They return an exit
  * status. */
@@ -111,8 +109,7 @@ typedef struct emission {
     bool all_forms; /* also write text, LaTeX, Octave and the runs' hashes */
 } emission;
 
-/* Writes the scene's run as a line with the hash of its last state: "WHAT NAME steps N hash 0x... ok". Returns the
- * events. */
+/* Writes the scene's run as a line with the hash of its last state: "WHAT NAME steps N hash 0x... ok". Returns the events. */
 static uint64_t scenes_write_hash(FILE *out, const char *what, const engine_kind *kind,
                                   const image *im) {
     void *run = kind->start(im);

@@ -36,7 +36,7 @@ typedef struct contact_laws {
     int forced;               /* all but crossings, which come last */
     contact_law *law;         /* [count] */
     contact_set *sets;        /* [count] */
-    int set_count;            /* of all crossings */
+    int set_count;            /* number of values that crossings set */
     contact_statement *loose; /* [loosening] crossings that Whirl adds: see contact_loosens() */
     int loosening;
 } contact_laws;
@@ -48,7 +48,7 @@ bool contact_loosens(const contact_statement *h);
 /* The active contacts of the instance; NULL without any. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
 
-/* Can this contact, or any of them, change the momentum of coordinate i? */
+/* Can this contact, or any contact, change the momentum of coordinate i? */
 bool contact_law_pushes(const contact_law *law, int i);
 bool contact_laws_push(const contact_laws *laws, int i);
 
@@ -86,7 +86,7 @@ typedef struct equations {
     const poly **mass; /* [count * count] row by row */
     double
         mass_blur; /* relative error of the accelerations by the rounding of mass[], at the best of the tried states */
-    folding folding;        /* of the file's numbers */
+    folding folding;        /* folding of the file's numbers */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
     const poly **potential; /* [count] dV/dq; for a system all other terms, moved to the left */
     const poly **applied;   /* [count] Q - dF/dq'; zero for a system */

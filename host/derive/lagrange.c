@@ -114,8 +114,7 @@ bool rank_is_positive(double *m, int n) {
 /* Tests the mass matrix at generic states, and at the start. */
 
 #define TRIES 24
-/* The last tried state is the start of the run. A mass matrix with a narrow domain may be undefined at all other
- * states. */
+/* The last tried state is the start of the run. A mass matrix with a narrow domain may be undefined at all other states. */
 #define TRY_START TRIES
 /* Rounding of an entry, as part of the sizes of its terms. */
 #define ENTRY_ROUNDING 4e-16

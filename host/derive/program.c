@@ -25,8 +25,7 @@ static const poly *ready(const equations *e, const conservation *c, const poly *
     return conservation_settle(e, c, equations_fold(e, p));
 }
 
-/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their
- * number. */
+/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their number. */
 static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
     const contact_laws *laws = e->contacts;
     int count = 0;

@@ -1,5 +1,4 @@
-/* tables.c: a step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles
- * only. */
+/* tables.c: a step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
 #include "host/derive/tables.h"
 
 #include <math.h>

@@ -216,7 +216,7 @@ bool emit_c_name_is_free_in_cpp(const char *name) {
 
 /* === a scene's contacts as C ================================================================== */
 
-/* The declared bounds and the core's header. */
+/* Writes the declared bounds and the include of the core's header. */
 static void c_contacts_include(FILE *out, const image *im) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", im->contacts,
             im->set_count > 0 ? im->set_count : 1);
@@ -293,7 +293,7 @@ static void c_contacts_write(FILE *out, const image *im) {
 
 /* === a scene's ledger as C ==================================================================== */
 
-/* The declared bounds: before the core's headers. */
+/* Writes the declared bounds, which must precede the core's headers. */
 static void c_ledger_bounds(FILE *out, const image *im) {
     const image_ledger *l = &im->ledger;
     fprintf(out, "#define WH_LEDGER 1\n#define WH_LEDGER_MAX %d\n#define WH_ACCOUNTS_MAX %d\n",

@@ -13,8 +13,7 @@
 #include "host/base/hashing.h"
 #include "host/image/core_rows.h"
 
-/* Length in bytes of the character at `text` if it changes the writing direction, else 0: compilers warn of these
- * characters. */
+/* Length in bytes of the character at `text` if it changes the writing direction, else 0: compilers warn of these characters. */
 static size_t turns_direction(const char *text) {
     const unsigned char *c = (const unsigned char *)text;
     if (c[0] == 0xe2 && ((c[1] == 0x80 && c[2] >= 0x8e && c[2] <= 0xae) ||

@@ -65,8 +65,7 @@ typedef struct engine_kind {
     /* The unit of component i; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
     engine_clamped (*clamped)(const void *run); /* NULL: this number type has no impacts */
-    /* The pieces of the last step, if it was searched for events; else an empty list. NULL: not
-     * available. */
+    /* The pieces of the last step, if it was searched for events; else an empty list. NULL: not available. */
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 

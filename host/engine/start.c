@@ -125,8 +125,7 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* The stages of a composition have no rates, so accelerations, contacts and the balance may not depend on
- * rates. */
+/* The stages of a composition have no rates, so accelerations, contacts and the balance may not depend on rates. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

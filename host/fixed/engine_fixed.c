@@ -74,7 +74,7 @@ static void fixed_loss_free(fixed_loss *l) {
     }
 }
 
-/* The derivatives of all components, angles first, per second. */
+/* slope[]: the time derivatives of all components, angles first. */
 static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const fixed_plan *p = l->plan;
     const int angles = p->image->angles;

@@ -396,8 +396,7 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 }
 
 /* === ranges of values ========================================================================= */
-/* Interval arithmetic, cell by cell of the turn angles. Over a whole turn at once every denominator might be
- * zero. */
+/* Interval arithmetic, cell by cell of the turn angles. Over a whole turn at once every denominator might be zero. */
 
 /* Cells a turn, and of all turn angles together. */
 enum {

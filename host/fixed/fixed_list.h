@@ -28,15 +28,15 @@ typedef enum fixed_code {
     FIXED_RATE,
     FIXED_INPUT,
     FIXED_PHASE,      /* offset + sum turns[i] phase[i] */
-    FIXED_SINE,       /* of phase a */
-    FIXED_COSINE,     /* of phase a */
+    FIXED_SINE,       /* sine of phase a */
+    FIXED_COSINE,     /* cosine of phase a */
     FIXED_SUM,        /* round(a) + round(b): each with its shift */
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
     FIXED_QUOTIENT, /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
     FIXED_SAME,     /* round(a), or -round(a): a power of two costs no product */
     FIXED_ABS,      /* round(|a|) */
-    FIXED_SIGN,     /* of a: -1, 0 or 1 */
+    FIXED_SIGN,     /* sign of a: -1, 0 or 1 */
     FIXED_LEAST,    /* the lesser of round(a) and round(b) */
     FIXED_MOST
 } fixed_code;
@@ -103,8 +103,7 @@ bool fixed_bits(fixed_list *list, const image *im, diags *errors);
 /* Does everything fit, after fixed_hull() with bits_known? */
 bool fixed_fits(const fixed_list *list);
 
-/* Digits after the point with which `size` fills at most `digits` binary digits; the largest for
- * zero. */
+/* Digits after the point with which `size` fills at most `digits` binary digits; the largest for zero. */
 int fixed_point_of(double size, int digits);
 /* The same for a constant factor: with 31 binary digits, the last of them rounded. */
 int fixed_factor_bits(double value);

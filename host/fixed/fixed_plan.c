@@ -185,8 +185,7 @@ static int kept_at(const fixed_plan *p, int i) {
 
 enum { GUARD_MOST = 8 };
 
-/* Sets the point of a mover's results: they are added to a state with `kept` digits after the
- * point. */
+/* Sets the point of a mover's results: they are added to a state with `kept` digits after the point. */
 static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
     m->to_kept = accel->bits - kept;
@@ -359,8 +358,7 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Chooses points until everything fits, rounding included. Rounding widens the stages, which matters if a step adds
- * little. */
+/* Chooses points until everything fits, rounding included. Rounding widens the stages, which matters if a step adds little. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {

@@ -96,8 +96,7 @@ static inline int core_ledger_words(const image *im) {
     return im->ledger.kept ? 2 * form.entries + form.accounts : 0;
 }
 
-/* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, holds and the
- * ledger. */
+/* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, holds and the ledger. */
 static inline int core_memory_reals(const image *im) {
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
     return im->reals + carried + im->inputs + im->held + core_ledger_words(im);

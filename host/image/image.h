@@ -341,7 +341,7 @@ typedef struct image {
 
     image_matrix matrix; /* empty unless settings.matrix requests one */
 
-    uint64_t hash;              /* of the equations of motion */
+    uint64_t hash;              /* hash of the equations of motion */
     op_list *list[IMAGE_ROLES]; /* NULL for a missing list */
 } image;
 
@@ -380,8 +380,7 @@ size_t memory_float_bytes(const image *im);
 size_t memory_double_bytes(const image *im);
 
 /* === turned or looked up ====================================================================== */
-/* The choice between turning a scene's sines (core/step/stage_turn.h) and looking them up at each stage
- * (core/step.h). */
+/* The choice between turning a scene's sines (core/step/stage_turn.h) and looking them up at each stage (core/step.h). */
 
 /* Most angles whose sines a step turns. */
 #define TURNED_WAVES_MAX 256

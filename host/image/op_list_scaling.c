@@ -467,8 +467,7 @@ op_list *op_list_multiplied(const op_list *t, const double *times) {
 
 enum { SIZES = 3, STATES = 6 };
 
-/* Sizes of rates and other leaves that are no positions: at rest forces and torques matter, at high speed only the
- * rates. */
+/* Sizes of rates and other leaves that are no positions: at rest forces and torques matter, at high speed only the rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
 /* A number between -1 and 1 for this leaf in this state. */

@@ -35,8 +35,7 @@ static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED
     return count;
 }
 
-/* The values that operation i reads from registers, each once; returns their number. Constants and phases need no
- * register. */
+/* The values that operation i reads from registers, each once; returns their number. Constants and phases need no register. */
 static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) {
     int operand[TAKEN_MOST];
     const int operands = op_list_operands(&t->ops[i], operand);
@@ -511,7 +510,7 @@ static void put(walk *w, int i) {
     w->order[w->count++] = i;
 }
 
-/* A half may come after its new user: restore the order. */
+/* Restores the order, because a half may come after its new user. */
 static void put_in_order(op_list *t) {
     walk w = {t, alloc(t->count, sizeof *w.order), alloc(t->count, sizeof *w.number), 0};
     for (int i = 0; i < t->count; i++) {

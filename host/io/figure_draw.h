@@ -11,8 +11,7 @@ typedef struct figure_data {
     double trusted_s; /* end of the trusted time; 0: the whole time, or unknown */
 } figure_data;
 
-/* The remaining text of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. Free
- * it. */
+/* The remaining text of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. Free it. */
 char *figure_line(const char **at, const char *word);
 
 /* Draw it. `varied` has the options that change its runs, or "". With options the title names them, and the caption,

@@ -275,8 +275,7 @@ bool plot_fits(const char *command, const plot_choice *choice, const plot_run *r
 }
 
 /* === plot run ================================================================================= */
-/* Reading and writing of runs. CSV follows RFC 4180, with comment lines after a #. The description is TOML
- * 1.0. */
+/* Reading and writing of runs. CSV follows RFC 4180, with comment lines after a #. The description is TOML 1.0. */
 
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns) {
     *run = (plot_run){.title = alloc_words("%s", title),
@@ -785,7 +784,7 @@ static int marks_in(const plot_run *runs, int count) {
     return marks;
 }
 
-/* Lines of a panel's legend, in columns as wide as its longest entry. */
+/* The number of lines of a panel's legend, whose columns are as wide as its longest entry. */
 static int key_lines(const panels *p, const plot_run *runs, int panel, bool time) {
     const bool signs = time && panel == 0;
     char *trusted = trust_sign(runs, p->runs);

@@ -13,7 +13,7 @@
 #include "host/engine/engine.h"
 
 typedef struct record_column {
-    const char *name; /* of the unknown or output; NULL: the time */
+    const char *name; /* name of the unknown or output; NULL: the time */
     int unknown;      /* index of the unknown; -1 for an output */
     int primes;
     const image_unit *unit; /* unit of the numbers */

@@ -23,7 +23,7 @@ static bool add_contact(parser *in, const contact_statement *made);
 
 typedef struct reading {
     word_id statement; /* for hints */
-    int depth;         /* of parentheses */
+    int depth;         /* depth of parentheses */
 } reading;
 
 static const expr *parse_any(parser *in, reading *how, bool *is_condition);

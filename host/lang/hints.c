@@ -59,8 +59,7 @@ static double bend(const term *of, const symbol *coordinate, valuation *known, d
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rest of this coordinate? The second difference of a smooth F shrinks to a hundredth at a tenth of the
- * rate. */
+/* Has F a kink at rest of this coordinate? The second difference of a smooth F shrinks to a hundredth at a tenth of the rate. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     double *rate = &known->state[coordinate->index][1];
     const double start = *rate;

@@ -75,7 +75,7 @@ static void check_noise(const noise *each, valuation *known) {
     }
 }
 
-/* Statements of two effects that exclude each other. */
+/* Report statements of two active effects that exclude each other. */
 static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
     for (int i = 0; i < of->contact_count; i++) {

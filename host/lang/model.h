@@ -99,7 +99,7 @@ enum {
 /* One contribution: `T = e`, `V += e`, `Q(c) = e`, `equation left = right`. */
 typedef struct term {
     term_kind kind;
-    const symbol *coordinate; /* of Q, else NULL */
+    const symbol *coordinate; /* the coordinate of a Q, else NULL */
     const expr *value;        /* T, V, F, Q; left side of an equation */
     const expr *right;        /* right side of an equation, else NULL */
     int effect;               /* index of the effect it belongs to, or -1 */
@@ -283,7 +283,7 @@ typedef struct instance {
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */
-    folding folding;  /* of the expressions above */
+    folding folding;  /* folding of the expressions above */
     whole_ratio step; /* step_s, as it was written */
     uint64_t steps;   /* to the end: until_s / step_s to the nearest, at most 2^63 */
     struct arena *arena;

@@ -19,8 +19,8 @@ static parser begin(const mechanism *of, const char *text, struct arena *arena, 
     return in;
 }
 
-/* [+|-] NUMBER UNIT up to the end, the unit without brackets: "1ms", "-8.5 rad/s". NULL for another form; `in` is then
- * unchanged. */
+/* Parses [+|-] NUMBER UNIT up to the end, with the unit without brackets: "1ms", "-8.5 rad/s". NULL for any other text;
+ * `in` is then unchanged. */
 static const expr *parse_plain_quantity(parser *in) {
     const parser before = *in;
     const token first = in->token;

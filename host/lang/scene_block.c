@@ -233,8 +233,7 @@ static bool set_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* At the end of the scene: the symbols that it sets must belong to effects that it names. They may be named after the
- * set. */
+/* At the end of the scene: the symbols that it sets must belong to effects that it names. They may be named after the set. */
 static void scene_check_sets(parser *in, const draft *read) {
     const scene *made = read->made;
     for (int i = 0; i < made->set_count; i++) {

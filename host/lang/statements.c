@@ -161,8 +161,7 @@ bool read_equation(parser *in, const statement_word *word) {
 
 enum { SEEN_IN_EQUATION = 1, SEEN_IN_OUTPUT = 2 };
 
-/* The highest derivative of each state in the equations. Each let is visited once; EXPR_HEIGHT_MAX bounds the
- * recursion. */
+/* The highest derivative of each state in the equations. Each let is visited once; EXPR_HEIGHT_MAX bounds the recursion. */
 static void raise_orders(const expr *tree) {
     if (tree == NULL) {
         return;

@@ -178,7 +178,7 @@ typedef enum word_id {
 
 #define WORD_ONE(...) +1
 enum {
-    STATEMENT_WORDS = 0 BODY_WORD_ROWS(WORD_ONE) SCENE_WORD_ROWS(WORD_ONE), /* come first */
+    STATEMENT_WORDS = 0 BODY_WORD_ROWS(WORD_ONE) SCENE_WORD_ROWS(WORD_ONE), /* they come first */
     WORD_COUNT = STATEMENT_WORDS INNER_WORD_ROWS(WORD_ONE)
 };
 #undef WORD_ONE

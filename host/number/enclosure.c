@@ -100,8 +100,7 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
            enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
-/* The sine of `rest` plus this many quarter turns: from the middle's sine, with a slope of at most 1 in
- * size. */
+/* The sine of `rest` plus this many quarter turns: from the middle's sine, with a slope of at most 1 in size. */
 static enclosure wave(enclosure rest, int quarters) {
     const double middle = enclosure_middle(rest);
     const double radius = enclosure_radius(rest);
@@ -194,8 +193,7 @@ enclosure enclosure_exp(enclosure a) {
                                                                  : none();
 }
 
-/* log x = y + log(1 + z), z = x e^-y - 1, with y an approximation of log x from any source; z / (1 + z) <= log(1 +
- * z) <= z. */
+/* log x = y + log(1 + z), z = x e^-y - 1, with y an approximation of log x from any source; z / (1 + z) <= log(1 + z) <= z. */
 static enclosure logarithm(double x) {
     const double y = number_call(FN_LOG, x, 0.0);
     const enclosure z = enclosure_sub(

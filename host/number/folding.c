@@ -33,8 +33,7 @@ static uint64_t digits_of(double x) {
     return bits & ((UINT64_C(1) << 52) - 1);
 }
 
-/* Each output bit depends on all input bits (Steele, Lea, Flood, Fast splittable pseudorandom number generators,
- * 2014). */
+/* Each output bit depends on all input bits (Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014). */
 static uint64_t mixed(uint64_t z) {
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);

@@ -1,5 +1,4 @@
-/* functions.c: the language's functions in double. The core's double build computes the rounded
- * ones. */
+/* functions.c: the language's functions in double. The core's double build computes the rounded ones. */
 #include "host/number/functions.h"
 
 /* === zero ===================================================================================== */

@@ -16,8 +16,7 @@ typedef struct jobs {
     uint64_t first;
     uint64_t end;
     void *context;
-    /* In a worker: writes the point's row, and in `reason` one line or nothing for deliver(). False
-     * if it failed. */
+    /* In a worker: writes the point's row, and in `reason` one line or nothing for deliver(). False if it failed. */
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
     /* In the parent: takes a row, in order. False ends all work. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);

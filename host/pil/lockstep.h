@@ -7,8 +7,7 @@
 #include "host/pil/report.h"
 
 /* === frames ===================================================================================== */
-/* The common part of a run in the loop and the replay of a tape: receiving the firmware's messages, and
- * recording them. */
+/* The common part of a run in the loop and the replay of a tape: receiving the firmware's messages, and recording them. */
 
 typedef struct talk {
     const lockstep_wish *wish;
@@ -35,8 +34,7 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset);
 /* Send readings at `ticks`. False if the guest is gone, or the user interrupts; report->end has the reason. */
 bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings);
 
-/* Receive the orders that answer the last readings. False as above, and also after the firmware's end, which is no
- * error. */
+/* Receive the orders that answer the last readings. False as above, and also after the firmware's end, which is no error. */
 bool talk_hear(talk *t, wh_orders *orders);
 
 /* End the guest; an abnormal end is reported. */
@@ -57,8 +55,7 @@ double talk_instructions_per_count(const wh_hello *hello);
 /* Run firmware and plant; the firmware's process is gone on return. */
 void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report);
 
-/* Run the firmware again on the readings of a tape. Each of its orders must equal the tape's, except for instruction
- * counts. */
+/* Run the firmware again on the readings of a tape. Each of its orders must equal the tape's, except for instruction counts. */
 void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_report *report);
 
 #endif

@@ -40,8 +40,7 @@ const char *bind_read(bound *b, const image *im, const char *name);
 bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames);
 
 /* === records ================================================================================= */
-/* Records of the plant of a run in the loop as comma-separated values, in the columns of
- * host/io/records.h. */
+/* Records of the plant of a run in the loop as comma-separated values, in the columns of host/io/records.h. */
 
 typedef struct recorded {
     const char *name; /* of the file; "-": standard output */

@@ -16,7 +16,8 @@ typedef struct tap {
     bool (*start)(void *of, const wh_hello *hello, plant *plant); /* false: reported */
     void (*orders)(void *of, double time_s, wh_orders *orders, double *late_s);
     void (*readings)(void *of, double time_s, wh_readings *readings);
-    void (*watch)(void *of, double time_s, const plant *plant); /* each millisecond of the plant */
+    void (*watch)(void *of, double time_s,
+                  const plant *plant); /* called at each millisecond of the plant */
 } tap;
 
 typedef struct lockstep_wish {

@@ -21,7 +21,7 @@
 typedef struct taped {
     const char *name;
     FILE *file;
-    wh_hello hello; /* the firmware's */
+    wh_hello hello; /* of the firmware */
     wh_signal signal[WH_SIGNALS_MAX];
     uint64_t hash;  /* of all orders and remembered data so far */
     uint64_t turns; /* read so far */

@@ -71,8 +71,7 @@ int graph_slope(graph *g, int a, int variable);
 int graph_without(graph *g, int a, int first);
 
 /* === reader =================================================================================== */
-/* Conversion of a model's expressions to nodes of a graph. Parameters, inputs and starts are exact decimals,
- * not doubles. */
+/* Conversion of a model's expressions to nodes of a graph. Parameters, inputs and starts are exact decimals, not doubles. */
 
 typedef struct reader_symbols {
     graph *graph;

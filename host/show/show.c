@@ -113,8 +113,7 @@ static void latex_letters(FILE *out, const char *text) {
     }
 }
 
-/* The name's letters, then the remaining part as an index: theta1 -> \theta_{1}, no_load ->
- * \mathrm{no}_{\mathrm{load}}. */
+/* The name's letters, then the remaining part as an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
 static void latex_name(FILE *out, const char *name, int primes) {
     size_t stem = 0;
     while (isalpha((unsigned char)name[stem])) {

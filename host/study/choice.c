@@ -20,8 +20,7 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* The value compared with a limit: the upper bound of a counted figure, the lower bound of a prediction that will
- * be counted. */
+/* The value compared with a limit: the upper bound of a counted figure, the lower bound of a prediction that will be counted. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_wish *w, const table *made, int i) {

@@ -29,8 +29,7 @@ typedef struct grid {
 
 #define GRID_POINTS_MAX UINT64_C(1000000000000)
 
-/* "NAME=FROM..TO:COUNT[,log]"; a unit after TO also applies to a bare FROM. False if it is wrong
- * (reported on standard error). */
+/* "NAME=FROM..TO:COUNT[,log]"; a unit after TO also applies to a bare FROM. False if it is wrong (reported on standard error). */
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
 

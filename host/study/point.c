@@ -149,8 +149,7 @@ static measure_kind kind_of(const char *text, const char **inner, size_t *length
     return MEASURE_FINAL;
 }
 
-/* A name may have any number of primes, but the equations define it only up to its order. Each let
- * is walked once. */
+/* A name may have any number of primes, but the equations define it only up to its order. Each let is walked once. */
 static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     if (tree == NULL) {
         return true;

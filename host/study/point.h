@@ -146,7 +146,7 @@ bool sweep_ends_are_alike(const sweep *s, double until_s);
 /* May the grid's points share the lists of this image? */
 bool sweep_can_share(const grid *g, const image *im);
 
-/* Follows a column's name: " [deg]", the declared unit; "" for SI, or if `of` is NULL. Free it. */
+/* The text after a column's name: the declared unit, as " [deg]"; "" for SI, or if `of` is NULL. Free it. */
 char *sweep_unit(const symbol *of, int primes);
 
 /* The CSV fields of the swept values, as header and for one point, without a line's end. */

@@ -153,8 +153,7 @@ char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int
                      const table_words *words);
 char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
                         const table_words *words);
-/* The command that counts this row's step in a source tree with the board's compiler: `sh mk/price/measure_one.sh
- * ...`. */
+/* The command that counts this row's step in a source tree with the board's compiler: `sh mk/price/measure_one.sh ...`. */
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
                          const table_words *words);
 

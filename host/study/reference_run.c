@@ -176,8 +176,7 @@ long double long_power(long double base, long double exponent) {
 
 /* --- angles of ratios, hyperbolic functions ------------------------------------------------------ */
 
-/* Corrects a double's angle y by the angle of (x - tan y)/(1 + x tan y), which is so small that its series ends with the
- * cube. */
+/* Corrects a double's angle y by the angle of (x - tan y)/(1 + x tan y), which is so small that its series ends with the cube. */
 static long double angle_of(long double x) {
     if (x != x || !isfinite((double)x)) {
         return x != x ? x : x < 0.0L ? -(QUARTER_1 + QUARTER_2) : QUARTER_1 + QUARTER_2;

@@ -140,8 +140,7 @@ void reference_cut(reference *r, int until);
 double reference_agreement(const reference *r);
 void reference_free(reference *r); /* NULL is fine */
 
-/* The column of a name, "X", "X'" or an output's, or -1. *noisy: it is an output with its own noise, which has no
- * reference. */
+/* The column of a name, "X", "X'" or an output's, or -1. *noisy: it is an output with its own noise, which has no reference. */
 int reference_find(const reference *r, const char *name, bool *noisy);
 
 /* A state in long double as a row of records. */

@@ -32,7 +32,7 @@ typedef struct resumable_csv_settings {
     const char *path;        /* "-" is standard output */
     const char *fingerprint; /* lines of "name: value" */
     const char *header;      /* header with its line's end, or "" */
-    uint64_t rows;           /* of the complete file, without the header */
+    uint64_t rows;           /* number of rows of the complete file, without the header */
     int measures;            /* fields after the swept ones; the first is empty if a point failed */
     /* The swept fields of row `row`, as in the file. */
     void (*swept)(const void *context, uint64_t row, FILE *out);

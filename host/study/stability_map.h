@@ -75,8 +75,7 @@ void map_print(FILE *out, const stability_map *m, const char *words);
 void map_csv(FILE *out, const stability_map *m);
 /* The same as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
 void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status);
-/* A rectangle for each pair, to .svg or .png, drawn by gnuplot, with `words` as the title. False: reported on standard
- * error. */
+/* A rectangle for each pair, to .svg or .png, drawn by gnuplot, with `words` as the title. False: reported on standard error. */
 bool map_plot(const char *file, const stability_map *m, const char *words);
 
 #endif

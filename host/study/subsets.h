@@ -32,22 +32,20 @@ typedef struct subsets {
     const overrides *changes;
     const cost_board *board;
     image *image;     /* the full scene */
-    records *columns; /* of each run */
+    records *columns; /* columns of the runs' records */
     int effects;
     int effect[SUBSETS_EFFECTS_MAX]; /* numbers of the mechanism's effects */
-    bool acted[SUBSETS_EFFECTS_MAX]; /* in the full run */
-    double *range;                   /* [columns] in the full run, in the column's unit */
-    double *limit;                   /* [columns] the error that is allowed; INFINITY: any */
+    bool acted[SUBSETS_EFFECTS_MAX]; /* the effect acted in the full run */
+    double *range;                   /* [columns] range in the full run, in the column's unit */
+    double *limit;                   /* [columns] allowed error; INFINITY: any */
     subset **list; /* [count] 0: the full scene; k + 1: without effect k; then others */
     int count;
 } subsets;
 
-/* Makes the full scene's image. False, reported: it has no image, or too many effects. subsets_close() in any
- * case. */
+/* Makes the full scene's image. False, reported: it has no image, or too many effects. subsets_close() in any case. */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
-/* Runs the full scene, together with those without one effect. False, reported, if the full run
- * diverges. */
+/* Runs the full scene, together with those without one effect. False, reported, if the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
 /* Runs subsets of the effects that acted: all, or with *greedy one more effect left out at a time. Returns the one that

@@ -205,8 +205,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe accepts a few kilobytes without blocking, and taking turns puts at most one frame in it. A serial line is
- * slower. */
+/* A pipe accepts a few kilobytes without blocking, and taking turns puts at most one frame in it. A serial line is slower. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {
