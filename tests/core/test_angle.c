@@ -1,4 +1,4 @@
-/* test_angle.c: moved angles, and radians both ways. WH_TEST_SMALL takes fewer angles. */
+/* test_angle.c: moving angles, and conversion to and from radians. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"

@@ -57,7 +57,7 @@ void talk_close_line(stream *heard);
 /* Hash of the answers of the first `turns` turns in order, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns);
 
-/* talk_report must describe so many turns. */
+/* talk_report must describe `turns` turns. */
 void talk_expect_report(lockstep_end end, unsigned turns);
 
 #endif

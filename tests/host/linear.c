@@ -4,7 +4,7 @@
 
 quad quad_size(quad x) { return x < 0 ? -x : x; }
 
-/* A multiple of 1/8 up to 8, up to 2^more times as large. */
+/* A multiple of 1/8 up to 8, times a factor of up to 2^more. */
 static double eighths(uint64_t *seed, int more) {
     const double size = (double)(1 + random_bits(seed) % 64) / 8.0;
     return size * (double)(UINT64_C(1) << (random_bits(seed) % (uint64_t)(more + 1)));

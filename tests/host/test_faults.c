@@ -611,7 +611,7 @@ SUITE(lockstep) {
 /* A random tape in place of the plant (host/pil/taped.c): played to its end or the firmware's. It ends at the first
  * different answer, with a message, and is refused if it belongs to another firmware or is invalid. */
 
-/* Plays it: expects this end after so many turns; returns the message. */
+/* Plays the tape and expects this end after `turns` turns. Returns the message. */
 static const char *replay(lockstep_end end, unsigned turns, bool with_hello) {
     static stream heard;
     char name[] = "/tmp/whirl-talk-XXXXXX";
