@@ -196,7 +196,7 @@ check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --un
 check "points that fail the balance: exit status 1" status 1 \
     "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
 check "points that fail the balance: how many, and the first" \
-    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual is too large compared with the balance's largest entry (energy_residual), at the end or at a time before [energy]; first: point 2 (step=0.2)' "$scratch/said"
+    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual is too large compared with the balance'"'"'s largest entry (energy_residual), at the end or at a time before [energy]; first: point 2 (step=0.2)' "$scratch/said"
 check "no balance without energies" sh -c "! '$whirl' sweep carriage_ratio --until 0.1s --over ratio=0.1..0.2:2 --quiet | grep -q energy_residual"
 check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
