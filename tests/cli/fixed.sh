@@ -184,7 +184,7 @@ V = -9.81 [J]*cos(th)
 scene round { start th = 1, ph' = 3 [rad/s]; until 1 [s] }
 END
 "$whirl" run "$scratch/w/slow.whirl:slow" --number fixed >"$scratch/out" 2>"$scratch/err"
-grep -q "note: 'x'' moves so slowly that rounding" "$scratch/err" && grep -q '^hint: a larger --step rounds less' "$scratch/err" && ! grep -q 'smaller --step' "$scratch/err"
+grep -q "note: 'x'' moves so slowly that rounding" "$scratch/err" && grep -q '^hint: use a larger --step' "$scratch/err" && ! grep -q 'smaller --step' "$scratch/err"
 verdict $? "steps lost in rounding are told, with hints that help"
 grep -q "note: 'b' is a turn angle.* no range" "$scratch/err"
 verdict $? "a range of a turn angle is not used, and that is told"

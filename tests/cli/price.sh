@@ -341,7 +341,7 @@ for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
     verdict $? "a period of $rate takes whole steps" "$scratch/out"
 done
 asked 1 'nothing fits among the tried steps: raise --effort' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
-asked 2 'more than any step' "$odd:odd_rings" --error 1e-2 --rate 1e15Hz
+asked 2 'faster than the shortest possible step' "$odd:odd_rings" --error 1e-2 --rate 1e15Hz
 asked 2 'not one period' "$odd:odd_rings" --error 1e-2 --rate 1e-15Hz
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz --rate 100Hz
@@ -403,7 +403,7 @@ for command in price choose; do
     refused 'is no output, coordinate or rate' $command "$s" $e --of y
     refused "did you mean 'x_mm'" $command "$s" $e --of x_mn
     refused "is no output, coordinate or rate" $command "$s" $e --of "x''"
-    refused 'noise of its own' $command "$s" $e --of shaky
+    refused 'has noise' $command "$s" $e --of shaky
     refused 'length' $command "$s" --of x --error 1s
     refused 'error:' $command "$s" --error 1mm
     refused 'above zero' $command "$s" --error=-1
