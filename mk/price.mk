@@ -227,8 +227,8 @@ price-rows-now: build/whirl build/tools/mechanisms
 	@wc -l <$(PRICE_CSV)
 
 ##@ Price
-price-table: build/tools/price_table ##- the table of figures that prices are predicted from, of the counted rows; host/study/cost_rows.h, docs/dev/price.md
-	@build/tools/price_table $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.h 2>$(PRICE_OUT)/errors.md
-	@cp $(PRICE_OUT)/cost_rows.h host/study/cost_rows.h
+price-table: build/tools/price_table ##- the table of figures that prices are predicted from, of the counted rows; host/study/cost_rows.inc, docs/dev/price.md
+	@build/tools/price_table $(PRICE_CSV) >$(PRICE_OUT)/cost_rows.inc 2>$(PRICE_OUT)/errors.md
+	@cp $(PRICE_OUT)/cost_rows.inc host/study/cost_rows.inc
 	@mk/price/into_page.sh $(PRICE_OUT)/errors.md docs/dev/price.md cost
 	@cat $(PRICE_OUT)/errors.md

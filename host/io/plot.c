@@ -375,18 +375,23 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
 
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene) {
-    bool good = true;
-    if (keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv)) {
-        char *file = alloc_words("%s.toml", name);
-        FILE *to = atomic_file_open(file);
-        if (to != NULL) {
-            fprintf(to, "whirl = \"" WH_VERSION "\"\ncommand = \"%s\"\nscene = \"%s\"\n", command,
-                    scene);
-        }
-        good = to != NULL && atomic_file_close(to, file, true);
-        free(file);
+    const bool described = keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv);
+    /* The description follows: a CSV that cannot be written leaves the old one, and its description. */
+    if (!atomic_file_close(csv, name, keep)) {
+        return false;
     }
-    return atomic_file_close(csv, name, keep && good) && good;
+    if (!described) {
+        return true;
+    }
+    char *file = alloc_words("%s.toml", name);
+    FILE *to = atomic_file_open(file);
+    if (to != NULL) {
+        fprintf(to, "whirl = \"" WH_VERSION "\"\ncommand = \"%s\"\nscene = \"%s\"\n", command,
+                scene);
+    }
+    const bool good = to != NULL && atomic_file_close(to, file, true);
+    free(file);
+    return good;
 }
 
 /* The string at *at, which advances past it; NULL if it is missing. Free it. */

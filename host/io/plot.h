@@ -40,7 +40,7 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run);
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 
 /* Close the CSV file of a command about a scene ("" for none), as atomic_file_close() does. If it is a regular file,
- * first write CSV.toml, with version, command and scene. Returns false after an error, which it has reported. */
+ * then write CSV.toml, with version, command and scene. Returns false after an error, which it has reported. */
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene);
 

@@ -10,7 +10,7 @@
 #include "host/image/core_rows.h"
 #include "host/image/image.h"
 
-#include "host/study/cost_rows.h"
+#include "host/study/cost_rows.inc"
 
 /* === boards and number types ================================================================== */
 

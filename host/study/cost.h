@@ -3,7 +3,7 @@
  *     cost c = cost_of(image, cost_board_named("mps2-an386"), COST_FLOAT);
  *
  * An image contains its settings (method, compensated sums, angles). A prediction is a sum over the classes of operations
- * (below) times the figures of the board and number (cost_rows.h, written by `make price-table`). It needs neither
+ * (below) times the figures of the board and number (cost_rows.inc, written by `make price-table`). It needs neither
  * a source tree nor a compiler. docs/price.md gives its error.
  *
  * With the source tree and the board's compiler and emulator, this command counts the price instead:
@@ -67,7 +67,7 @@ const cost_board *cost_board_named(const char *name); /* NULL: unknown */
 
 /* === the operations of a step, by class ======================================================= */
 /* The operations of a step, counted by class. A prediction is the sum of these counts times the figures of
- * cost_rows.h. Sums over stages come from the method's tableau (core/method.h), so every method has counts. */
+ * cost_rows.inc. Sums over stages come from the method's tableau (core/method.h), so every method has counts. */
 
 /* X(id, meaning): a class of operations. */
 #define COST_CLASS_ROWS(X) \
@@ -108,7 +108,7 @@ typedef struct cost_counts {
 /* For COST_FIXED the image must contain its step in fixed point (image.h, `fixed`). */
 cost_counts cost_count(const image *im, const cost_board *board, cost_number number);
 
-/* A row of the table of figures (cost_rows.h). */
+/* A row of the table of figures (cost_rows.inc). */
 typedef enum cost_quantity {
     COST_OF_INSTRUCTIONS,
     COST_OF_CYCLES,

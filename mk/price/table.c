@@ -1,6 +1,6 @@
-/* table.c: the table of figures that prices are predicted from (host/study/cost_rows.h): `make price-table` calls it.
+/* table.c: the table of figures that prices are predicted from (host/study/cost_rows.inc): `make price-table` calls it.
  *
- *     price_table ROWS.csv >cost_rows.h    writes the table, and its errors to standard error
+ *     price_table ROWS.csv >cost_rows.inc    writes the table, and its errors to standard error
  *
  * ROWS.csv is written by measure.sh. A figure is what one operation of a class takes: the least squares of the relative
  * error over the counted steps of a board and number, with no figure below zero. The stated error is that of scenes that
@@ -233,7 +233,7 @@ int main(int count, char **words) {
     }
     read_rows(words[1]);
     puts(
-        "/* cost_rows.h: the cost of one operation of each class (cost.h); written by `make price-table`. */\n\n"
+        "/* cost_rows.inc: the cost of one operation of each class (cost.h); written by `make price-table`. */\n\n"
         "/* clang-format off */\nstatic const cost_row cost_rows[] = {");
     fputs(
         "| board | number | of a step | counted | half within | nine of ten within | all within |\n"

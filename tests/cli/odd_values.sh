@@ -55,7 +55,7 @@ while read -r command option words; do
         sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" "$file" >"$scratch/out" 2>"$scratch/err" </dev/null
         status=$?
         [ $status -ge 1 ] && [ $status -le 2 ] && [ ! -s "$scratch/out" ] &&
-            grep -qE "^('*|$file): error: cannot be written: |error: --plot draws|error: --header takes" "$scratch/err"
+            grep -qE "^('*|$file): error: cannot be written: |error: --plot draws|error: --header needs" "$scratch/err"
         verdict $? "whirl $command $option '$file': status $status"
     done
     # the disk is full after a random number of blocks: the old file stays, and no partial file appears beside it

@@ -276,7 +276,7 @@ refused 2 'no --firmware' rig_coupled
 refused 2 'no scene' --firmware "$build/pil_rig"
 refused 2 'takes no scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
 refused 2 'cannot be read' rig_coupled --firmware "$scratch/none"
-refused 2 'no firmware image' rig_coupled --firmware README.md
+refused 2 'not a firmware image' rig_coupled --firmware README.md
 refused 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
 cp "$build/pil_rig" "$scratch/closed" && chmod a-x "$scratch/closed"
 refused 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
@@ -285,7 +285,7 @@ sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
 refused 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
 refused 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
 refused 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
-refused 2 'is no NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
+refused 2 'must be NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
 refused 2 'is renamed already' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
 refused 2 'there is room for' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
 refused 2 'there is room for' $rig --delay 0.1 --firmware "$build/pil_rig"
@@ -317,7 +317,7 @@ done <<'END'
 --tape cannot_be_written /dev/null/x empty
 END
 for image in /dev/null /dev/zero .; do
-    refused 2 'no firmware image' docs/plants/cart.whirl --firmware $image
+    refused 2 'not a firmware image' docs/plants/cart.whirl --firmware $image
 done
 refused 2 'cannot be read' docs/plants/cart.whirl --firmware ''
 [ ! -c /dev/full ] ||
@@ -396,7 +396,7 @@ for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"})
     for round in $(seq $rounds); do
         begin "$image" && pause && kill -KILL "$guest"
         end_of 1 "$image, round $round: the guest is killed"
-        grep -q 'was ended by signal 9' "$scratch/err"
+        grep -q 'process ended by signal 9' "$scratch/err"
         verdict $? "and that is said"
         begin "$image" && pause && kill -KILL "$host"
         end_of 137 "$image, round $round: the host is killed"

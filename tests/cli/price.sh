@@ -410,11 +410,11 @@ for command in price choose; do
     refused 'above zero' $command "$s" --error 0
     refused 'error:' $command "$s" --error much
     refused 'error:' $command "$s" $e --horizon x
-    refused 'no time' $command "$s" $e --horizon 0
+    refused 'the horizon is 0 s' $command "$s" $e --horizon 0
     refused 'is not NAME=FROM..TO' $command "$s" $e --vary push
     refused 'error:' $command "$s" $e --vary nothing=1..2
-    refused 'varies no step' $command "$s" $e --vary step=1..2
-    refused 'at most 64' $command "$s" $e --vary push=0..1:100
+    refused 'cannot change the step' $command "$s" $e --vary step=1..2
+    refused 'the limit of 64' $command "$s" $e --vary push=0..1:100
     refused 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
     for option in --board --of --error --horizon --vary --effort --method; do
         for value in '' ' ' nan inf -1 1e400; do

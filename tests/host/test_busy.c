@@ -146,7 +146,7 @@ TEST(busy, where_no_step_helps_the_scene_is_changed) {
         rattle_write(&r, text);
         say(text, NULL, false, &what);
         TEST_ASSERT_TRUE_MESSAGE(is_told(&what), text);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "hint: restitution 0, or a condition"),
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "hint: use restitution 0, or add hysteresis"),
                                      what.err);
         if (r.kind == BALL) {
             r.number[2] = 0.0;
