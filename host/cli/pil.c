@@ -186,7 +186,7 @@ static bool go_together(const pil_options *o) {
     return true;
 }
 
-/* The program knows the boards even away from their sources. */
+/* The list of boards is compiled in: the program must know them without the source tree. */
 static bool is_known_board(pil_options *o) {
     static const struct {
         const char *word;

@@ -36,7 +36,7 @@ void records_close(records *r);
 /* der(theta), without its unit; the caller frees it. */
 char *records_name(const record_column *c);
 void records_header(records *r);
-/* Read the run's state into r->row; time is given, since it is steps * step. */
+/* Reads the run's state into r->row. The caller gives the time: steps * step, which is exact. */
 void records_read(records *r, void *run, double time_s);
 /* Write r->row to both files. False if writing failed. */
 bool records_write(const records *r);

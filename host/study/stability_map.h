@@ -69,7 +69,7 @@ uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 
-/* A line for each row, with a mark for each value along it, rising. `words` describe the run. */
+/* A line for each row, with a mark for each value along it, in rising order. `words` describe the run. */
 void map_print(FILE *out, const stability_map *m, const char *words);
 /* A row for each completed pair: both values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);

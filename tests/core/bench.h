@@ -51,7 +51,7 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin);
 void bench_add_some(uint64_t *seed, unsigned kinds);
 /* A random mechanism with contacts of any kinds that have a force. With `angles` some coordinates may be angles. */
 void bench_draw(uint64_t *seed, bool angles);
-/* Starts w and evaluates the laws. Each contact gets a mode: it holds or, with `some`, perhaps does not. */
+/* Starts w and evaluates the laws. Each contact gets a mode: it holds; with `some`, only some of them do. */
 void bench_work(uint64_t *seed, bool some, wh_contact_work *w);
 /* Does contact k, in its mode, constrain a place? */
 bool bench_keeps(const wh_contact_work *w, unsigned k);

@@ -340,7 +340,7 @@ static void check_magnet(const char *which, double drift_most, double gain_most,
     /* captured and released once per turn */
     expect_between("  captures and releases over turns", 2.0 * (turns - 1.0), 2.0 * turns + 1.0,
                    (double)events);
-    /* a magnet that only holds adds no energy; the captures take some */
+    /* a magnet that only holds adds no energy; each capture removes some */
     expect_between("  energy gained in a step, most, J", 0.0, gain_most, gain);
     expect_between("  energy that captures took, J", 1.0, 100.0, -book);
     /* closed form of X with the centre of mass at rest: r/3 (6 - 4 cos - cos - cos), 0 to 1.2 m */
