@@ -43,9 +43,11 @@ static bool has_range(parser *in, const token *name, const named *found) {
     }
     if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
         diag_error(
-            in->diags, name->at, NULL, "range takes '%s' with %s", what->name,
-            moves ? "use fewer primes: a derivative that follows from the equations has no range"
-                  : "leave out the prime: an input has no rate");
+            in->diags, name->at, NULL,
+            moves
+                ? "'%s' has too many primes: a derivative that follows from the equations has no range"
+                : "'%s' is an input: its rate has no range; leave out the prime",
+            what->name);
         return false;
     }
     for (int i = 0; i < made->range_count; i++) {

@@ -536,7 +536,7 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
             algebra *a = algebra_new();
             const poly *sum = sum_of_rates(a, rates, count);
             const poly *p = poly_pow(a, sum, exponent);
-            double products = 1.0; /* equal products merge: the binomial coefficient C(count + exponent - 1, exponent) terms are left */
+            double products = 1.0; /* C(count + exponent - 1, exponent): equal products merge */
             double left = 1.0;
             for (int i = 0; i < exponent; i++) {
                 products *= count;

@@ -128,7 +128,8 @@ static void test_what_two_effects_must_not_give_together(void) {
     TEST_ASSERT_NOT_NULL(instance_of(-1, &(overrides){.with = both, .with_count = 1}));
     refuse(-1, &(overrides){.with = both, .with_count = 2},
            "x.whirl:15:15: error: friction on 'x' was already given in line 14");
-    refuse(0, NULL, "x.whirl:17:38: error: 'half' belongs to the effect 'motor', which takes no");
+    refuse(0, NULL,
+           "x.whirl:17:38: error: 'half' belongs to the effect 'motor', which is not selected");
     const char *motor[] = {"motor"};
     TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.with = motor, .with_count = 1}));
 }

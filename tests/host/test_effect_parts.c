@@ -112,7 +112,7 @@ TEST(effect_parts, a_scene_sets_what_it_names) {
         const char *said; /* NULL: accepted */
     } all[] = {{"scene s { set b = 3 }",
                 "t.whirl:5:15: error: 'b' belongs to the effect 'drag', which this "
-                "scene does not name"},
+                "scene does not select"},
                {"scene s { set b = 3\nwith drag }", NULL},
                {"scene s { with drag\nset b = 3, m = 2 [kg] }", NULL},
                {"scene s { set m = 2 [kg], push = 1 [N]\nwith drag }",

@@ -391,12 +391,12 @@ TEST(fixed_runs, ranges_keep_denominators_from_zero) {
 /* An invalid range is reported with its place. */
 TEST(fixed_runs, ranges_in_the_language) {
     static const char *const tried[][2] = {
-        {"range x = 1 .. -1 [m]", "holds nothing"},
+        {"range x = 1 .. -1 [m]", "is empty"},
         {"range x = 1 [m]", "'..' is missing"},
         {"range x = -1 .. 1 [s]", "is length"},
         {"range k = -1 .. 1", "coordinates, their rates and inputs"},
-        {"range x'' = -1 .. 1 [m/s^2]", "fewer primes"},
-        {"range u' = -1 .. 1 [N/s]", "no prime"},
+        {"range x'' = -1 .. 1 [m/s^2]", "too many primes"},
+        {"range u' = -1 .. 1 [N/s]", "leave out the prime"},
         {"range x = -1 .. 1 [m], x = -2 .. 2 [m]", "already given"},
         {"range nobody = 0 .. 1", "is unknown"},
     };

@@ -118,8 +118,8 @@ TEST(starts, kicks_know_no_rates) {
                 const char *told = told_of(errors);
                 snprintf(
                     what, sizeof what,
-                    "t.whirl:%d:12: error: %s is not defined here: accelerations take the rate "
-                    "of 'q%d'",
+                    "t.whirl:%d:12: error: %s is not defined here: the accelerations depend on the "
+                    "rate of 'q%d'",
                     2 + lossy, wh_methods[method].title, lossy);
                 TEST_ASSERT_EQUAL_INT_MESSAGE(kicks && lossy >= 0, strstr(told, what) != NULL,
                                               told);
