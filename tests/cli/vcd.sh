@@ -117,7 +117,7 @@ refused "standard output that --columns has" 'error: --columns and --vcd cannot 
 refused "the model" 'error: --vcd would write over the model' "$scratch/carts.whirl:cart1" --vcd "$scratch/carts.whirl"
 refused "a folder that there is not" 'error: cannot be written: ' thomson_a --vcd "$scratch/none/x"
 [ ! -e /dev/full ] || code=1 refused "a full disc" '^/dev/full: error: cannot be written: ' thomson_a --until 2s --quiet --vcd /dev/full
-refused "records that no unit tells apart" 'error: these records lie too close for --vcd' thomson_a --step 1e-16 --until 1e-13 --vcd "$scratch/x"
+refused "records that no unit tells apart" 'error: these records are too close for --vcd' thomson_a --step 1e-16 --until 1e-13 --vcd "$scratch/x"
 
 run thomson_b --method euler --step 0.1 --until 100 --quiet --csv "$scratch/v.csv" --vcd "$scratch/v.vcd"
 [ $? -eq 1 ] && awk -f "$reader" "$scratch/v.vcd" "$scratch/v.csv" >/dev/null 2>"$scratch/err"
