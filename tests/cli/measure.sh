@@ -138,11 +138,11 @@ missing() { # EXIT-STATUS SCENE TEXT OPTION...: where the compiler is missing
     [ $? -eq "$wanted" ] && cat "$scratch/out" "$scratch/err" | grep -q "$text"
     verdict $? "a compiler that is missing, choose $scene $*: exit status $wanted, $text" "$scratch/out"
 }
-missing 2 "$scratch/drawn.whirl:r23_1" "nothing can be counted on mps2-an386: 'no-such-compiler' is missing" --measure
+missing 2 "$scratch/drawn.whirl:r23_1" "whirl cannot count on mps2-an386: 'no-such-compiler' is missing" --measure
 missing 0 "$scratch/drawn.whirl:r23_1" "^  prices  *predicted, since nothing can be counted: 'no-such-compiler' is missing"
 missing 1 ball_bounces 'the cost of contacts must be counted'
 choose ball_bounces --error 1e-2 --board host --horizon 1s
-[ $? -eq 1 ] && grep -q 'counted in emulators alone' "$scratch/err"
+[ $? -eq 1 ] && grep -q 'counted only in emulators' "$scratch/err"
 verdict $? "a run with contacts is not counted on this machine, which is said" "$scratch/err"
 program=$(cd "$(dirname "$whirl")" && pwd)/whirl
 (cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 4e7 --measure >"$scratch/out" 2>"$scratch/err")

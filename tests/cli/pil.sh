@@ -311,7 +311,7 @@ done <<'END'
 --patience --patience_takes_a_number -1 0 nan inf 1e7 empty
 --place --place_.*:_numbers_between_commas nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
 --place --place_has_[2-9]_places,_and_the_firmware 0,0,0
---bind is_no_NAME=OTHER = =push , push=push, ,push=push push empty
+--bind must_be_NAME=OTHER = =push , push=push, ,push=push push empty
 --bind sets_'' push= push=,push=
 --board no_board nan , empty
 --tape cannot_be_written /dev/null/x empty
