@@ -25,7 +25,7 @@ LESS = $(if $(filter -O0,$(OPT)),,-O1 $(QUIET))
 LESS_O2 = $(if $(filter -O2,$(OPT)),-O1 $(QUIET))
 LEAST_O2 = $(if $(filter -O2,$(OPT)),-O0 $(QUIET))
 $(B)/double/tests/core/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LEAST_O2)
-$(B)/float/tests/core/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
+$(B)/float/tests/core/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(or $(CORE_TEST_OPT),$(LESS_O2))
 $(B)/host/tests/host/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(or $(TEST_OPT),$(LESS_O2))
 $(patsubst %,$(B)/$(BOARD)/tests/core/%.o,test_stage_turn test_stage_turn_ledger): FILE_FLAGS = $(UNITY_FLAGS) $(LESS)
 
