@@ -218,7 +218,7 @@ FUZZED := $(LIB_HOST) $(call libraries,float,station rig whirl) $(LIB_DOUBLE)
 FUZZERS_OF_LINES := build/fuzz/fuzz_console.fuzzer build/fuzz/fuzz_wire.fuzzer
 $(filter-out $(FUZZERS_OF_LINES),$(FUZZERS)): $(FUZZED)
 build/fuzz/fuzz_console.fuzzer: $(call libraries,float,station rig whirl)
-build/fuzz/fuzz_wire.fuzzer: $(call objects,host,$(wildcard host/monitor/*.c host/base/*.c) $(addprefix host/io/,figure_draw.c gnuplot.c minmax_decimation.c panels.c plot.c plot_run.c vcd.c) host/number/decimal.c host/number/functions.c) $(call objects,double,$(wildcard core/function*.c)) $(call libraries,float,whirl)
+build/fuzz/fuzz_wire.fuzzer: $(call objects,host,$(wildcard host/monitor/*.c host/base/*.c host/os/*.c host/os/posix/*.c) $(addprefix host/io/,figure_draw.c gnuplot.c minmax_decimation.c plot.c vcd.c) host/number/decimal.c host/number/functions.c) $(call objects,double,$(wildcard core/function*.c)) $(call libraries,float,whirl)
 build/fuzz/%.fuzzer: build/fuzz/host/tests/fuzz/%.o
 	$(say) LINK $@
 	$(Q)$(CC) $(NATIVE) -fsanitize=fuzzer -o $@ $(filter %.o,$^) \
