@@ -186,6 +186,12 @@ static bool read_error(pricing *p) {
                 command, equals + 1);
         return false;
     }
+    if (equals != NULL && equals == text) {
+        fprintf(stderr,
+                "whirl %s: error: --error '%s': no quantity stands before '='\nhint: --error x%s\n",
+                command, text, text);
+        return false;
+    }
     if (equals != NULL) {
         p->quantity = p->named = alloc_copy(text, (size_t)(equals - text));
         text = equals + 1;

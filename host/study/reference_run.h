@@ -30,7 +30,7 @@ static inline long double long_size(long double x) { return x < 0.0L ? -x : x; }
 void long_sincos(long double rad, long double *sine, long double *cosine);
 long double long_root(long double x);
 long double long_power(long double base, long double exponent);
-/* A function of function_rows.h at x, or at (x, y). */
+/* A function of host/number/functions.h at x, or at (x, y). */
 long double long_call(function_id function, long double x, long double y);
 
 typedef struct long_list long_list;

@@ -407,6 +407,7 @@ for command in price choose; do
     refused 'length' $command "$s" --of x --error 1s
     refused 'error:' $command "$s" --error 1mm
     refused 'above zero' $command "$s" --error=-1
+    refused "no quantity stands before '='" $command "$s" --error =0.1mm
     refused 'above zero' $command "$s" --error 0
     refused 'error:' $command "$s" --error much
     refused 'error:' $command "$s" $e --horizon x

@@ -41,7 +41,7 @@ static double row_value(const op_list *t, const op *o, const double *x) {
     case OP_SQRT: return sqrt(a);
     case OP_ABS: return fabs(a);
     case OP_SIGN: return isnan(a) ? a : (double)((a > 0.0) - (a < 0.0));
-    case OP_MIN: return isnan(b) || b < a ? b : a; /* as in op_rows.h: the first of two zeros */
+    case OP_MIN: return isnan(b) || b < a ? b : a; /* as in op_list.h: the first of two zeros */
     case OP_MAX: return isnan(b) || b > a ? b : a;
     case OP_CALL:
         snprintf(name, sizeof name, "wh_%s", function_name(o->function));

@@ -29,7 +29,7 @@ TEST(vocabulary, functions_are_in_their_recorded_order) {
     for (int i = 0; i < FUNCTIONS; i++) {
         const char *name = function_name((function_id)i);
         TEST_ASSERT_NOT_NULL_MESSAGE(recorded[i], name);
-        EXPECT_ROW("function_rows.h", i, name);
+        EXPECT_ROW("functions.h", i, name);
     }
 }
 
@@ -43,7 +43,7 @@ TEST(vocabulary, operations_are_in_their_recorded_order) {
 #undef NAME
     for (int i = 0; i < OPS; i++) {
         TEST_ASSERT_NOT_NULL_MESSAGE(recorded[i], names[i]);
-        EXPECT_ROW("op_rows.h", i, names[i]);
+        EXPECT_ROW("op_list.h", i, names[i]);
     }
 }
 
