@@ -1,7 +1,7 @@
 # Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
 #
 # V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price`, `make bench-boards`,
-# `make bench-peers`, `make price-table` and `make stability`, which renew their part of docs/, and `make too-large`, which
+# `make price-table` and `make stability`, which renew their part of docs/, and `make too-large`, which
 # lists what does not fit into a board.
 
 .DEFAULT_GOAL := help
@@ -45,7 +45,6 @@ include mk/board.mk
 include mk/firstlight.mk
 include mk/price.mk
 include mk/curves.mk
-include mk/peers.mk
 include mk/figures.mk
 include mk/hosts.mk
 include mk/check.mk
@@ -196,10 +195,6 @@ bench: ## instructions a step, counted, on this machine and on the emulated boar
 bench-boards: ##- a step of five scenes on every board: instructions, cycles, bytes; into docs/dev/price.md (minutes)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality
 	@$(MAKE) bench-boards-now
-
-bench-peers: ##- the same steps and derivations by other libraries, as ratios; into docs/dev/price.md (installs them, large)
-	@CC="$(CC)" mk/setup/deps.sh host tests bench peers
-	@$(MAKE) bench-peers-now
 
 price-rows: ##- steps of a hundred scenes counted on every board: build/cost/rows.csv, for price-table (half an hour)
 	@CC="$(CC)" mk/setup/deps.sh host firmware boards quality bench

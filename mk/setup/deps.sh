@@ -3,7 +3,7 @@
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (those of all processors) or a folder of
 # boards/ with a packages.sh (its own), tests, quality (linters, sanitizers), bench; hosts (other compilers, C libraries and
-# processors), flash (programmers and a debugger) and peers (other solvers) only when they are named.
+# processors) and flash (programmers and a debugger) only when they are named.
 # What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
 # counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
 # what needs it and the size; where it cannot be, the line that does it (exit status 1).
@@ -33,7 +33,6 @@ have_file() {
 }
 # gcc-multilib would do for -m32, but cannot be installed beside the cross compilers.
 can_m32() { have gcc && echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o /dev/null 2>/dev/null; }
-have_sympy() { /usr/bin/python3 -c 'import sympy' 2>/dev/null; }
 # What a family of boards takes is in its folder: `want` lines.
 family() {
     # shellcheck source=/dev/null
@@ -87,12 +86,6 @@ group() {
         want openocd "programming and debugging through a probe" have openocd
         want dfu-util "programming through USB" have dfu-util
         want gdb-multiarch "the debugger" have gdb-multiarch ;;
-    peers) part="bench-peers"
-        want libgsl-dev "the GNU Scientific Library" have_file /usr/include/gsl/gsl_odeiv2.h
-        want libsundials-dev "SUNDIALS, with ARKODE" have_file /usr/include/arkode/arkode_arkstep.h
-        want libboost-dev "Boost, with odeint" have_file /usr/include/boost/numeric/odeint.hpp
-        want python3-sympy "SymPy" have_sympy
-        want octave "running the generated Octave files" have octave-cli ;;
     *) part="boards"
         [ -e "$boards/$1/packages.sh" ] || { echo "deps.sh: no such group: $1" >&2; exit 2; }
         family "$1" ;;

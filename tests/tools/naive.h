@@ -2,10 +2,6 @@
 #ifndef TESTS_NAIVE_H
 #define TESTS_NAIVE_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { NAIVE_STATES_MAX = 6 };
 
 typedef struct naive_mechanism {
@@ -18,19 +14,9 @@ typedef struct naive_mechanism {
 
 extern const naive_mechanism naive;
 
-/* Sets state[] to rest at zero and the next step to the first. A library may store the state itself. */
+/* Sets state[] to rest at zero. */
 void naive_start(double state[]);
 /* One step of the classic Runge-Kutta method, h_s seconds long. */
 void naive_step(double state[], double h_s);
-void naive_read(double state[]);
-
-/* The file that makes naive_step() from a mechanism's slope(), to be included after it. */
-#ifndef NAIVE_STEPPER
-#define NAIVE_STEPPER "naive_rk4.h"
-#endif
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -33,4 +33,4 @@ static void slope(const double y[STATES], double dy[STATES]) {
     dy[3] = (m11 * f2 - m12 * f1) / det;
 }
 
-#include NAIVE_STEPPER
+#include "naive_rk4.h"

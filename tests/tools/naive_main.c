@@ -1,14 +1,7 @@
-/* naive_main.c: main program for a mechanism stepped by hand-written code or by another library (mk/peers). It first checks the
- * motion. Its commands are those of boards/programs/bench.c:
- *
- *     PROGRAM            the steps that mk/count/count_rows.sh counts
- *     PROGRAM steps N    N steps only
- *     PROGRAM time N     N steps; prints the nanoseconds per step */
+/* naive_main.c: main program for a mechanism stepped by hand-written code. It counts steps as boards/programs/bench.c does, then
+ * checks the motion. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
 #include "naive.h"
 
@@ -28,7 +21,6 @@ static void run(double state[], unsigned long steps) {
     for (unsigned long i = 0; i < steps; i++) {
         naive_step(state, STEP_S);
     }
-    naive_read(state);
 }
 
 static int wrong(void) {
@@ -45,13 +37,7 @@ static int wrong(void) {
     return 1;
 }
 
-static double now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static int count(void) {
+int main(void) {
     double state[NAIVE_STATES_MAX];
     wh_count_begin();
     wh_count_end();
@@ -64,22 +50,4 @@ static int count(void) {
     }
     printf("count %s rk4 double 1 %u\n", naive.name, COUNTED_STEPS);
     return wrong();
-}
-
-int main(int argc, char **argv) {
-    double state[NAIVE_STATES_MAX];
-    const unsigned long steps = argc == 3 ? strtoul(argv[2], NULL, 10) : 0;
-    if (argc == 1) {
-        return count();
-    }
-    if (steps == 0 || (strcmp(argv[1], "steps") != 0 && strcmp(argv[1], "time") != 0)) {
-        fprintf(stderr, "usage: %s [steps|time N]\n", argv[0]);
-        return 2;
-    }
-    const double begin_s = now_s();
-    run(state, steps);
-    if (strcmp(argv[1], "time") == 0) {
-        printf("%.6g\n", (now_s() - begin_s) * 1e9 / (double)steps);
-    }
-    return 0;
 }

@@ -32,6 +32,4 @@ void naive_start(double y[]) {
     }
 }
 
-void naive_read(double y[]) { (void)y; }
-
 #endif

@@ -55,6 +55,6 @@ static void slope(const double y[STATES], double dy[STATES]) {
     dy[3] = (f1 - m12 * dy[4] - m13 * dy[5]) / m11;
 }
 
-#include NAIVE_STEPPER
+#include "naive_rk4.h"
 
 #endif
