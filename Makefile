@@ -48,7 +48,6 @@ include mk/curves.mk
 include mk/figures.mk
 include mk/hosts.mk
 include mk/check.mk
-include mk/coverage.mk
 include mk/settings.mk
 include mk/hard.mk
 include mk/rig.mk

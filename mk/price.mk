@@ -155,15 +155,6 @@ size-now: $(GEN)/.stamp
 	    $(call libraries,$(BOARD),whirl rig virtual scenes)
 endif
 
-##@ Boards
-.PHONY: size-files size-files-now
-size-files: ##- bytes of flash of each file in the rig's firmware with a console, of BOARD
-	@CC="$(CC)" mk/setup/deps.sh host $(BOARD_DEPS)
-	@$(MAKE) size-files-now
-size-files-now: $(GEN)/.stamp
-	@$(MAKE) $(STATION)
-	@mk/size/files.sh $(STATION:.elf=.map)
-
 # What programs that build and count scenes of their own are told.
 TO_PRICE = WHIRL=build/whirl BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
     BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \

@@ -56,41 +56,8 @@ TEL_SECONDS ?= 3600
 tel-hour: $(B)/whirl $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check ##- an hour of telemetry at three speeds of the line, simulated (minutes; TEL_SECONDS=n)
 	@WHIRL=$(B)/whirl TEL_SECONDS=$(TEL_SECONDS) sh tests/cli/monitor.sh
 
-# The longest control steps of the campaign, counted again from outside.
 ##@ Tests and quality
-rig-worst: $(PLUGIN) ##- the longest control steps of the last make faults BOARD=..., counted by the emulator (a minute)
-	@NM=$(BOARD_NM) PLUGIN=$(PLUGIN) mk/count/rig_worst.sh build/whirl $(ELF)/pil_dialled.elf build/faults_$(BOARD).md
-
 # What the last campaign on this machine found, between the marks of docs/dev/rig.md.
 faults-page: ##- docs/dev/rig.md shows what the last make faults found
 	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
 	@mk/price/into_page.sh build/faults.md docs/dev/rig.md faults
-
-# The suites of the rig's controller in a program of their own, which is linked quickly after a change of it.
-RIG_SUITES := $(patsubst tests/core/test_%.c,%,$(sort $(wildcard $(addprefix tests/core/test_,rig*.c virtual_rig*.c lockin*.c station*.c))))
-RIG_TEST_C := $(filter-out tests/core/test_%,$(CORE_TEST_C)) $(RIG_SUITES:%=tests/core/test_%.c)
-$(eval $(call listed,$(B)/tests/rig_suites.list,$(RIG_SUITES)))
-$(B)/tests/rig_suites.c: tests/suites.sh $(B)/tests/rig_suites.list $(RIG_TEST_C)
-	$(say) GEN $@
-	$(Q)sh $< $(RIG_SUITES:%=tests/core/test_%.c) >$@
-rig_tests = $(call objects,$(1),$(RIG_TEST_C) $(B)/tests/rig_suites.c $(UNITY_DIR)/unity.c) $(call libraries,$(1),scenes station rig $(2) whirl)
-$(B)/tests/rig_float: $(call rig_tests,float,virtual)
-$(B)/tests/rig_double: $(call rig_tests,double)
-$(B)/tests/rig_float $(B)/tests/rig_double:
-	$(link)
-
-# Thirty bugs of a typical kind: the rig's suites must notice each, or else a small campaign of faults.
-RIG_CAMPAIGN = build/tools/faults --firmware $(1) --runs 60 --seed 1
-rig-bugs: build/tests/rig_float build/tools/faults $(B)/pil_rig ##- bugs put into the rig's controller: does a test notice? (minutes; in a copy of the tree)
-	@MAKE="$(MAKE)" ROWS=mk/mutants/rig_bugs.rows TOP=build/rig_bugs PROGRAM=build/tests/rig_float SUITES="$(RIG_SUITES)" \
-	    MORE="build/tools/faults build/pil_rig" LAST="$(call RIG_CAMPAIGN,build/pil_rig)" HELD=95 \
-	    sh mk/mutants/guards.sh
-
-# The same for random changes, drawn and reported as by `make mutants`.
-rig-mutants: ##- small changes of the rig's controller: do its suites, else a small campaign, notice? MUTANTS (100), SEED (half an hour)
-	@UNITY="$(UNITY)" CC="$(CC)" mk/setup/deps.sh host tests
-	@UNITY="$(UNITY)" mk/setup/unity.sh build/unity
-	@MAKE="$(MAKE)" TOP=build/rig_mutants FOLDERS=core/rig MUTANTS=$(or $(MUTANTS),100) CORE=rig STAGES="double float last" \
-	    BUILDS="build/tests/rig_double build/tests/rig_float build/tools/faults build/pil_dialled" ALWAYS=campaign SLACK=$(or $(SLACK),100) \
-	    LAST_BUILDS="build/tools/faults build/pil_dialled" LAST="$(call RIG_CAMPAIGN,build/pil_dialled)" \
-	    sh mk/mutants/mutants.sh

@@ -237,3 +237,12 @@ fuzz-programs: $(FUZZERS)
 fuzz-now:
 	+@$(FUZZ_BUILD) fuzz-programs
 	@sh tests/fuzz.sh $(FUZZ_SECONDS) $(FUZZERS)
+
+# The program and its suites with a call at the head of each block, for `make mutants` (mk/mutants/reach.c), in a copy of the tree
+# where REACHED is set. Generated scenes have none: a change of the core does not compile them anew there.
+ifdef REACHED
+$(foreach b,host float double,$(foreach d,core host tests/core tests/host,$(eval $(B)/$(b)/$(d)/%.o: FILE_FLAGS += $(REACHED))))
+LINK_EXTRA += $(call objects,host,mk/mutants/reach.c)
+reachers-now: $(call objects,host,mk/mutants/reach.c)
+	@$(MAKE) $(B)/whirl $(B)/tests/host
+endif

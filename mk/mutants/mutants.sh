@@ -15,14 +15,8 @@
 # SLACK     how many times as long as it works a test may take, waiting for others: more on a busy machine
 # JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
 #
-# What is asked, as mk/rig.mk has it for the rig alone:
-# STAGES    of a change of the core, what is built and asked one after the other: the portable suites in `double` and in
-#           `float`, `host` (the program, its suites and scripts), and `last`
-# CORE      the portable suites' programs are build/tests/CORE_float and CORE_double
-# LAST      what else is asked, where no suite failed: a command; LAST_BUILDS: what it needs built
-# BUILDS    what all of them are made by
-# REACH     kinds of tests, "host" and "cli", of which only those are asked that reach the changed line
-# TOP       the copies' folder
+# Of a change of the core are built and asked, one after the other: the portable suites in double, the program with its suites
+# and scripts, the portable suites in float. Of the program's only those are asked that reach the changed line.
 #
 # What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
 # only what had survived is tried again; when the folder's code changes, it starts anew.
@@ -30,12 +24,10 @@ set -eu
 
 : "${FOLDERS:=core core/contact* core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
 : "${LONGEST:=60}" "${PATIENCE:=600}" "${SLACK:=10}" "${ALWAYS:=}" "${NEVER:=^$}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
-: "${STAGES:=double host float}" "${CORE:=core}" "${LAST:=}" "${LAST_BUILDS:=}" "${BUILDS:=test-programs}"
-case " $STAGES " in *" host "*) : "${REACH=host cli}" ;; *) REACH="" ;; esac
-top=${TOP:=build/mutants}
+top=build/mutants
 here=mk/mutants
-asked="$LONGEST.$PATIENCE.$REACH.$ALWAYS.$NEVER.$STAGES.$CORE.$LAST"
-export JOBS LONGEST PATIENCE SLACK REACH ALWAYS NEVER STAGES CORE LAST LAST_BUILDS
+asked="$LONGEST.$PATIENCE.$ALWAYS.$NEVER"
+export JOBS LONGEST PATIENCE SLACK ALWAYS NEVER
 
 # --- copies -------------------------------------------------------------------------------------------
 # Times are kept, so that nothing is compiled that is up to date. The first copy is never changed; the
@@ -53,7 +45,7 @@ mkdir -p "$top"
 if ! is "$top/sum" "$sum"; then
     rm -rf "$top/sum" "$top"/src[0-9]*
     sh "$here/tree.sh" "$top/src"
-    made "$top/src" sh -c "$MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE $BUILDS"
+    made "$top/src" sh -c "$MAKE build/whirl && $MAKE build/gen/.stamp && $MAKE test-programs"
     echo "$sum" >"$top/sum"
 fi
 for job in $(seq "$JOBS"); do
@@ -66,7 +58,7 @@ done
 
 # --- what every test takes on the tree as it is, and what it reaches --------------------------------------
 # A copy whose programs mark what they reach; the lines that each block of them has code of.
-if [ -n "$REACH" ] && ! is "$top/reach/sum" "$sum"; then
+if ! is "$top/reach/sum" "$sum"; then
     mkdir -p "$top/reach"
     if [ ! -d "$top/reaching" ]; then
         cp -a "$top/src" "$top/reaching.new"

@@ -1,6 +1,6 @@
 /* reach.c: which blocks of a program a test reaches. The compiler calls this at the head of each (gcc -fsanitize-coverage=
  * trace-pc); a byte of $REACH_FOLDER/PROGRAM.map stands for each byte of its code. The file is shared memory: processes add to it
- * that are started by others, and what was reached stands there when one is killed. Made by mk/coverage.mk, read by
+ * that are started by others, and what was reached stands there when one is killed. Made by mk/tests.mk, read by
  * times.sh. */
 #include <fcntl.h>
 #include <stdint.h>

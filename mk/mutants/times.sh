@@ -1,19 +1,19 @@
 #!/bin/sh
 # times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first:
-#   seconds of a processor, "host", "float", "double", "cli" or "last", its name, a sum of what it is made of
+#   seconds of a processor, "host", "float", "double" or "cli", its name, a sum of what it is made of
 # Each is run, and must pass: what fails on the tree as it is would kill every change. What KNOWN, a file of such
 # lines, has of the same sum is not run again, unless it was cut off and would not be now; what NEVER matches is not run at
 # all. A suite that will not be asked for its length is not run to its end: what it had taken by then stands for its time.
 # Scripts that say nothing about the folders that are changed, or that need other compilers, are left out.
 #
-# Suites and scripts of the kinds in REACH are run in TREE/../reaching, whose programs mark what they reach (reach.c):
+# Suites of "host" and scripts are run in TREE/../reaching, whose programs mark what they reach (reach.c):
 # TREE/../reach/KIND.NAME.lines gets the lines. JOBS tests are run at the same time, each by a times.sh TREE KNOWN KIND NAME.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 known=$2
 cd "$1"
 top=$(dirname "$PWD")
-: "${REACH:=}" "${JOBS:=1}"
+: "${JOBS:=1}"
 export WHIRL=build/whirl
 
 sum_of() { cat "$@" | cksum | tr -d ' '; }
@@ -38,7 +38,7 @@ told() { # told KIND NAME KEY PROGRAM...: a line of one; a name in .failed where
     shift 3
     line=$(grep -E "^[0-9.]+ $kind $name $key" "$known" | tail -n 1 || true)
     reached=""
-    case " $REACH " in *" $kind "*) reached=$top/reach/$(echo "$kind.$name" | tr / _) ;; esac
+    case $kind in host | cli) reached=$top/reach/$(echo "$kind.$name" | tr / _) ;; esac
     always=$(printf '%s\n' "$name" | grep -E "${ALWAYS:-^$}" || true)
     if [ -n "$line" ] && { [ -z "$reached" ] || [ -e "$reached.lines" ]; } && ! awk -v line="$line" -v longest="$LONGEST" \
         -v always="$always" 'BEGIN { split(line, t, " "); exit !(t[5] == "cut" && (t[1] < longest || always != "")) }'; then
@@ -73,8 +73,7 @@ if [ $# -gt 2 ]; then
     case $3 in
     cli) told cli "$4" "$common.$pages.$(sum_of "$4")" sh "$4" ;;
     host) told host "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|SUITE\(|TEST\()$4[(,)]" tests/host/test_*.c)")" build/tests/host "$4" ;;
-    last) told last "$4" "$common" sh -c "$LAST" ;;
-    *) told "$3" "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|SUITE\(|TEST\()$4[(,)]" tests/core/test_*.c)")" "build/tests/${CORE}_$3" "$4" ;;
+    *) told "$3" "$4" "$common.$(sum_of "$(grep -lE "^(void suite_|SUITE\(|TEST\()$4[(,)]" tests/core/test_*.c)")" "build/tests/core_$3" "$4" ;;
     esac
     exit 0
 fi
@@ -85,14 +84,12 @@ pages=$(sum_of $(find docs -type f ! -name testing.md ! -name mutants.md | sort)
 export common pages JOBS
 rm -f .failed
 {
-    [ -z "$LAST" ] || echo last campaign
     for build in host float double; do
-        case " $STAGES " in *" $build "*) ;; *) continue ;; esac
-        list=build/tests/${CORE}_suites.c
+        list=build/tests/core_suites.c
         [ "$build" != host ] || list=build/tests/host_suites.c
         sed -n "s/^void suite_\([a-z0-9_]*\)(void);/$build \1/p" "$list"
     done
-    case " $STAGES " in *" host "*) ls tests/cli/*.sh | sed 's/^/cli /' ;; esac |
+    ls tests/cli/*.sh | sed 's/^/cli /' |
         grep -vE '/(embed_.*|emitted_c|effects_cost_nothing|flags|interrupt|no_libm|suites|worst_step_marks|columns)\.sh$'
 } | awk -v never="${NEVER:-^$}" '$2 !~ never' | xargs -P "$JOBS" -n 2 sh "$here/times.sh" "$PWD" "$known" | sort -n
 if [ -e .failed ]; then

@@ -57,7 +57,7 @@ reaching() {
 }
 # order FOUND REACHING: quick ones first, and those that killed before: in this row, and a little what killed in other rows or draws.
 order() {
-    awk -F '\t' -v own="$1" -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" -v kinds=" $REACH " '
+    awk -F '\t' -v own="$1" -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
         FILENAME == ARGV[1] { reaches[$1]; next }
         FILENAME ~ /\.found$/ {
             if ($2 == "killed") { sub(/ \(.*/, "", $3); kills[$3] += FILENAME == own ? 1 : 0.1 }
@@ -67,7 +67,7 @@ order() {
             split($0, t, " ")
             test = t[2] "." t[3]
             gsub("/", "_", test)
-            if (index(kinds, " " t[2] " ") && !("all" in reaches) && !(test in reaches)) next
+            if (t[2] ~ /^(host|cli)$/ && !("all" in reaches) && !(test in reaches)) next
             if ((t[1] <= longest || (always != "" && t[3] ~ always)) && t[3] !~ never)
                 print -(kills[t[2] " " t[3]] + 0.1) / (t[1] + 0.03), t[1], t[2], t[3]
         }' "$2" "$top"/*.found "$top/times" | sort -n | cut -d ' ' -f 2-
@@ -78,8 +78,7 @@ usable() {
     case $1 in
     cli) differ build/whirl ;;
     host) differ build/tests/host ;;
-    last) any_differ $LAST_BUILDS ;;
-    *) { [ "$2" != scenes ] || [ "${file%.c}" != "$file" ]; } && differ "build/tests/${CORE}_$1" ;;
+    *) { [ "$2" != scenes ] || [ "${file%.c}" != "$file" ]; } && differ "build/tests/core_$1" ;;
     esac
 }
 # run SECONDS KIND NAME: a test that takes six times its time of the processor and five seconds has lost its way; so has one that waits.
@@ -88,8 +87,7 @@ run() {
     case $2 in
     cli) set -- sh "$3" ;;
     host) set -- build/tests/host "$3" ;;
-    last) set -- sh -c "$LAST" ;;
-    *) set -- "build/tests/${CORE}_$2" "$3" ;;
+    *) set -- "build/tests/core_$2" "$3" ;;
     esac
     { (ulimit -t "$limit" && ulimit -v 4000000 && ulimit -c 0 &&
         WHIRL=build/whirl exec timeout --kill-after=5 $((limit * SLACK + 60)) "$@") </dev/null; } >"$log.test" 2>&1
@@ -132,16 +130,15 @@ try() { # try NAME NUMBER FILE LINE COLUMN LENGTH REPLACEMENT
     file=$3
     apply "$3" "$4" "$5" "$6" "$7"
     stages="host"
-    case $3 in core/*) stages=$STAGES ;; esac
+    case $3 in core/*) stages="double host float" ;; esac
     came="same$tab-"
     asked=0
     spent=0
-    [ -z "$REACH" ] || reaching "$3" "$4" >"$log.reaching"
+    reaching "$3" "$4" >"$log.reaching"
     for stage in $stages; do # one part of what there is to build is built and asked after the other
         case $stage in
         host) programs="build/whirl build/tests/host" ;;
-        last) programs=$LAST_BUILDS ;;
-        *) programs="build/tests/${CORE}_$stage" ;;
+        *) programs="build/tests/core_$stage" ;;
         esac
         if ! build $programs; then
             came="refused$tab-"

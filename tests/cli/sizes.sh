@@ -73,17 +73,4 @@ sed '/title: "main"/d' "$scratch/objects/main.ci" >"$scratch/less" && mv "$scrat
 ! sizes 99999 99999 && grep -q 'no call graph of main' "$scratch/err"
 verdict $? "an image without main()'s call graph is refused"
 
-# Whose code an image that is optimised as a whole has: by the file of each function, those that are alike once.
-mkdir "$scratch/whole"
-echo 'LOAD /tmp/a.ltrans0.ltrans.o' >"$scratch/whole/a.map"
-printf '.vectors 8 0\n.text 1000 0\n.bss 77 0\n' >"$scratch/sections"
-printf '%s\t%s\n' "100 10 T one" /x/core/rig/a.c:3 "110 20 t two" /x/core/rig/a.c:9 "110 20 t two.1" /x/core/rig/b.c:9 \
-    "130 8 T three" /x/boards/stm32f4/c.c:1 "200 4d b four" /x/core/rig/a.c:2 >"$scratch/symbols"
-NM=$scratch/nm SIZE=$scratch/size sh mk/size/files.sh "$scratch/whole/a.map" | awk '{ $1 = $1; print }' >"$scratch/out"
-printf '%s\n' "1008 all" "952 texts, data and what has no file" "48 rig/a" "8 stm32f4/c" | cmp -s - "$scratch/out"
-verdict $? "each function of a whole image counts once, for its file"
-sh mk/size/files.sh "$scratch/whole/none.map" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q 'no such map' "$scratch/err"
-verdict $? "a map that is not there is told"
-
 exit $failed

@@ -257,7 +257,7 @@ static bool takes_time(const verdict *v) {
 static bool has_steps(const verdict *v) { return v->most > 0.0; }
 static double by_step(const verdict *v) { return v->most; }
 
-/* Each row has the command that repeats its run; mk/count/rig_worst.sh counts that run again. */
+/* Each row has the command that repeats its run. */
 static void print_longest(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     bool *shown = alloc(count, sizeof *shown);
     fprintf(out, "\nThe longest control steps of %d runs:\n", LONGEST);
