@@ -8,9 +8,9 @@
  * A step looks for events at its end. It locates the first event with a bounded number of probes on cubics through the
  * step's ends. Then it steps again, to just past the event, and changes the modes. An impact is an impulse through the
  * mass matrix with Newton's restitution. The step goes on with its remaining time, for at most WH_EVENTS_MAX moments.
- * At the last moment stops come to rest instead of bouncing, and the step is completed. If that changed the motion, the
- * state counts an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth Mechanics,
- * chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
+ * At the last of these moments stops come to rest instead of bouncing, and the step is completed. If that changed the
+ * motion, the state counts an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth
+ * Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
  *
  * Contacts are numbered stops first, then holds, frictions and crossings, each kind in order of declaration. Events of
  * one instant are resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so friction
@@ -58,14 +58,14 @@
 #endif
 #define WH_PROBES_SPARE WH_R(8.0)
 
-/* Most probes for a stop that a body enters and leaves within one try. */
+/* Most probes for a stop that a body enters and leaves within one trial step. */
 #define WH_DIP_PROBES 6U
 
 /* If a curved hold or stop slipped by more than this share of the displacement, it is projected twice. One
  * projection leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
-/* Projections after a step with too many events. */
+/* Most projections onto the stops and holds after a step with too many events. */
 #define WH_SQUEEZE_LOOKS 3U
 
 /* Most projections of a body that is beyond a stop when a step begins, for example after a correction of the state. This
@@ -105,7 +105,9 @@ typedef struct wh_contact {
         direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if one
                     * with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
                     * rate. Else 0. */
-    int16_t pin; /* only coordinate of a constant J_k, whose rate is then exactly zero; else -1 */
+    /* index of the coordinate if the expression is linear in one coordinate (then J_k is constant and its rate
+     * exactly zero); else -1 */
+    int16_t pin;
     uint8_t first_set; /* of a crossing's first assignment, or of a hold without a pin in held[] */
     uint8_t sets;
 } wh_contact;
@@ -120,13 +122,13 @@ enum {
 
 /* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
  *
- * Each of WH_EVENTS_MAX rounds has a try to the step's end and a try to the event, of `stages` evaluations each. After
- * each try up to three evaluations project the slip, and one evaluates the try's end. The search evaluates at its
- * begin; if no event depends on a force, it evaluates only at both ends. An impact takes two evaluations, a capture
+ * Each of WH_EVENTS_MAX rounds has two trial steps, to the step's end and to the event, of `stages` evaluations each.
+ * After each trial step up to three evaluations project the slip, and one evaluates its end. The search evaluates at
+ * its begin; if no event depends on a force, it evaluates only at both ends. An impact takes two evaluations, a capture
  * one, assignments three. A release of contacts takes one evaluation more than their number.
  *
- * Once per step: the last try, its three projections, the settling of the modes, and the inputs that are followed at
- * the step's begin. */
+ * Once per step: the last trial step, its three projections, the settling of the modes, and the update of coordinates
+ * that follow inputs with rates. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))

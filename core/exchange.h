@@ -1,13 +1,15 @@
 /* exchange.h: the payloads of the frames between a controller and the plant that it runs against.
  *
- * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then they take turns. The plant
- * sends the time and the sensors' readings since the last turn (`wh_readings`). The controller sends its new outputs and the
- * time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning of a byte is defined once.
+ * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then frames alternate.
+ * The plant sends the time and the sensors' readings since the last exchange (`wh_readings`). The controller sends its
+ * new outputs and the time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning
+ * of a byte is defined once.
  *
  * After a reset the controller sends its hello again. The plant answers with the cause of the reset and the bytes that
  * the controller had asked it to remember.
  *
- * Times are ticks of the controller's own timer: 32 bits, wrapping. Values are SI, as floats; converters give counts. */
+ * Times are ticks of the controller's own timer: 32 bits, wrapping. Values are SI, as floats; converters give
+ * counts. */
 #ifndef WH_EXCHANGE_H
 #define WH_EXCHANGE_H
 
@@ -32,7 +34,7 @@ enum {
 };
 
 #define WH_SIGNALS_MAX 20U /* signals of all kinds together */
-#define WH_EDGES_MAX 16U   /* most edges in one turn; later ones are lost */
+#define WH_EDGES_MAX 16U   /* most edges in one exchange; later ones are lost */
 #define WH_SAMPLES_MAX 24U
 
 typedef enum wh_signal_kind {

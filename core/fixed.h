@@ -154,7 +154,7 @@ WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
 WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
 WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
 
-/* The sign of x, -1, 0 or 1, with `bits` digits after the point. */
+/* The sign of x, -1, 0 or 1, with `bits` binary digits after the point. */
 WH_INLINE int32_t wh_fixed_sign(int32_t x, int bits) {
     return (int32_t)((uint32_t)(int32_t)((x > 0) - (x < 0)) << bits);
 }

@@ -1,7 +1,7 @@
-/* function_double.h: what the double build of function.h computes with, for core/function_*_double.c.
- * A pair holds a number as the sum of two doubles, the second at most half a unit of the first: some hundred bits (the
- * host takes it too: host/number/double_double.h). It is made of additions, products and quotients alone. Results leave as
- * the rounded sum of a pair, so that they err by little more than half a unit in the last place. */
+/* function_double.h: arithmetic for the double build of function.h (core/function_*_double.c). A pair holds a number as
+ * the sum of two doubles, the second at most half a unit of the first: some hundred bits (host/number/double_double.h
+ * uses it, too). Pairs are computed by additions, products and quotients alone. A function returns the rounded sum of a
+ * pair, so its error is little more than half a unit in the last place. */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 

@@ -13,7 +13,8 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     uint32_t drop = 8U; /* digits beyond a float's precision */
     uint32_t start = 0U;
     if (exponent >= -126) {
-        start = (uint32_t)(exponent + 126) << 23; /* the leading digit adds the last one */
+        /* the leading digit, added below, increments the exponent by one */
+        start = (uint32_t)(exponent + 126) << 23;
     } else if (exponent > -151) {
         drop = (uint32_t)(-118 - exponent);
     } else {
@@ -38,7 +39,7 @@ uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     return ratio;
 }
 
-/* Division has room for 24 digits; the slope gives the effect of the others. */
+/* wh_float_ratio() takes 24 digits; a first-order correction adds the effect of the lower ones. */
 wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t zeros = wh_leading_zeros(x.size);
     const uint32_t size = x.size << zeros;

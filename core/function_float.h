@@ -37,7 +37,8 @@ WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
 
 WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
 
-/* Reads a number of a WH_FLASH table. On an AVR flash needs special instructions, which read floats here. */
+/* Reads a number of a WH_FLASH table. On an AVR, flash is read by special instructions; wh_flash_real() issues them for
+ * floats. */
 WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #if defined(__AVR__)
     return wh_bits_of(wh_flash_real((const float *)(const void *)from));
@@ -82,7 +83,7 @@ WH_INLINE uint32_t wh_series(const uint32_t *series, unsigned count, uint32_t x)
     return sum;
 }
 
-/* x (1 + more/2^32), as digits. */
+/* x (1 + more/2^32). */
 WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
     x.size = (x.size >> 1) + (wh_high(x.size, more) >> 1);
     x.exponent++;

@@ -1,13 +1,13 @@
-/* function_hyperbolic_double.c: the hyperbolic functions in double, by e^x and e^-x in pairs. Near zero, where these
- * cancel, by their series. */
+/* function_hyperbolic_double.c: the hyperbolic functions in double, from e^x and e^-x as pairs. Near zero, where e^x -
+ * e^-x cancels, from series. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
-#define SMALL 0x1p-28  /* up to here sine and tangent equal the argument, and the cosine is one */
-#define BY_SERIES 0.25 /* up to here */
+#define SMALL 0x1p-28  /* up to here sinh and tanh equal the argument, and cosh is one */
+#define BY_SERIES 0.25 /* the largest |x| for the series */
 #define TANH_IS_ONE 22.0
-#define BEYOND 711.0 /* sine and cosine are infinite */
+#define BEYOND 711.0 /* sinh and cosh are infinite */
 
 /* sinh x - x, |x| <= 1/4, to 51 bits; z is x^2. */
 static double sine_less_x(double x, double z) {

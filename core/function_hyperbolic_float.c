@@ -74,7 +74,7 @@ float wh_cosh(float x) {
     return wh_float_round(0U, c.size, c.exponent);
 }
 
-/* 1 - tanh x as Q32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
+/* 1 - tanh x in units of 2^-32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
 static uint32_t short_of_one(wh_digits x) {
     x.exponent++;
     const wh_digits left = wh_float_exp2(0U - wh_float_octaves(x)); /* below 1/7 */

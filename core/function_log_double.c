@@ -9,7 +9,7 @@
     0x1.62e42fefa4p-1 /* a multiple of 2^-40, as the table's entries: e LN2_HIGH + .high is exact */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
-/* m lies between this and twice this: half a step of the table below 0.7109. */
+/* The least m: m lies between this number and twice this number. It is half a step of the table below 0.7109. */
 #define LEAST_BITS UINT64_C(0x3fe6900000000000)
 
 typedef struct entry {

@@ -1,6 +1,6 @@
-/* method.h: the integration methods, one row each.
- * A row holds every property of its method. The stepping, the ledger, the evaluation counts, the command line, the listings
- * and the tests all read it. To add a method, add its row and its line in docs/dev/numerics.md (a test compares the two). */
+/* method.h: the integration methods, one row each. A row holds every property of its method, for the steps, the ledger,
+ * the evaluation counts, the command line and the tests. To add a method, add its row and its line in
+ * docs/dev/numerics.md (a test compares the two). */
 #ifndef WH_METHOD_H
 #define WH_METHOD_H
 
@@ -33,12 +33,12 @@
  * use .stage alone.
  *
  * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .positions = b (1 - c),
- * .rates = b, and .reach[i] has shares b_j (c_i - c_j). They have no .stage, and so no rates for accelerations that depend
- * on rates: these refuse them (WH_NO_RATES). Their first stage need not be at the step's begin.
+ * .rates = b, and .reach[i] has shares b_j (c_i - c_j). They have no .stage, and so no rates at a stage: systems whose
+ * accelerations depend on rates cannot use them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
- * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of stage i
- * as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
- * (tests/core/test_stage_turn.c). A row without .turns looks its sines up. */
+ * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of
+ * stage i as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
+ * (tests/core/test_stage_turn.c). Without .turns, the sines of each stage come from the sine table. */
 /* clang-format off */
 #define WH_SHORT_METHOD_ROWS(X) \
     X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \
@@ -107,9 +107,9 @@ typedef struct wh_method_row {
     const char *word;  /* on command lines, in file names */
     const char *name;  /* in C */
     const char *title; /* in sentences */
-    uint8_t order;     /* of convergence */
-    uint8_t takes;     /* systems */
-    uint8_t stages;    /* evaluations of the right-hand side a step */
+    uint8_t order;     /* order of convergence */
+    uint8_t takes;     /* the forms of systems that it can step: the bits above */
+    uint8_t stages;    /* evaluations of the right-hand side per step */
 } wh_method_row;
 
 #define wh_methods WH_NAME(wh_methods)

@@ -3,8 +3,8 @@
  * A polynomial of degree 9 maps the sum z of twelve uniform 16-bit numbers, less its mean, to a Gaussian deviate
  * (Teichroew 1953; Knuth, The Art of Computer Programming 2, section 3.4.1). The words 3 index + 1 to 3 index + 3 of
  * splitmix64 supply the uniform numbers (Steele, Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA
- * 2014). It starts at the mixed seed. All arithmetic is in 64-bit integers. The result has 21 bits with its sign, so
- * float and double builds give exactly the same number.
+ * 2014). The generator starts at a mixed form of the seed. All arithmetic is in 64-bit integers. The result has 21 bits
+ * with its sign, so float and double builds give exactly the same number.
  *
  * Limits: mean 0, standard deviation 1.0001, kurtosis 3.002. Values beyond three standard deviations are 1.006 times as
  * frequent as a Gaussian's, beyond four 1.05 times; there are none beyond 8.6. For sensors, not for cryptography. */

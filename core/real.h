@@ -1,9 +1,9 @@
-/* real.h: the number the core computes with, and the macros every core file needs.
- * Boards and `whirl run --number float` use float. Compiling with WH_DOUBLE=1 gives the reference build in double. Both are
- * freestanding and neither calls libm. They use only IEEE 754 additions, multiplications, divisions, square roots and
- * conversions. So the same source gives the same bits on every machine, unless the compiler changes the operations. This
- * file forbids the contraction to fused multiply-adds in every function after its #include, for any flags. It refuses other
- * such options if macros reveal them; wh_scene_start() finds the rest (arithmetic.h). */
+/* real.h: the core's number type, wh_real, and the macros of every core file. Boards and `whirl run --number float` use
+ * float. Compiling with WH_DOUBLE=1 gives the reference build in double. Both are freestanding and neither calls libm.
+ * They use only IEEE 754 additions, multiplications, divisions, square roots and conversions. So the same source gives
+ * the same bits on every machine, unless the compiler changes the operations. This file forbids the contraction to
+ * fused multiply-adds in every function after its #include, for any flags. Compiler options that change operations and
+ * define a macro stop the compilation here; wh_scene_start() detects the others (arithmetic.h). */
 #ifndef WH_REAL_H
 #define WH_REAL_H
 

@@ -10,14 +10,15 @@
  * Equations I, section II.1). A step evaluates f four times, its error is of order h^5, and its arrays have a size that
  * the compiler knows.
  *
- * x are the components of a scene's state (state.h): its angles, then its reals. Of a mechanism, q'' = f(q, q', u), these
- * are the positions q and the rates q'; the slopes of positions are the rates, those of rates the accelerations.
- * An angle is not a number that is added to: it is moved by a slope, and keeps its digits after a million turns (angle.h).
+ * x are the components of a scene's state (state.h): its angles, then its reals. Of a mechanism, q'' = f(q, q', u),
+ * these are the positions q and the rates q'; the slopes of positions are the rates, those of rates the accelerations.
+ * Angles are not reals: wh_angle_move() moves one by slope times time, and it keeps its digits after a million turns
+ * (angle.h).
  *
- * `--method rk4-plain` runs a scene by this step. The method `rk4` has the same formulas as a row of method.h. Its steps
- * (step.h) share sums between positions and rates, and look a sine up once (stage_turn.h), so they cost less.
- * `build/tests/host rk4` compares both.
- */
+ * `--method rk4-plain` runs a scene by this step. The method `rk4` has the same formulas as a row of method.h. Its
+ * steps (step.h) share sums between positions and rates, and look each sine up only once (stage_turn.h), so they cost
+ * less. `build/tests/host rk4` compares both.
+ * */
 #ifndef WH_RK4_H
 #define WH_RK4_H
 

@@ -83,7 +83,7 @@ static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *
     }
 }
 
-/* The number of reals that the ledger needs. */
+/* The number of reals in the memory of the ledger. */
 static size_t ledgers(const wh_scene *scene) {
     return scene->ledger == NULL ? 0U
                                  : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;

@@ -66,12 +66,12 @@ struct wh_scene {
     const wh_ledger_form *ledger; /* NULL: the scene has no ledger */
     const void *model;            /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;          /* hash of the operation list: identifies the physics */
-    /* One step, counted in state->steps. Returns WH_E_DIVERGED on divergence. Returns WH_E_UNDEFINED if a contact's
-     * gap, condition, value, friction or restitution is not a finite number. On an error it sets state->fault and
-     * leaves the rest unchanged. */
+    /* Does one step and counts it in state->steps. Returns WH_E_DIVERGED on divergence. Returns WH_E_UNDEFINED if a
+     * contact's gap, condition, value, friction or restitution is not a finite number. On an error it sets state->fault
+     * and leaves the rest unchanged. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
-    /* `steps` steps, at least one, counted in state->steps: see wh_scene_steps(). NULL: wh_scene_steps() calls
-     * advance() in a loop. Generated code has this function if it is compiled with -DWH_AHEAD=1. */
+    /* Does `steps` steps, at least one, and counts them in state->steps: see wh_scene_steps(). NULL: wh_scene_steps()
+     * calls advance() in a loop. Generated code has this function if it is compiled with -DWH_AHEAD=1. */
     wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
@@ -128,16 +128,16 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
  * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
-/* Do `steps` steps (0 is allowed), for simulating ahead. The result has the bits of as many calls of
- * wh_scene_step(). If the scene's file is compiled with -DWH_AHEAD=1, the steps take fewer instructions and twice
- * the flash. Returns as wh_scene_step() does; state->steps counts the steps done. */
+/* Do `steps` steps (0 is allowed), for example to predict faster than real time. The result has the same bits as
+ * `steps` calls of wh_scene_step(). If the scene's file is compiled with -DWH_AHEAD=1, the steps take fewer
+ * instructions and twice the flash. Returns as wh_scene_step() does; state->steps counts the steps done. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
  * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. The next step goes on like a run that starts from the
- * corrected state. It puts a coordinate beyond a stop back onto the stop, finds every contact's mode again, and lets
- * each hold keep the value that it finds. The corrected component loses its compensation. With a ledger, the change
- * of each account is stored apart (wh_ledger_corrected()). wh_scene_move_angle() adds to the angle, so the angle
+ * corrected state. It puts a coordinate beyond a stop back onto the stop, finds every contact's mode again, and each
+ * hold takes its present value as the one to keep. The corrected component loses its compensation. With a ledger, the
+ * change of each account is stored apart (wh_ledger_corrected()). wh_scene_move_angle() adds to the angle, so the angle
  * keeps all its digits after many turns. Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that
  * was not started, an unknown index, and a value that is not finite or out of bounds. An index that follows an input
  * with a rate also gives WH_E_ARGUMENT: set the input instead. */

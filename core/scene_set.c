@@ -1,4 +1,5 @@
-/* scene_set.c: correcting a state from a measurement: one component gets a new value, and modes are determined again. */
+/* scene_set.c: correcting a state from a measurement: one component gets a new value, and the next step determines the
+ * contacts' modes again. */
 #include "step/driven.h"
 
 /* Limit on an angle's radians: as in contact_crossing.h. */

@@ -62,8 +62,9 @@ typedef struct wh_state {
     wh_contacts *contacts; /* NULL without contacts */
     wh_real *held;         /* [scene->held] SI: value of a curved hold, slip of a straight one */
     wh_real *ledger;       /* totals, carries, levels at the start, corrections; or NULL */
-    /* after WH_E_DIVERGED: the component at fault, angles first, then reals; after WH_E_UNDEFINED or WH_E_SINGULAR: the
-     * contact, in the order of contact.h; after WH_E_ARITHMETIC: the failed probe, a wh_probed (arithmetic.h) */
+    /* after WH_E_DIVERGED: the component that diverged, angles first, then reals; after WH_E_UNDEFINED or
+     * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: the failed probe, a wh_probed
+     * (arithmetic.h) */
     int fault;
 } wh_state;
 

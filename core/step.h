@@ -5,7 +5,7 @@
  * operations. Both have the same order of floating-point operations, and so the same bits. Both are C only: programs that
  * embed a scene include scene.h and the generated header.
  *
- * One loop over a method's row (method.h) steps every method.
+ * One loop over the stages of a row of method.h serves all methods.
  *
  * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order form,
  * up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, section
@@ -50,8 +50,8 @@ typedef struct wh_stepping {
     bool compensated;
 } wh_stepping;
 
-/* Arguments and results of a list of operations. They are a struct of their own, so that all other variables stay in
- * registers if the list is called. */
+/* Arguments and results of an operation list. They have their own struct, so that all other variables stay in registers
+ * if the list is called. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
     wh_real at[WH_COORDS];    /* linear positions (second order) or reals (first order) */

@@ -160,8 +160,9 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* Copies the mantissa's bits into byte[BYTES], which is initially all zeros. Returns false if the number exceeds
- * WHOLE_BYTES, as doubles may. Bits below 2^-160 belong to doubles below 2^-107: far from any tie at 18 decimals. */
+/* Copies the mantissa's bits into byte[BYTES], which is initially zero. Returns false if the number exceeds
+ * WHOLE_BYTES, as doubles may. Bits below 2^-160 are dropped: only doubles below 2^-107 have them, and those are far
+ * from any tie at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

@@ -7,7 +7,7 @@
 /* Finds the contacts that are active at the start of a run, before any impact or capture: stops that touch, within the
  * error of their gaps, and holds with a true condition. A hold whose condition is at its own limit belongs to them
  * unless its expression moves towards "false". *still gets the contacts at rest, *moving the others, both as bits. The
- * stops in `pushed` (bits) touch by construction. work->law must belong to the state. */
+ * stops in `pushed` (bits) count as touching. work->law must have been evaluated at the state. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,
@@ -82,7 +82,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
         below = below || (wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE &&
                           signal[2 * k] < WH_R(0.0));
     }
-    if (below) { /* work->law still belongs to the state */
+    if (below) { /* work->law is still that of this state */
         spot.but = wh_contact_stuck(of, w);
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
     }

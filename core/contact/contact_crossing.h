@@ -8,7 +8,7 @@
 #include "contact_impact.h"
 #include "contact_locate.h"
 
-/* A crossing's assignments, all evaluated before any is made. */
+/* Evaluates all assignments of a crossing, then makes them. */
 static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
                                      const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -51,7 +51,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         /* a hold's value may have changed although its signals did not */
         w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
-    unsigned onto = 0; /* crossings with values that were set to zero */
+    unsigned onto = 0; /* bits: crossings whose values were set to zero */
     for (unsigned l = of->forced; l < of->contacts; l++) {
         const unsigned bit = after[2 * l] != before[2 * l] ? 1U << l : 0U;
         sides |= bit;
@@ -62,10 +62,10 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Decides the sides of the crossings in work->stands, which are past zero by the error of their location. A value that
- * moves back to its old side has turned back, and its return over zero is no second crossing. The direction comes from
- * the first derivative. If that is zero, the second derivative decides. If both are zero, the crossing stands still and
- * is on no side. */
+/* Decides the sides of the crossings in work->stands. Their values are past zero by the error of their location. A
+ * value that now moves back to its old side has turned back, and its return over zero is no second crossing. The
+ * direction comes from the first derivative. If that is zero, the second derivative decides. If both are zero, the
+ * crossing stands still and is on no side. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -86,9 +86,8 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                 w->stands &= ~(1U << k);
                 if (gain > WH_R(0.0) ? w->mode[k] < 0 : w->mode[k] > 0) {
                     w->mode[k] = (int8_t)-w->mode[k];
-                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30); /* 0 would mean:
-                                                                                 * has not turned
-                                                                                 * back */
+                    /* zero would mean: has not turned back */
+                    w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
                     /* an acceleration may end at once, as friction's does where it sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
@@ -143,7 +142,7 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-/* Saves the values that crossings on no side have when a try from `s` begins. */
+/* Saves the values of crossings that are on no side, at the begin of a trial step from `s`. */
 WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;

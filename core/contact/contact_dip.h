@@ -1,26 +1,26 @@
-/* contact_dip.h: stops that a body enters and leaves again within one try. */
+/* contact_dip.h: stops that a body enters and leaves again within one trial step. */
 #ifndef WH_CONTACT_DIP_H
 #define WH_CONTACT_DIP_H
 
 #include "contact_locate.h"
 
-/* A try of the rest of a step: from `now` to `next`. */
+/* A trial step over the rest of a step: from `now` to `next`. */
 typedef struct wh_contact_attempt {
     wh_contact_state now;
     wh_contact_state next;
-    wh_real span;       /* length of the try, s: set by wh_contact_attempt_dipped() */
+    wh_real span;       /* length of the trial step, s: set by wh_contact_attempt_dipped() */
     wh_margins margins; /* at `next` */
-    unsigned leaving; /* bits: free stops that open at the end, and are closed or less open than the
-                  * distance they open in the try at that rate */
-    unsigned dips;    /* subset of `leaving`: open at both ends, perhaps closed in between */
-    int fault;        /* component that left all bounds, if !sound */
-    bool made;        /* the step was computed, */
-    bool sound;       /* and its end is within bounds */
+    /* bits: free stops whose gap grows at the end and is, at the end, smaller than this growth over the trial step */
+    unsigned leaving;
+    unsigned dips; /* subset of `leaving`: open at both ends, perhaps closed in between */
+    int fault;     /* component that left its bounds, if !sound */
+    bool made;     /* the step was computed, */
+    bool sound;    /* and its end is within bounds */
 } wh_contact_attempt;
 
-/* Share of the try at which the tangents of the gap at both ends cross, and in *least the gap there. If the gap bends
- * upwards, as for a body that passes a convex obstacle, it is nowhere lower than *least. gap[2] and rate[2] belong to
- * the ends, which are h seconds apart. */
+/* The share of the trial step at which the tangents of the gap at both ends cross; *least gets the gap at that point.
+ * If the gap's curve bends upwards, as for a body that passes a convex obstacle, the gap is nowhere smaller than
+ * *least. gap[2] and rate[2] are the values at the ends, which are h seconds apart. */
 WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, wh_real h,
                                       wh_real *least) {
     const wh_real share = (gap[1] - gap[0] - rate[1] * h) / ((rate[0] - rate[1]) * h);
@@ -28,9 +28,9 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Finds stops that were hit although they open again at the end of the try. A stop that is closed at the end was hit if
- * it was open or closing at the begin: its margin becomes negative. A gap that is positive at both ends, and closes and
- * then opens, may have been negative in between: a->dips. */
+/* Finds stops that were hit although they open again at the end of the trial step. A stop that is closed at the end was
+ * hit if it was open or closing at the begin. The margin of such a stop is made negative. A gap that is positive at
+ * both ends, and closes and then opens, may have been negative in between: a->dips. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -63,10 +63,11 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
     }
 }
 
-/* The share of the try at which the first of a->dips is found closed, or 1 if none is. Each probe on the cubic through the
- * ends replaces the end whose rate has the same sign, until the tangents cross above zero. Odd and even probes take turns:
- * tangents find the lowest point of a gap shaped like a square root, linear rates that of a parabola. A probe inside the
- * obstacle is followed by one half the way back to the surface, because a round post's gap may be undefined at its centre. */
+/* The share of the trial step at which the first of a->dips is found closed, or 1 if none is. Each probe is a point of
+ * the cubic through two ends. The probe replaces the end whose rate has the same sign, until the tangents cross above
+ * zero. Odd probes take the crossing of the tangents, which finds the lowest point of a gap shaped like a square root.
+ * Even probes take the zero of a linear rate, which finds that of a parabola. After a probe inside the obstacle, the
+ * next one is halfway back to the surface, because the gap of a round post may be undefined at its centre. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

@@ -4,10 +4,10 @@
 
 #include "contact_lcp.h"
 
-/* Shares the load with the redundant contacts `repeats` (bits of indices in member[]), which have no force so far. It
- * does so only if that overloads another contact, or if the redundant contacts contradict the others. work->force gets
- * the shares. A contact that gives way gets its limit plus the excess. The accelerations change only after a
- * contradiction; otherwise their bits stay the same. */
+/* Shares the load with the redundant contacts `repeats` (bits of indices in member[]), which have no force so far. This
+ * happens only if without them another contact is overloaded, or if they contradict the others. work->force gets the
+ * shares. A contact that gives way gets its limit plus the excess. The accelerations change only after a contradiction;
+ * otherwise their bits stay the same. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -39,7 +39,8 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         w->force[k] = lambda[i];
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
-            if (!wh_contact_exceeds(of, w, k, w->force[k])) { /* the excess is lost in round-off */
+            if (!wh_contact_exceeds(of, w, k, w->force[k])) {
+                /* otherwise the excess was only round-off */
                 w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
                                                    : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
@@ -95,7 +96,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_books_stage(of, w, phase, linear, rate, input);
 }
 
-/* The accelerations, forces and signals at a state, in the modes of work. */
+/* Evaluates the accelerations, forces and signals at a state, with the modes in work. */
 static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work *w,
                                    wh_contact_state *s, const wh_real *input, wh_real *accel,
                                    wh_real *signal) {
@@ -110,9 +111,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
 }
 
 /* Solves for all impulses at once. Each contact in `set` (bits) gets the impulse that leaves J_k q' = target[k]; a stop
- * may end faster if others push it. Active contacts keep their rates. Resting stops, and the stops in `beside`, push but
- * do not pull. work->law must belong to this position. The impulses are added to impulse[forced]. Returns the stops that
- * would have had to pull, as bits. */
+ * may end faster if others push it. Active contacts keep their rates. Resting stops, and the stops in `beside`, push
+ * but do not pull. work->law must have been evaluated at this position. The impulses are added to impulse[forced].
+ * Returns the stops that would have had to pull, as bits. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

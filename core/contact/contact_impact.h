@@ -62,8 +62,8 @@ static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_con
     return size;
 }
 
-/* The pressing of stop k: the acceleration with which the forces would close its gap. Values within the round-off of the
- * other contacts' forces count as zero. work->law and accel[] must belong to the state. */
+/* The pressing of stop k: the acceleration with which the forces would close its gap. Values within the round-off of
+ * the other contacts' forces count as zero. work->law and accel[] must have been evaluated at the state. */
 static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned k, const wh_real *accel) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
@@ -74,7 +74,8 @@ static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_
     return WH_ABS(pressing) <= none ? WH_R(0.0) : pressing;
 }
 
-/* Would a flight of stop k that begins with `speed` be too short (WH_REST_SHARE), given how the stop is pressed? */
+/* Would the flight of stop k after a bounce with `speed` be too short (WH_REST_SHARE), given the acceleration that
+ * presses the body onto the stop? */
 static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_contact_moment *m, wh_real speed,
                                     const wh_real *accel, const wh_real *rate) {
@@ -121,8 +122,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Free stops outside `hits` that touch, within the error of location, and that an impulse made close: they are hit in
- * the next round. `before` and `after` are the signals before and after the impulse. */
+/* The free stops outside `hits` that touch within the error of location and are closing because of an impulse. They are
+ * hit in the next round. `before` and `after` are the signals before and after the impulse. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -138,8 +139,9 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
 }
 
 /* Free stops without restitution that touch, and are at rest compared with the change of rates along `hits`. Nothing
- * presses them, but they block the motion after the impact. They take part in the same impact, because two plastic
- * impacts that cause each other in turn would never end. Impacts with restitution do end, so those are taken in turn. */
+ * presses them, but they block the motion after the impact. They take part in the same impact: two plastic impacts that
+ * cause each other alternately would never end. Impacts with restitution do end, so they are resolved one after the
+ * other. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -220,7 +222,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_look(of, w, s, input, accel, signal);
         wh_contact_passed_on(of, w, closing, m->h, before, signal);
         for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
-            if ((closing & ~released & 1U << k) == 0) { /* its speed is not the one that was set */
+            if ((closing & ~released & 1U << k) == 0) { /* another impulse has changed its speed */
                 speed[k] = wh_jacobian_times(of, w, k, rate);
             }
         }
@@ -239,7 +241,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
-    unsigned gone = of->forced > 1 /* a single contact cannot release another one */
+    unsigned gone = of->forced > 1 /* a single contact cannot release another contact */
                         ? resting & ~wh_contact_which(of, w, WH_STOP, true) & ~w->hit_next
                         : 0U;
     for (unsigned k = 0; k < of->forced && gone != 0; k++) {
@@ -249,7 +251,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* without an impulse their rates would carry them away */
+    if ((gone | leaving) != 0) { /* without an impulse their rates would open them */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -260,7 +262,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
 
 /* Moves bodies off the free stops that they have passed (by more than round-off if `coarse`). The move is the smallest
  * one, measured with the mass matrix. Stops push and do not pull, as in an impact. Returns the stops that were passed
- * and those that pushed, as bits. Afterwards signal[] and work->law belong to the state. */
+ * and those that pushed, as bits. Afterwards signal[] and work->law are those of the new state. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -296,7 +298,8 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         if ((mover == WH_CONTACTS_MAX && over == 0) || pass + 1U == looks) {
             break;
         }
-        if (mover == WH_CONTACTS_MAX) { /* move back until they touch: only here may a stop pull */
+        if (mover == WH_CONTACTS_MAX) {
+            /* move the bodies back until they touch: only here may a stop pull */
             unsigned kept = 0;
             for (unsigned i = 0; i < count; i++) {
                 const unsigned k = member[i];
@@ -316,8 +319,8 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             *pushed |= pushes ? 1U << member[i] : 0U;
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
-        wh_real part =
-            WH_R(1.0); /* share of the way: linearized, an angle moves at most half a radian */
+        /* the equations are linearized, so an angle moves at most half a radian */
+        wh_real part = WH_R(1.0);
         for (unsigned i = 0; coarse && i < of->angles; i++) {
             const wh_real turn = WH_ABS(way[i]);
             part = turn * part > WH_R(0.5) ? WH_R(0.5) / turn : part;
@@ -341,7 +344,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* stops that lost their body: they do not rest and are not hit */
+        unsigned open = 0; /* bits: stops without contact now: they do not rest and are not hit */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -353,7 +356,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* --- conditions that a hold freezes --------------------------------------------------------------- */
+/* --- conditions that depend on the held expression --------------------------------------------------------------- */
 
 /* A hold whose condition depends on the held expression captures at the condition's limit. To find this dependence, the
  * expression is perturbed by this share of its terms. The condition's round-off is the same share of the resulting change. */
@@ -361,7 +364,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
 /* Change of the condition of hold k, now `now`, if the held expression and its rate are perturbed by WH_EDGE_PROBE of
- * their terms. work->law must belong to the state. */
+ * their terms. work->law must have been evaluated at the state. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -408,8 +411,8 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real own = wh_contact_own(of, w, k, input, s, signal[2 * k]);
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
-            if (WH_ABS(by) <=
-                WH_ABS(rates[2 * k + 1]) * h / 64) { /* larger: not a limit of this hold */
+            if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
+                /* larger: the condition is not at a limit of this hold */
                 wanted[i] = by;
                 mover = k;
             }

@@ -33,8 +33,8 @@
  * unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration: a rate that has
- * come to zero leaves such a residue, squared. */
+/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration. A rate that
+ * friction has just stopped has a small remainder, and its square appears in this term. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
 /* If a force is beyond its limit by less than its round-off, it is set beyond the limit by this share of the limit. */
@@ -190,8 +190,8 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
 }
 
 /* One round of the pivoting. The contacts with at[] = 0 get forces between their limits, the others stay at the limit
- * that at[] says (-1: low, 1: high). `way` gets the change of the accelerations by all forces. Returns the redundant
- * contacts, as bits of indices. */
+ * in at[] (-1: low, 1: high). `way` gets the change of the accelerations by all forces. Returns the redundant contacts,
+ * as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {
@@ -251,8 +251,9 @@ typedef struct wh_contact_pivot {
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
-    unsigned contradicted; /* contacts that are at a limit because of a contradiction, as bits */
-    unsigned giving;       /* contacts that are at a limit and move away from it, as bits */
+    unsigned contradicted; /* bits: contacts at a limit because of a contradiction */
+    /* bits: contacts at a limit whose accelerations lead away from the constraint */
+    unsigned giving;
 } wh_contact_pivot;
 
 /* The contact at index i goes to its limit `to`; 0: it becomes free. A contact that becomes free is eliminated last: if
@@ -300,7 +301,7 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* perhaps lost in round-off */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* the violation may be only round-off */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }
@@ -309,7 +310,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
 }
 
 /* Solves for the forces (or impulses) lambda[count] of the contacts in member[], within their limits. left[count] gets
- * the residual accelerations (or rates). `forces` is false for impulses. Returns the contacts that give way, as bits. */
+ * the residuals of the accelerations (or rates). `forces` is false for impulses. Returns the contacts that give way, as
+ * bits. */
 static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
                                       bool forces, wh_real *lambda, wh_real *left) {

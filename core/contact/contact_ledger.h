@@ -30,7 +30,7 @@ static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Enters one stage of a try. */
+/* Enters one stage of a trial step. */
 static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_work *w,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input) {
@@ -74,7 +74,7 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
     }
 }
 
-/* wh_books_look() and wh_books_moved() are called before and after the projection of a contact. The difference of the
+/* wh_books_look() is called before the projection of a contact, and wh_books_moved() after it. The difference of the
  * accounts is the contact's entry. A difference within the accounts' round-off is dropped: in float, the noise of many
  * steps would exceed the true entries. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,

@@ -1,4 +1,4 @@
-/* contact_locate.h: the search for the first event of a try. */
+/* contact_locate.h: the search for the first event of a trial step. */
 #ifndef WH_CONTACT_LOCATE_H
 #define WH_CONTACT_LOCATE_H
 
@@ -9,7 +9,8 @@ typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real accel[WH_COORDS]; /* only if an event depends on a force: wh_contact_watched() */
-    wh_real all;              /* a sum that is not finite if one of the contacts' values is not */
+    /* a sum that is finite only if the values of all contacts are finite */
+    wh_real all;
 } wh_margins;
 
 /* The path between two states that are `h` apart. Positions follow the cubic through both ends' positions and rates.
@@ -116,7 +117,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
         case WH_STOP:
             if (mode == WH_ACTIVE) {
                 margin = wh_contact_beyond(of, w, k, w->force[k]);
-            } else { /* a stop that was closed when the try began may be opening */
+            } else { /* a stop that was closed when the trial step began may be opening */
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed > WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
             }
@@ -184,9 +185,9 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
-/* A hold that began the try at the limit of its condition is released only if the condition falls below zero by more
- * than its slack. If it is still held at the end of the try, it is not released in between at all: the cubic is slightly
- * inaccurate. `events` are the contacts with an event at the end. */
+/* A hold that began the trial step at the limit of its condition is released only if the condition falls below zero by
+ * more than its slack. If the condition is still true at the end, the hold is not released in between either, because
+ * the cubic is slightly inaccurate. `events` are the contacts with an event at the end. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -198,16 +199,16 @@ WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* The search is not inlined if a scene has several contacts: sharing the load takes the deepest calls, and these must
- * not lie on top of the search's own variables on the stack. */
+/* The search is not inlined if a scene has several contacts. Load sharing makes the deepest calls; inlined, the
+ * variables of the search would add to that stack depth. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
 #else
 #define WH_SEARCH static inline
 #endif
 
-/* Locates the first event between `from` and `to`. Returns its share of h: a point after the event by at most
- * WH_BRACKET. *events are the contacts that have an event there. at_end are the margins of `to`. */
+/* Locates the first event between `from` and `to`. Returns its time as a share of h, late by at most WH_BRACKET.
+ * *events are the contacts that have an event there. at_end are the margins at `to`. */
 WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                     wh_contact_state *from, wh_contact_state *to, wh_real h,
                                     const wh_real *input, const wh_margins *at_end,
@@ -230,7 +231,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     wh_contact_slacken(of, w, *events, &probe);
     unsigned at_once = 0;
     unsigned sliding = 0;
-    unsigned loads = 0; /* contacts whose event is tested on their force */
+    unsigned loads = 0; /* bits: contacts whose event depends on their force */
     for (unsigned k = 0; k < of->contacts; k++) {
         const bool load = k < of->forced && wh_contact_is(of, k, WH_UNILATERAL | WH_LIMITED) &&
                           wh_contact_constrains(of, w, k);
@@ -272,8 +273,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* A margin that is already zero counts as the begin of an event. But later than at the start, a load at its
-             * limit may be a load that other contacts bear. */
+            /* A margin that is already zero counts as the begin of an event. For a load at its limit this is true only
+             * at the begin of the search: later, other contacts may bear part of the load. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -282,8 +283,9 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* The guess is slightly past the root, towards the farther end, so that the interval closes from both sides. It
-         * goes further after each failure, and to the middle if two probes did not halve the interval. */
+        /* The guess is slightly past the root, towards the farther end, so that the interval closes from both sides.
+         * After each failure the next guess is further past the root. If two probes did not halve the interval, the
+         * guess is its middle. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;

@@ -1,4 +1,5 @@
-/* contact_project.h: projection of resting stops and holds to their places, and of their rates to zero. */
+/* contact_project.h: projection: moves resting stops and holds back to their constraints, and sets their rates to
+ * zero. */
 #ifndef WH_CONTACT_PROJECT_H
 #define WH_CONTACT_PROJECT_H
 
@@ -18,10 +19,10 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
     }
 }
 
-/* *sum + *rest += a b, with the product's round-off in *rest: otherwise it would add up over the steps. */
+/* *sum + *rest += a b. *rest collects the round-off of the products, which would otherwise add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
-    *sum += a * b; /* exact if opposite turns cancel */
+    *sum += a * b; /* exact if opposite rotations cancel */
 }
 
 /* Displacement of a straight hold k between two states: J_k, which is constant, times the change of the coordinates, rad
@@ -30,7 +31,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
                                        unsigned k, const wh_contact_state *from,
                                        const wh_contact_state *to) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
-    wh_real turns = WH_R(0.0); /* phase units */
+    wh_real turns = WH_R(0.0); /* angles' part, phase units */
     wh_real ways = WH_R(0.0);
     wh_real rests[2] = {WH_R(0.0), WH_R(0.0)};
     for (unsigned i = 0; i < of->angles; i++) {
@@ -39,7 +40,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 #else
         const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
         const int32_t way =
-            (int32_t)(uint32_t)turned; /* less than half a turn, split into two exact parts */
+            (int32_t)(uint32_t)turned; /* less than half a turn, as two exact parts */
         wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
         rests[0] += row[i] * (wh_real)(way & 255);
 #endif
@@ -57,7 +58,8 @@ WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_wo
            w->mode[k] == WH_ACTIVE;
 }
 
-/* The displacement of contact k from its place, at state `s`. `from` is the begin of the try that led to `s`, or NULL. */
+/* The displacement of contact k from its constraint, at state `s`. `from` is the begin of the trial step to `s`, or
+ * NULL. */
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
                                    const wh_contact_state *s) {
@@ -74,7 +76,8 @@ WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
-/* Stores the value of a hold that has just captured or whose expression was set. work->law must belong to this position. */
+/* Stores the value of a hold that has just captured or whose expression was set. work->law must have been evaluated at
+ * this position. */
 WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
@@ -105,18 +108,19 @@ WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_cont
     return count;
 }
 
-/* How to project resting stops and holds. */
+/* The options of a projection of resting stops and holds. */
 typedef struct wh_contact_place {
-    const wh_contact_state *from; /* begin of the try, or NULL */
-    wh_real h;                    /* length of the try, s */
+    const wh_contact_state *from; /* begin of the trial step, or NULL */
+    wh_real h;                    /* length of the trial step, s */
     unsigned but;                 /* contacts that are left out, as bits */
-    unsigned mover; /* whose entry gets the energy; WH_CONTACTS_MAX: the first with an error */
+    /* crossing or contact whose ledger entry gets the energy; WH_CONTACTS_MAX: the first contact with an error */
+    unsigned mover;
 } wh_contact_place;
 
 #define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
 
-/* Projects resting stops and holds to their places; stuck coordinates stay. work->law and signal[] must belong to this
- * position. Returns true if the error was so large that a second projection is needed. */
+/* Moves resting stops and holds back to their constraints; stuck coordinates stay. work->law and signal[] must have
+ * been evaluated at this position. Returns true if the error was so large that a second projection is needed. */
 static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_contact_place *spot, const wh_real *signal,
                                              const wh_real *input, wh_contact_state *s) {
@@ -142,7 +146,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     if (mover == WH_CONTACTS_MAX) {
         return false;
     }
-    (void)input; /* only the ledger needs it */
+    (void)input; /* only the ledger reads it */
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
@@ -188,7 +192,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
 }
 
 /* Projects the rates along all active contacts to zero together, except for the contacts in `but` (bits). If `booked`,
- * the ledger gets the change as the contacts' impulses. work->law must belong to this position. */
+ * the ledger gets the change as the contacts' impulses. work->law must have been evaluated at this position. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -234,8 +238,8 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Is stop k passed, or open, by more than round-off? After a step with too many events it may be. Friction does not keep
- * a body beyond a stop. */
+/* Has a body passed stop k, or left it, by more than round-off? Both are possible after a step with too many events.
+ * Friction does not keep a body beyond a stop. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
@@ -280,7 +284,7 @@ WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* A try from `from` to `to` is accepted: the slip of straight holds is stored for a later projection. */
+/* Accepts a trial step from `from` to `to`: the slip of straight holds is stored for a later projection. */
 WH_INLINE void wh_contact_keep(const wh_contact_system *of, wh_contact_work *w,
                                const wh_contact_state *from, const wh_contact_state *to) {
     if (of->held == 0) {

@@ -63,15 +63,16 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The first hold with a remainder in `before` whose remainder vanishes or has turned back in `after`; of->contacts if
- * there is none. */
+/* The first hold whose remainder is nonzero in `before`, and vanishes or has reversed its direction in `after`;
+ * of->contacts if there is none. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     of = WH_CONTACTS_HERE(of);
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* a single hold must have turned back almost completely: a row that has merely turned far only shows a coarse step */
+        /* a single hold counts only if its row has turned by almost half a turn: a smaller rotation shows only that the
+         * step is coarse */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {
@@ -103,7 +104,7 @@ static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_w
     return wh_contact_fallen(of, &before, &after);
 }
 
-/* The hold that lost rank in an accepted try, or of->contacts. */
+/* The hold that lost rank in an accepted trial step, or of->contacts. */
 WH_INLINE unsigned wh_contact_flat(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                    wh_contact_state *from, wh_contact_state *to,
                                    const wh_real *input) {

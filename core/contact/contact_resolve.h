@@ -28,9 +28,9 @@
 
 /* --- disturbance by crossings -------------------------------------------------------------------- */
 
-/* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A stop that was
- * passed gets its gap closed. A stop that moved, in either direction, rests no longer. Active holds capture again. The
- * crossing caused the change, so its entry in the ledger gets the energy. */
+/* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A body that
+ * has passed a stop is put back onto it. A stop that moved, in either direction, does not rest any more. Active holds
+ * capture again. The crossing caused the change, so its entry in the ledger gets the energy. */
 static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -61,7 +61,8 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
-        wh_contact_set_modes(of, w, passed, WH_ACTIVE); /* only while the body is put back */
+        /* only while the body is put back onto the stop */
+        wh_contact_set_modes(of, w, passed, WH_ACTIVE);
         wh_real before[2 * WH_CONTACTS_MAX];
         wh_contact_remember(of, signal, before);
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
@@ -102,13 +103,14 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
 }
 
 /* Sets the direction of each sliding friction from the sign of its rate. If the location of an event left the rate on
- * its old side, the direction at the location stays. A rate that has just come to zero waits for the forces: the
- * frictions in `zeros` (bits), unless an impact of the same moment changed their rate, and rates within the round-off of
- * other contacts. `h` is the length of the step; work->law must belong to this position, except for h = 0. */
+ * its old side of zero, the old direction stays. Rates that have just come to zero get no direction here: the forces
+ * decide later. They are the frictions in `zeros` (bits), unless an impact of the same moment changed their rate, and
+ * rates within the round-off of other contacts. `h` is the length of the step; if it is not 0, work->law must have been
+ * evaluated at this position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
-    unsigned slides[2] = {0, 0}; /* backward, forward */
+    unsigned slides[2] = {0, 0}; /* bits: backward, forward */
     for (unsigned k = 0; k < of->forced; k++) {
         if (!wh_contact_of(of, k, WH_FRICTION)) {
             continue;
@@ -166,7 +168,7 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
         wh_real lambda[WH_CONTACTS_MAX];
         wh_real left[WH_CONTACTS_MAX] = {WH_R(0.0)};
         unsigned giving = 0;
-        unsigned slides[2] = {0, 0}; /* backward, forward */
+        unsigned slides[2] = {0, 0}; /* bits: backward, forward */
         bool exceeds = false;
         wh_contact_look(of, w, s, input, accel, signal);
         const unsigned count = wh_contact_members(of, w, 0, member);
@@ -197,7 +199,7 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* A rate that has just come to zero sticks if the forces keep it there: friction would remove the rest of the rate at
+/* A rate that has just come to zero sticks if the forces keep it there: friction would remove a small remaining rate at
  * once. The rates are set to zero together with those of all active contacts, so that two frictions do not release each
  * other. Other rates slide in the direction of the push, even from the other side of zero. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
@@ -267,13 +269,14 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
     if (wh_contact_any_of(of, WH_FRICTION)) {
         wh_contact_stick(of, w, rate);
     }
-    for (unsigned k = 0; k < of->forced; k++) { /* no event: another release relieved it */
+    for (unsigned k = 0; k < of->forced; k++) {
+        /* no event: the release of another contact has relieved this one */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
 }
 
-/* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces carry the
+/* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces drive the
  * rate on. Stuck coordinates that were moved slide. */
 static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                       const wh_real *input, wh_contact_state *s) {
@@ -318,7 +321,7 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
 
 /* Follows inputs with a rate, after that rate changed between two steps. A resting stop takes on the new rate if its
  * pressing force achieves that within the step. Otherwise it opens (returned as bits) or is hit (*hits, as bits).
- * Impulses correct the rates of the other active contacts. work->law must belong to this position. */
+ * Impulses correct the rates of the other active contacts. work->law must have been evaluated at this position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {

@@ -14,7 +14,7 @@ WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *sta
     }
 }
 
-/* The part of the work that every try needs. */
+/* The part of the working memory that every trial step needs. */
 WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
                                      wh_contact_work *w) {
     wh_contact_modes(of, state, w);
@@ -27,7 +27,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
     for (unsigned k = 0; k < of->held; k++) {
         w->held[k] = state->held[k];
     }
-    if (of->forced > 1) { /* a single contact shares no load */
+    if (of->forced > 1) { /* a single contact needs no load sharing */
         w->capped = false;
     }
     w->undefined = -1;
@@ -36,7 +36,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
 #endif
 }
 
-/* The part of the work that only events need. */
+/* The part of the working memory that only events need. */
 WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
     if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
@@ -70,7 +70,7 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
 
-/* Steps `s` by h in the modes of work. Returns false if component *fault left all bounds; `s` is then unchanged. */
+/* Steps `s` by h in the modes of work. Returns false if component *fault left its bounds; `s` is then unchanged. */
 static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                   wh_real *input, wh_contact_state *s, int *fault) {
     of = WH_CONTACTS_HERE(of);
@@ -90,7 +90,8 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Tries the remaining time `left` from `next`, which is a copy of `now`. Only holds that can slip need `now`. */
+/* Computes a trial step over the remaining time `left` to `next`, which is a copy of `now`. Only holds that can slip
+ * need `now`. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -115,8 +116,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Finds the closed holds that began the try at the limit of their conditions (zero within round-off), and gives them
- * slack. They stay closed while their conditions stay there. */
+/* Finds the closed holds whose conditions were at their limit (zero within round-off) when the trial step began, and
+ * gives them slack. They stay closed while their conditions stay there. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -133,13 +134,14 @@ WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* True if the try ended without an event and with finite margins. */
+/* True if the trial step ended without an event and with finite margins. */
 WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_contact_work *w,
                                        const wh_contact_attempt *a) {
     return wh_contact_calm(of, &a->margins) && (of->held == 0 || w->undefined < 0);
 }
 
-/* After a failed try of length h from `from`: looks along the rates for a friction or hold that becomes undefined. */
+/* After a failed trial step of length h from `from`: moves along the rates to find a friction or hold that becomes
+ * undefined. */
 WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
@@ -150,7 +152,7 @@ WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, 
     }
 }
 
-/* Refuses the step: a contact's expression is not finite, or component `fault` left all bounds. */
+/* Refuses the step: a contact's expression is not finite, or component `fault` left its bounds. */
 WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
     state->fault = w->undefined >= 0 ? w->undefined : fault;
     return w->undefined >= 0 ? WH_E_UNDEFINED : WH_E_DIVERGED;
@@ -184,8 +186,8 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
     }
 }
 
-/* Sets the modes at the start of a run. The first step logs the impacts at its start. Returns the number of moments with
- * events that the start counts as. */
+/* Sets the modes at the start of a run. The first step logs the impacts at its start. Returns the number of moments
+ * that the start adds to the step's count. */
 static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *now,
                                         wh_contact_log *log) {
@@ -247,7 +249,7 @@ WH_INLINE void wh_contact_commit_events(const wh_contact_log *log, bool overran,
     }
 }
 
-/* Accepts a try of length `span`. Returns the hold that lost rank in it, or of->contacts. */
+/* Accepts a trial step of length `span`. Returns the hold that lost rank in it, or of->contacts. */
 WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                      wh_contact_state *from, wh_contact_state *to,
                                      const wh_real *input) {
@@ -256,8 +258,8 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
-/* A step with events in progress. It consists of tries from attempt->now to the step's end or to the next events. The
- * numbers are scalars, which compilers keep in registers. */
+/* A step with events in progress. It consists of trial steps from attempt->now to the step's end or to the next events.
+ * The numbers are scalars, which compilers keep in registers. */
 typedef struct wh_contact_progress {
     wh_contact_attempt *attempt;
     const wh_contact_state *end; /* end of the step, if done */
@@ -265,17 +267,18 @@ typedef struct wh_contact_progress {
     wh_contact_log *log;
     wh_real h;       /* length of the step, s */
     wh_real left;    /* remaining time from attempt->now on, s */
-    wh_real reach;   /* length of the next try, s: shorter than `left` after a dip */
+    wh_real reach;   /* length of the next trial step, s: shorter than `left` after a dip */
     unsigned round;  /* number of moments so far, at most WH_EVENTS_MAX */
     unsigned events; /* events at attempt->now, as bits */
     unsigned flat;   /* the hold that lost rank; of->contacts: none */
-    bool calm;       /* the step ended without an event, and all that it used was finite */
-    bool diverged;   /* a try left all bounds */
+    bool calm;       /* the step ended without an event, and all values that it used were finite */
+    bool diverged;   /* a trial step left the bounds */
     bool overran;    /* there were too many events */
     bool done;
 } wh_contact_progress;
 
-/* Begins a step with events. If a first try was already made, the modes are known and no input moved the contacts. */
+/* Begins a step with events. If a first trial step was already made, the modes are known and no input moved the
+ * contacts. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
     wh_contact_state *now = &p->attempt->now;
@@ -305,8 +308,8 @@ static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_con
     }
 }
 
-/* Ends a step whose try of length `span` from `from` left all bounds. Divergence may come before a place at which a hold
- * loses rank; that case is tested elsewhere. */
+/* Ends a step whose trial step of length `span` from `from` left its bounds. The reason may be a hold that loses rank;
+ * wh_contact_lost() tests for that. */
 static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_contact_work *w,
                                                 wh_real span, wh_contact_state *from,
                                                 wh_contact_progress *p) {
@@ -315,7 +318,7 @@ static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_
     p->done = true;
 }
 
-/* Accepts the try: it reached the step's end, or a place where a dip was suspected and none was found. */
+/* Accepts the trial step: it reached the step's end, or a point at which a dip was suspected and not found. */
 static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_contact_work *w,
                                             wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -342,7 +345,7 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     p->done = true;
 }
 
-/* Cuts the try short at its first events: the step goes on from there. */
+/* Shortens the trial step to its first events: the step goes on from there. */
 static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -366,7 +369,8 @@ static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_conta
     p->reach = p->left;
 }
 
-/* Tries the rest of the step, and accepts it, cuts it at events, or shortens the next try to a dip. */
+/* Computes a trial step over the rest of the step. Accepts it, shortens it to its first events, or shortens the next
+ * one to a dip. */
 static inline void wh_contact_progress_try(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -385,7 +389,7 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     wh_contact_attempt_dipped(of, w, p->reach, p->input, a);
     if (a->dips != 0 && p->round + 2U < WH_EVENTS_MAX) {
         const wh_real share = wh_contact_dip(of, a, p->input);
-        if (share < WH_R(1.0)) { /* the next try ends there; the dip counts as a moment */
+        if (share < WH_R(1.0)) { /* the next trial step ends there; the dip counts as a moment */
             p->reach *= share;
             p->round++;
             return;
@@ -434,7 +438,7 @@ static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_
     return WH_OK;
 }
 
-/* A step with events. a->made: its first try was made already. Returns as wh_step_contact() does. */
+/* A step with events. a->made: the first trial step was already made. Returns as wh_step_contact() does. */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
     wh_contact_log log;
@@ -460,8 +464,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
 }
 
 /* One step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
- * state->fault. Only values that the step uses must be finite: a try that is cut short at an event may have left an
- * expression's domain. */
+ * state->fault. Only values that the step uses must be finite: a trial step that is shortened to an event may have left
+ * an expression's domain. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;
@@ -481,7 +485,8 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
             wh_contact_copy(of, state->angle, state->real, state->carry, &a.now);
         }
         wh_contact_attempt_make(of, &work, h, state->input, &a);
-        const bool capped = of->forced > 1 && work.capped; /* a capped pivoting must be counted */
+        /* a pivoting that reached its cap counts as an overrun */
+        const bool capped = of->forced > 1 && work.capped;
         if (a.sound && a.leaving == 0 && !capped &&
             wh_contact_attempt_calm(of, &work, &a)) { /* most steps end here */
             wh_contact_pass(of, &a.margins, &work);

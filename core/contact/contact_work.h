@@ -11,15 +11,15 @@
 #define WH_APART static inline
 #endif
 
-/* Marks of a step's parts, for programs that count instructions between them (boards/programs/mark.h). Empty
- * in all other programs. */
+/* Numbers of a step's parts, for programs that count instructions between them (boards/programs/mark.h). WH_MARK() is
+ * empty in all other programs. */
 #define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
 #define WH_MARK_SIGNALS 2 /* the signals are evaluated next */
 #ifndef WH_MARK
 #define WH_MARK(kind)
 #endif
 
-/* A step in progress: scratch memory, and the modes it tries. */
+/* A step in progress: scratch memory, and the contacts' modes in the present trial step. */
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
@@ -27,24 +27,24 @@ typedef struct wh_contact_work {
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real rough[WH_CONTACTS_MAX]; /* bound on the terms of `wanted`, if contacts are redundant */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-    /* bits: stops whose gap was closed when the try began; they may be opening */
+    /* bits: stops whose gap was closed when the trial step began; they may be opening */
     unsigned inside;
     unsigned hit_next; /* bits: touching stops that an impact of this moment makes close */
     unsigned turned;   /* bits: frictions whose rate has just come to zero; sticking is undecided */
     /* Sliding friction: the error of the located rate, rad/s or m/s. A crossing that turned back: the distance beyond
-     * zero that is no second crossing. A hold that began a try at the limit of its condition: the distance beyond the
-     * limit that still counts as true. Else 0. */
+     * zero that is no second crossing. A hold that began a trial step at the limit of its condition: the distance
+     * beyond the limit that still counts as true. Else 0. */
     wh_real slack[WH_CONTACTS_MAX];
     wh_real due[WH_CONTACTS_MAX]; /* distance at which a turned-back crossing has a side again */
-    /* a crossing on no side: its value when the try began, or when the crossing came to stand */
+    /* a crossing on no side: its value when the trial step began, or when it came to stand */
     wh_real stood[WH_CONTACTS_MAX];
-    wh_real came[WH_COORDS];       /* rates when the present moment began */
+    wh_real came[WH_COORDS];       /* rates at the begin of the present moment */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by wh_contact's first_set */
     unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
     unsigned mover; /* the crossing that changed them */
     /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
-    /* time has passed since an assignment moved a value across zero: a value past zero is then the error of location */
+    /* time has passed since an assignment moved a value across zero: a value past zero is then an error of location */
     bool located;
     bool capped;   /* the pivoting met its cap */
     int fault;     /* component with an assignment beyond its range, or -1 */
@@ -74,7 +74,7 @@ typedef struct wh_contact_model {
 #define WH_CONTACTS_OF(model) ((model)->of)
 #endif
 
-/* A state that a step tries, with its own storage. */
+/* The state of a trial step, with its own storage. */
 typedef struct wh_contact_state {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
@@ -88,7 +88,7 @@ WH_INLINE void wh_contact_signals(const wh_contact_system *of, const wh_phase *p
     of->signals(of->model, phase, linear, rate, input, signal);
 }
 
-/* A place between the ends of a try. */
+/* A point between the ends of a trial step. */
 typedef struct wh_contact_point {
     wh_phase phase[WH_COORDS];
     wh_real linear[WH_COORDS];

@@ -38,8 +38,8 @@ WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
 }
 
 /* wh_sincos_small() for any d: the rotation by d / 2^k, doubled k times. Each doubling doubles the error: within 7e-7
- * |d| in float, 1.3e-15 |d| in double. `surely`: d is not small. Rarely needed, but inline, because a call would spill
- * all registers of the step. */
+ * |d| in float, 1.3e-15 |d| in double. `surely`: the caller knows that d is not small. Rarely needed, but inline,
+ * because a call would spill all registers of the step. */
 WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     unsigned doublings = 0;
     if (surely || WH_ABS(d) > WH_SINCOS_SMALL) {

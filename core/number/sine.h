@@ -5,13 +5,13 @@
  *
  *     sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
  *
- * The bracket is below 1/40, so its own round-off hardly matters. The error is that of the table and of the last sum, half
+ * The bracket is below 1/40, so its round-off hardly matters. The error is that of the table and of the last sum, half
  * a unit in the last place each. There is no quadrant, swap, sign or branch. Quarter turns are exact, and no value is
  * beyond one.
  *
- * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in both numbers: it saves the
- * table (640 bytes of flash in float) and is worse in everything else. The sign and the swap cost instructions, and its
- * last steps round numbers near one. docs/dev/numerics.md has the figures. */
+ * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in both numbers: it saves
+ * the table (640 bytes of flash in float) but is slower and less accurate. The sign and the swap cost instructions, and
+ * the last steps of the polynomial round numbers near one. docs/dev/numerics.md has the figures. */
 #ifndef WH_SINE_H
 #define WH_SINE_H
 
@@ -60,7 +60,7 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
-/* The increments of sine and cosine from `sector`'s middle by a rotation of r, given sin r and cos r - 1. */
+/* The increments of sine and cosine from the middle of `sector` to the angle r beyond it, given sin r and cos r - 1. */
 WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1,
                                wh_sine_parts *parts) {
     const wh_real *middle = &wh_sine_table[sector];

@@ -98,7 +98,8 @@ WH_INLINE int32_t wh_whole(float steps) {
 /* The whole number nearest to steps/2, from the whole part of `steps`. Ties are rounded away from zero. */
 WH_INLINE int32_t wh_half_whole(float steps) {
     const int32_t whole = (int32_t)steps;
-    return (whole - (~whole >> 31)) >> 1; /* gcc and clang define >> of a negative number */
+    /* an arithmetic shift: gcc and clang keep the sign of a negative number */
+    return (whole - (~whole >> 31)) >> 1;
 }
 #endif
 
@@ -129,7 +130,7 @@ WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved
     return true;
 }
 
-/* The angle with this phase that is less than half a turn from `angle`: for a stage of a step. */
+/* The angle with this phase that is less than half a turn from `angle`, as at a stage of a step. */
 WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
 #if WH_DOUBLE
     (void)angle;

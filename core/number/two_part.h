@@ -1,5 +1,6 @@
 /* two_part.h: constants as sums of two reals, which are more precise than one real. With compensated sums in float, a
- * step of a millisecond stored as one real would be too long by 4.7e-8 of itself, in every step. Part of step.h. */
+ * step of a millisecond stored as one real would have a relative error of 4.7e-8, the same in every step. Part of
+ * step.h. */
 #ifndef WH_TWO_PART_H
 #define WH_TWO_PART_H
 

@@ -11,15 +11,16 @@
 #include "../scene.h"
 #include "unroll.h"
 
-/* ira-loop-pressure makes gcc load as many constants before the loop as fit into registers: it saves up to 5 % of a small
- * scene's instructions. In a small scene gcse needs more registers for constants than it saves; in a larger scene it pays. */
+/* ira-loop-pressure makes gcc load as many constants before the loop as fit into registers: it saves up to 5 % of a
+ * small scene's instructions. The option gcse is off for small scenes only: there it needs more registers for constants
+ * than it saves. */
 #if defined(WH_AHEAD) && WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* With one coordinate, tree-ter moves expressions to the operation that uses them, which then waits: up to 4 % of the
- * cycles of a Cortex-M4F. */
+/* With one coordinate, tree-ter moves expressions to the operation that uses them, and that operation must then wait
+ * for them: up to 4 % of the cycles of a Cortex-M4F. So this option is off. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif

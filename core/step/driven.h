@@ -1,6 +1,6 @@
-/* driven.h: inputs with a rate (`input L rate Lv`). Inside a step they move as coordinates without forces. Part of
- * generated scenes that have such inputs. Between steps the caller sets value and rate, or the rate alone. A step starts
- * from both and updates both; a refused step leaves the state as it was. */
+/* driven.h: inputs with a rate (`input L rate Lv`). Inside a step such an input moves as a coordinate without forces:
+ * at its constant rate. Part of generated scenes that have such inputs. Between steps the caller sets value and rate,
+ * or the rate alone. A step starts from both and updates both; a refused step leaves the state as it was. */
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 

@@ -13,10 +13,10 @@
 
 /* The ledger's part of a step in progress. */
 typedef struct wh_ledger_work {
-    wh_real attempt[WH_LEDGER_MAX]; /* entries of the present try */
+    wh_real attempt[WH_LEDGER_MAX]; /* entries of the present trial step */
     wh_real step[WH_LEDGER_MAX];    /* entries of the whole step so far */
-    wh_real span;                   /* length of the present try, s; zero: no try */
-    const wh_angle *angle;          /* angles at the begin of the try */
+    wh_real span;                   /* length of the present trial step, s; zero: no trial step */
+    const wh_angle *angle;          /* angles at the begin of the trial step */
     unsigned stage;
 } wh_ledger_work;
 
@@ -34,7 +34,7 @@ WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     return rates / by->parts;
 }
 
-/* Begin a try at `angle` [form->angles]. The angles must not change before the last stage. */
+/* Begin a trial step at `angle` [form->angles]. The angles must not change before the last stage. */
 WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle, wh_ledger_work *w,
                                wh_real span) {
     for (unsigned i = 0; i < form->entries; i++) {
@@ -45,7 +45,7 @@ WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle
     w->stage = 0;
 }
 
-/* The try becomes part of the run: add its entries to the step's. */
+/* Accept the trial step: add its entries to the step's. */
 WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] += w->attempt[i];

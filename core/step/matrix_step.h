@@ -1,8 +1,8 @@
-/* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g.
- * The scene's list computes the products. It omits entries of 0, and entries of 1 cost no product. If a step hardly changes
- * a component, x+ = x + ((Phi - 1) x + Gamma u + g). Rounding the entries of Phi - 1 is then a small part of the change;
- * rounding those of Phi would be a small part of the state. Bounds, statuses and turn angles are those of every step
- * (step_end.h). */
+/* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g. The scene's operation
+ * list computes the products. It omits entries of 0, and multiplies by no entry of 1. If a step hardly changes a
+ * component, x+ = x + ((Phi - 1) x + Gamma u + g). The round-off of the entries of Phi - 1 is then a small part of the
+ * change; that of Phi would be a small part of the whole state, which is much larger. Bounds, statuses and turn angles
+ * are handled as in every step (step_end.h). */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
@@ -38,7 +38,8 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Accept the list's results, or refuse the step, for a scene without turn angles and low parts. */
+/* Accept the results of the operation list, or refuse the step. For a scene without turn angles and without low
+ * parts. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -52,7 +53,7 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
 
 /* Returns value + increment + *carry; *carry becomes the round-off of both sums. Most of *carry is whole units of the
  * increment's last place. The error of the rounded constants adds less than half a unit, which wh_sum() would lose in
- * every step: 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8 rad. */
+ * every step: 2.5e-5 rad in 1e6 steps of an oscillator. The sum here loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;
@@ -62,8 +63,8 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
     return sum;
 }
 
-/* One step of h by the list `matrix`, which is called as accelerations are, but without phases. The rates follow
- * `rates_at` other reals (second order; otherwise unused). The list gives
+/* One step of h by the operation list `matrix`, which has the signature of an acceleration function; its phases are not
+ * used. `rates_at` is the index of the first rate in the reals (second order; otherwise unused). The list gives
  *
  *     angles             the mean rate over the step
  *     reals              their values after it; compensated: their changes

@@ -9,14 +9,14 @@
  *     s = -D / (1024 max P),     at most 2^-20 in size,
  *
  * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant
- * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because a float's D is noise
- * of its last digits. A thousand steps average it, and compensated sums carry the fraction. max P is the largest P so far,
- * so that s does not grow when a swing turns back. With the small P of that moment, the slow parts that still move would
- * get the whole correction.
+ * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because in float D is
+ * mostly round-off. A thousand steps average that noise, and compensated sums keep the small corrections. max P is the
+ * largest P so far, so that s does not grow when a swing reverses. At that moment P is small, and the other, slow
+ * motions would get the whole correction.
  *
- * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction is an
- * entry of the ledger, and to be read as a loss of that size. It is for motions without drive and damping. In others, D
- * includes the quadrature error of the ledger, which is not an error of the motion. */
+ * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction
+ * has an entry in the ledger, whose size is the energy that was lost. The method is for motions without drive and
+ * damping. In other motions D includes the quadrature error of the ledger, which is not an error of the motion. */
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
 
@@ -30,7 +30,7 @@
 #include "../ledger.h"
 #include "refuse.h"
 
-/* Share of the drift that a step corrects, 2^-10, and the largest relative change of the rates, 2^-20. */
+/* The share of the drift that a step corrects (2^-10), and the largest relative change of the rates (2^-20). */
 #define WH_STABILIZE_SHARE WH_R(0.0009765625)
 #define WH_STABILIZE_MOST WH_R(9.5367431640625e-7)
 

@@ -1,4 +1,4 @@
-/* stage_sums.h: weighted sums of a step's stages, by the method's row (method.h). Part of step.h. */
+/* stage_sums.h: weighted sums of a step's stages, with the weights of the method's row (method.h). Part of step.h. */
 #ifndef WH_STAGE_SUMS_H
 #define WH_STAGE_SUMS_H
 
@@ -20,8 +20,8 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* Calls stage(s); for all stages except the first. If the compiler has no pragma for it, the loop is unrolled by hand:
- * otherwise the program would look up and multiply shares at run time. */
+/* Calls stage(s); for all stages except the first. If the compiler has no pragma for unrolling, the loop is unrolled by
+ * hand. In a loop the program would read and multiply shares at run time. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
@@ -64,7 +64,7 @@ typedef struct wh_given {
     wh_real (*next)[WH_COORDS];
 } wh_given;
 
-/* sum_j share[j] * component i of stage j, stages in order. */
+/* sum_j share[j] * (component i of stage j), stages in order. */
 WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
     wh_real sum = WH_R(0.0);
     bool any = false;
@@ -99,8 +99,9 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
-/* Do a stage and the one before it have equal weights at the step's end? Such stages are added first: one sum replaces
- * two products and may serve positions and rates. Without positions, the weights of the rates decide. */
+/* Do a stage and the one before it have equal weights at the step's end? Such stages are added before the
+ * multiplication: one product replaces two, and the sum may serve positions and rates. If has_positions is false, only
+ * the weights of the rates are compared. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
     return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
@@ -119,7 +120,7 @@ WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_pos
     }
 }
 
-/* *sum += share * more; the first call sets the sum. */
+/* *sum += share * more; the first call assigns instead. */
 WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
     if (share != WH_R(0.0)) {
         *sum = *any ? *sum + share * more : share * more;

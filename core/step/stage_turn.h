@@ -1,7 +1,7 @@
 /* stage_turn.h: steps whose stages rotate sines and cosines instead of looking them up.
  *
- * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the begin
- * and r_j that of stage j, stage s is further on by
+ * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the
+ * begin and r_j that of stage j, the angle at stage s is larger by
  *
  *     c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
  *
@@ -9,18 +9,20 @@
  * cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or a
  * cosine), w the increment of the last rotation and b = 2 (cos d - 1).
  *
- * The second part, the lean e, is of order h^2, because r_j - r is of order h. (s, c) leans by half of e in c, by all of it
- * in s and by half in c again. That is a rotation by e except for e^3/6, which is of order h^6. So the stages agree with
- * looked-up ones to a higher order than any method here has. The classic method, with d = h/2 v:
+ * The second part, the shear angle e, is of order h^2, because r_j - r is of order h. The pair (s, c) is rotated by e
+ * by three shears: half of e in c, all of e in s, and half of e in c again. The error of this rotation is e^3/6, of
+ * order h^6. So the stages agree with looked-up ones to a higher order than any method here has. The classic method,
+ * with d = h/2 v:
  *
- *     stage 2:  one turn     stage 3:  one turn, leaning by h^2 a1/4     stage 4:  two turns, leaning by h^2 a2/2
+ *     stage 2:  d     stage 3:  d, and the shear h^2 a1/4     stage 4:  2 d, and the shear h^2 a2/2
  *
- * The whole step moves the angle itself as usual (step.h), and the next step looks it up again: nothing drifts.
+ * The whole step moves the angle itself as usual (step.h), and the next step looks up its sine again, so no error
+ * accumulates.
  *
- * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check decides.
- * Beyond it, d is halved until it is small and the rotation doubled as often (sincos_small.h). The stages are then nearly as
- * accurate, and the step takes more instructions. Turning refuses no step that looking up at each stage (step.h) would
- * accept. */
+ * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check
+ * decides. For larger d, the rotation is that of d / 2^k, doubled k times (sincos_small.h). The stages are then nearly
+ * as accurate, and the step takes more instructions. No step is refused that would be accepted with a lookup at each
+ * stage (step.h). */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
 
@@ -32,7 +34,7 @@
 #include "../number/sincos_small.h"
 #include "../step.h"
 
-/* Without this, gcc would compute the operands of some branches before the branch: 1 % more instructions on a
+/* Without these options, gcc would compute the operands of some branches before the branch: 1 % more instructions on a
  * Cortex-M4F, and up to 3 % more cycles. In double, on a PC, it would save instructions. */
 #if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
 #pragma GCC optimize("no-tree-pre")
@@ -52,9 +54,9 @@
 #endif
 #endif
 
-/* Where to check the size of the rotation. A check before the first accelerations leaves few registers to save over the
- * call that may follow. But then the rotation's variables must survive the accelerations, and the 16 registers of a PC
- * are too few for that: 3 % more instructions. */
+/* Where to test whether d is small. A test before the first accelerations leaves few registers to save over the call
+ * that may follow. But then the rotation's variables must survive the accelerations, and the 16 registers of a PC are
+ * too few for that: 3 % more instructions. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
 /* As wh_accel_fn and wh_slope_fn, with the sine-cosine pairs of the waves instead of the angles' phases. */
@@ -75,7 +77,7 @@ typedef struct wh_waves {
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
-/* Does the method's row have the data for turning? */
+/* Has the row of the method the multiples (.turns) for rotated stages? */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
     return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
@@ -83,11 +85,12 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    wh_sine_parts parts[WH_WAVES]; /* pairs at the begin; increments if turning is precise */
-    wh_wave at[WH_WAVES];          /* pairs rotated by the rates at the begin alone */
-    wh_wave way[WH_WAVES];         /* increment of the next rotation, or of the last one */
-    wh_real bend[WH_WAVES];        /* 2 (cos d - 1) */
-    unsigned turns;                /* number of rotations done */
+    /* pairs at the begin; or increments, if they are summed precisely */
+    wh_sine_parts parts[WH_WAVES];
+    wh_wave at[WH_WAVES];   /* pairs rotated by the rates at the begin alone */
+    wh_wave way[WH_WAVES];  /* increment of the next rotation, or of the last one */
+    wh_real bend[WH_WAVES]; /* 2 (cos d - 1) */
+    unsigned turns;         /* number of rotations done */
 } wh_turning;
 
 /* Look up the pairs at the step's begin. */
@@ -110,8 +113,8 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* The rotations turn[n] by the angles d[n], which are not small together. It is a function call: several rotations need
- * a stack frame anyway, and at the begin a call spills few registers. */
+/* The rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. It is a function
+ * call: several rotations need a stack frame anyway, and at the begin a call spills few registers. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -120,7 +123,7 @@ WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     }
 }
 
-/* The first rotation's increments at these rates of the angles: turn[waves->count]. */
+/* The increments of the first rotation, turn[waves->count], for these rates of the angles. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES];
@@ -198,8 +201,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* The leans of the angles at a stage, times parts / h. gained[j][angle] is the change of the angle's rate at stage j + 1
- * since the begin. Returns false if the stage does not lean. */
+/* The shear angles at a stage, times parts / h. gained[j][angle] is the change of the angle's rate at stage j + 1 since
+ * the begin. Returns false if they are zero at this stage. */
 WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                 unsigned angles, wh_real *lean) {
     bool leans = false;
@@ -218,7 +221,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
     return leans;
 }
 
-/* The pair `at`, leaning by a small angle. */
+/* The pair `at`, rotated by a small angle `lean`: three shears. */
 WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
@@ -233,7 +236,7 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
     return leant;
 }
 
-/* The pair `at`, rotated by a lean of any size. */
+/* The pair `at`, rotated by an angle `lean` of any size. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_wave turn =
         WH_ABS(lean) <= WH_SINCOS_SMALL ? wh_sincos_small(lean) : wh_sincos_far(lean, true);
@@ -250,7 +253,7 @@ WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, boo
     return leant;
 }
 
-/* The pairs at stage `stage`; gained[] as for wh_turning_leans(). `far`: leans may be large. */
+/* The pairs at stage `stage`; gained[] as for wh_turning_leans(). `far`: the shear angles may be large. */
 WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], bool far, wh_turning *t,
                                 wh_wave *pair) {
@@ -290,7 +293,7 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* The phases of the angles at a stage, for the ledger: as wh_stage_angle() gives them. */
+/* The phases of the angles at a stage, for the ledger: the same as from wh_stage_angle(). */
 WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_real *rate,
                                wh_given rates, wh_given accels, wh_phase *told) {
     const wh_shares *of = &to->by->stage[stage];
@@ -306,8 +309,8 @@ WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_r
     }
 }
 
-/* Arguments and results of a list of operations. They are a struct of their own, so that all other variables stay in
- * registers if the list is called. */
+/* Arguments and results of an operation list. They have their own struct, so that all other variables stay in registers
+ * if the list is called. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
     wh_real at[WH_COORDS];    /* linear positions, or reals, */
@@ -315,7 +318,7 @@ typedef struct wh_turned_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;
 
-/* Takes the pairs at a step's begin. */
+/* Copies the pairs at a step's begin to the list. */
 WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {

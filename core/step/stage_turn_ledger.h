@@ -1,4 +1,5 @@
-/* stage_turn_ledger.h: fills the ledger (ledger.h) while stages turn their sines (stage_turn.h). C only, as step.h is. */
+/* stage_turn_ledger.h: fills the ledger (ledger.h) for stages with rotated sines (stage_turn.h). C only, as step.h
+ * is. */
 #ifndef WH_STAGE_TURN_LEDGER_H
 #define WH_STAGE_TURN_LEDGER_H
 
@@ -16,7 +17,7 @@ typedef struct wh_turn_ledger_model {
     wh_turned_accel_fn *accel;
     wh_method method;
     wh_ledger_work *work;
-    const wh_phase *phase; /* [form->angles] of the present stage */
+    const wh_phase *phase; /* phases of the angles [form->angles] at the present stage */
 } wh_turn_ledger_model;
 
 /* The accelerations; also enters the stage in the ledger, which looks up its own sines. A wh_turned_accel_fn. */

@@ -1,4 +1,5 @@
-/* step_end.h: the end of a step: the stages' sums move the state, unless it leaves its bounds. Part of step.h. */
+/* step_end.h: the end of a step: adds the weighted sums of the stages to the state, unless the result is out of bounds.
+ * Part of step.h. */
 #ifndef WH_STEP_END_H
 #define WH_STEP_END_H
 
@@ -15,7 +16,7 @@
 
 /* Move *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size. The move is rounded to the nearest:
  * truncation would slow every angle down by half a unit per step. If compensated, *carry is added and becomes the
- * round-off. *carry is added separately, because a large step would absorb it. */
+ * round-off. *carry is added separately, because it would be lost in the sum with a large move. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -38,7 +39,8 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* Are all value[n] within WH_ABSURD? One check for all: the sum of their magnitudes is at least as large as each of them. */
+/* Are all value[n] within WH_ABSURD? One check suffices: the sum of their magnitudes is at least as large as the
+ * largest. */
 WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -75,7 +77,7 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
     return wh_refuse_first(value, n, first, state);
 }
 
-/* Refuse the step if an angle `far` would move by half a turn or more. */
+/* Refuse the step because angle `far` would move by half a turn or more. Does nothing if there is no such angle. */
 #define WH_REFUSE_FAR(far) \
     do { \
         const unsigned far_angle = (far); \
@@ -84,7 +86,7 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
         } \
     } while (false)
 
-/* The results of a step, until it is known that none is out of bounds. */
+/* The results of a step, before they are known to be in bounds. */
 typedef struct wh_trial {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
@@ -109,7 +111,7 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
     }
 }
 
-/* Copy a sound trial to the state, or refuse the step. */
+/* Copy the trial to the state if it is in bounds, or refuse the step. */
 WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned reals,
                               bool compensated, wh_state *state) {
     if (!wh_all_believable(trial->real, reals)) {
@@ -136,8 +138,8 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
 }
 
 /* Computes trial->angle[] of a step of length h: the state's angles, each moved by move[] times rad_a_move. If
- * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a turn
- * or more, or by NaN; or `angles`. Such moves are rare, so one check of the sum of sizes comes first. */
+ * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a
+ * turn or more, or by NaN; or `angles`. Such moves are rare, so one check of the sum of all magnitudes comes first. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -172,9 +174,9 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
 }
 
 /* Returns value + by * factor, as wh_sum() does. `product` is by.high * factor, `h` the step. The part by.low * factor
- * is less than half a unit in the product's last place: a sum with the product would lose it in every step. So the
- * round-off is computed from the product alone, and the carry, which is small, takes the part of by.low. A step without
- * a low part (as in scenes with contacts) skips this: its carry must stay zero if nothing moves. */
+ * is less than half a unit in the product's last place, so adding it to the product would have no effect. So the
+ * round-off is computed from the product alone, and by.low * factor is added to the carry, which is small. A step
+ * without a low part (as in scenes with contacts) skips this: its carry must stay zero if nothing moves. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -190,13 +192,14 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* The error of h^2 divided by the row's parts, in s^2, from two roundings and the stages. It multiplies the sum of
- * accelerations that moves positions. Stages use h.high, because rounding would lose h.low there. So they fall short by
- * a share e of their distance. This changes the rates as if h/2 e times the forces' change were missing. The energy
- * changes by as much in every step, always with the same sign: 5e-13 of a pendulum's energy in a step of a millisecond.
- * If the positions also lack the share e of h^2/2 times the accelerations, both errors together are the derivative of a
- * small quantity. The energy then stays constant if the mass matrix is constant, and otherwise most of the error
- * vanishes (docs/dev/numerics.md). A method with one stage, at the step's begin, has no such stages. */
+/* The error of h^2 divided by the row's parts, in s^2, because of two roundings and of the stages. The sum of
+ * accelerations in the change of positions is multiplied by it. Stages use h.high, because h.low would be lost by
+ * rounding. So the distance of a stage is too short by the share e. This changes the rates as if h/2 e times the change
+ * of the forces were missing. In every step the energy then has an error of the same size and sign: 5e-13 of a
+ * pendulum's energy in a step of a millisecond. If the positions also lack the share e of h^2/2 times the
+ * accelerations, both errors together are the derivative of a small quantity. The energy then stays constant if the
+ * mass matrix is constant, and otherwise most of the error vanishes (docs/dev/numerics.md). A method with one stage, at
+ * the step's begin, has no such error. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
@@ -215,7 +218,8 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
         return WH_PHASE_PER_RAD * wh_square_short(by, h, part) +
                h.high * part.high * WH_PHASE_PER_RAD_REST;
     }
-    return phases.high * part.low + part.high * phases.low; /* as wh_stage_angle() rounds */
+    /* the same rounding as in wh_stage_angle() */
+    return phases.high * part.low + part.high * phases.low;
 }
 
 /* Add this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
@@ -233,8 +237,8 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
     }
 }
 
-/* The end of a step of q'' = f: a1 (the result of the first stage), the results of the later stages and the sums of
- * stages with equal weights move the state. `turned`: the stages rotated sines. Returns as wh_step_second() does. */
+/* The end of a step of q'' = f: moves the state by a1 (the result of the first stage), the results of the later stages,
+ * and the sums of stages with equal weights. `turned`: the stages rotated sines. Returns as wh_step_second() does. */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
                                   unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -245,7 +249,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     wh_real move[WH_COORDS];   /* mean rate that moves the position in this step */
     wh_real gain[WH_COORDS];   /* sum of the accelerations, divided by its parts */
     wh_real kick[WH_COORDS];   /* change of the rate in this step */
-    wh_real pulled[WH_COORDS]; /* sum of the accelerations that moves the position */
+    wh_real pulled[WH_COORDS]; /* weighted sum of the accelerations in the change of the position */
     wh_trial trial;
 
     WH_UNROLL

@@ -7,9 +7,9 @@
  *
  *     linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
  *
- * The pieces are continuous, the cubic ones also in their slopes. A cubic cell has four numbers instead of values and
- * slopes at its ends: twice the flash, but six operations instead of eleven, which matters without an FPU. The increment to
- * `a` is small, so that the round-off is little more than that of the result. */
+ * The pieces are continuous, the cubic ones also in their slopes. A cubic cell has four coefficients. Values and slopes
+ * at the borders of cells would need half the flash, but eleven operations instead of six, which matters without an
+ * FPU. The increment to `a` is small, so the round-off is little more than that of one addition. */
 #ifndef WH_TABLE_H
 #define WH_TABLE_H
 
@@ -31,8 +31,8 @@
 #define WH_TABLE_LINEAR 2U
 #define WH_TABLE_CUBIC 4U
 
-/* If all of a list's tables are even or odd, half a turn suffices: half the flash, and the same bits. Without an FPU
- * this costs at most 1 % of a step's cycles, and is used; with one it would cost a seventh. */
+/* If all of a list's tables are even or odd, only half a turn is stored: half the flash, and the same bits. Without an
+ * FPU this costs at most 1 % of a step's cycles, so it is used; with an FPU it would cost 14 %, so it is not. */
 #ifndef WH_TABLE_FOLD
 #if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
                    (defined(__riscv) && !defined(__riscv_flen)))
@@ -48,8 +48,8 @@
 /* Number of cells of a table that is even or odd. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
-/* Coefficients of y, y^2 and y^3 in a table. In float, y is 2^32 times its value in cells, so that it has all digits of
- * the phase. The table's coefficients contain the scale at no cost. */
+/* Scales the coefficients of y, y^2 and y^3 in a table. In float, y is 2^32 times its value in cells, so that it has
+ * all digits of the phase. The coefficients contain the inverse of this factor, at no cost. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -77,7 +77,7 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
 }
 
 /* The method is that of wh_sincos_parts(): with up to 128 cells per turn, pi/64 has three parts whose products are
- * exact. More cells are parts of those. */
+ * exact. With more cells, each is a part of one of those. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;

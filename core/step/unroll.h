@@ -17,8 +17,9 @@
 #elif defined(__clang__)
 #define WH_UNROLL _Pragma("clang loop unroll(full)")
 #define WH_UNROLLS
-#pragma clang diagnostic ignored "-Wpass-failed" /* loops whose bound is no constant stay loops */
-#elif defined(__GNUC__) && __GNUC__ >= 8         /* older versions do not know the pragma */
+/* a loop without a constant bound is not unrolled, and clang shall not warn of it */
+#pragma clang diagnostic ignored "-Wpass-failed"
+#elif defined(__GNUC__) && __GNUC__ >= 8 /* older versions do not know the pragma */
 #define WH_UNROLL _Pragma("GCC unroll 64")
 #define WH_UNROLLS
 #else
@@ -32,9 +33,9 @@
 #pragma GCC optimize("O3")
 #endif
 
-/* Without these, gcc would move a stage's computation below the checks of the next stage, where more values are live: up
- * to 8 % more instructions per step. Beside each check it would load the number of the component at fault: up to 3 %.
- * And it would call memcpy() for a loop over one or two values. */
+/* Without these, gcc would move a stage's computation below the checks of the next stage, where more values are live:
+ * up to 8 % more instructions per step. It would also load, before each check, the index of the component that may
+ * fail: up to 3 %. And it would call memcpy() for a loop over one or two values. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-sink", "no-if-conversion2", "no-tree-loop-distribute-patterns", \
                      "no-tree-slp-vectorize")
