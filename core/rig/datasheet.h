@@ -14,7 +14,7 @@ WH_SHARED wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Seconds between two time stamps, negative if `to` is earlier; less than 35.8 minutes. */
+/* Seconds from one time stamp to another, negative if `to` is earlier; less than 35.8 minutes. */
 WH_SHARED wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
@@ -54,7 +54,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 
-/* Damping of a turn's mean speed: the slope of the torque line, and 0.001 N m s of the bearings. */
+/* Damping of the mean speed over a turn: the slope of the torque line, and 0.001 N m s of the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
 
 /* Supply voltage of the torque line above. */
@@ -70,18 +70,19 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
-/* Below about 145 rpm, gravity stops the rotor on its way over the top before the pulses show it to the loop
- * (docs/rig.md). Set-points stay a sixth above that, because the loop dips. */
+/* Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse would come too late for the
+ * control loop (docs/rig.md). Set-points stay a sixth above that, because the speed dips below its set-point. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
-/* The same limit if gravity's torque is fed forward to the motor. */
+/* The same limit with gravity compensation (gravity_compensation.h). */
 #define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
 
 /* Range of the motor's supply, as multiples of the rated voltage. */
 #define WH_RIG_SUPPLY_LEAST WH_R(0.45)
 #define WH_RIG_SUPPLY_MOST WH_R(1.55)
 
-/* The speed without load at the highest supply. A pulse that needs a higher speed is rejected. */
+/* Largest possible speed: that without load at the highest supply voltage. A pulse that needs a higher speed is
+ * rejected. */
 #define WH_RIG_IMPOSSIBLE_RADPS (WH_RIG_SUPPLY_MOST * WH_RIG_NO_LOAD_RADPS)
 
 #endif

@@ -1,5 +1,5 @@
-/* drive.h: speed drive: a ramp for the set-point and a PI controller with anti-windup. Its command is a voltage: the
- * supply limits it but does not change its gain. */
+/* drive.h: speed drive: a ramp for the set-point and a PI controller with anti-windup. The command is a voltage, so the
+ * supply limits it but does not change the loop's gain. */
 #ifndef WH_RIG_DRIVE_H
 #define WH_RIG_DRIVE_H
 
@@ -13,7 +13,8 @@ typedef struct wh_drive_config {
     wh_real proportional_V_per_radps; /* volts per rad/s of error */
     wh_real integral_V_per_rad;       /* volts per second, per rad/s of error */
     wh_real ramp_radps2;              /* fastest change of the set-point, > 0 */
-    wh_real gentle_radps; /* below this the ramp is a quarter as steep, to survive a dip */
+    /* below this speed the ramp is a quarter as steep, so that the rotor does not stop at the top */
+    wh_real gentle_radps;
 } wh_drive_config;
 
 typedef struct wh_drive {
@@ -26,13 +27,13 @@ typedef struct wh_drive {
 #define wh_drive_step WH_NAME(wh_drive_step)
 #define wh_drive_at_target WH_NAME(wh_drive_at_target)
 
-/* Take over at the present speed and voltage without a bump: the set-point starts at the speed, the integral at the
- * voltage. */
+/* Start at the present speed and voltage without a step in the voltage: the set-point starts at the speed, the integral
+ * at the voltage. */
 void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);
 
 /* One control step of step_s seconds: move the set-point towards the target, return the new voltage, 0 to most_V >= 0.
  *
- * The integral is constant while the voltage is at a limit and the error would push it further (conditional
+ * The integral is constant while the voltage is at a limit and the error would drive it further (conditional
  * integration: Astrom & Hagglund, Advanced PID Control, section 3.5). */
 wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
                       wh_real most_V, wh_real step_s);

@@ -36,11 +36,11 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
         return;
     }
-    /* if a sensor fires twice in succession, the second passage is in the opposite direction */
+    /* if a sensor fires twice in succession, the rotor has passed it in the opposite direction the second time */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
-        swing->forward =
-            true; /* backwards it cannot get over the top: a pulse was lost, and the rotor turns */
+        /* a rotor that swings backwards cannot get over the top, so a pulse was lost and the rotor turns */
+        swing->forward = true;
         swing->swings = false;
         swing->kept = 0;
         swing->passed = 0;
@@ -65,7 +65,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
 
 #define STEP_TICKS 8000
 
-/* A step towards the next pulse. Returns false when the pulse is reached. */
+/* Integrates one step towards the next pulse. Returns false when the pulse is reached. */
 static bool advance(wh_swing *swing) {
     const int32_t left = (int32_t)(swing->kept_ticks[swing->at] - swing->ticks);
     if (left == 0) {
@@ -85,14 +85,15 @@ static bool advance(wh_swing *swing) {
 
 /* --- passes -------------------------------------------------------------------------------------------- */
 
-/* The angle of the rotor from the bottom when it passes a sensor forwards: its pulse comes `lead` earlier, at the slot's
- * leading edge. */
+/* The angle of the rotor, from the hanging position, when it is exactly at a sensor. Its pulse comes `lead` earlier, at
+ * the slot's leading edge. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Returns to the first passage of the bottom, where the passes over the later and over the earlier pulses begin. */
+/* Returns to the first passage of the bottom: the integration over the later pulses begins there, and so does that over
+ * the earlier ones. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(
@@ -102,7 +103,7 @@ static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor,
 
 static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
                        wh_swing *swing) {
-    wh_real left[WH_NORMAL_UNKNOWNS]; /* displacement from the guess */
+    wh_real left[WH_NORMAL_UNKNOWNS]; /* differences of the unknowns from the guess */
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
@@ -134,7 +135,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Limit on the slowest amplitude: a slower rotor stops within a swing or two, by a friction that is unknown. */
+/* Limit on the slowest amplitude: a rotor with a smaller one comes to rest within a swing or two, by a friction that is
+ * unknown. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -146,14 +148,14 @@ static bool is_slow(const wh_swing *swing) {
 
 #define FAR_RAD WH_R(0.5)
 
-/* Process a pulse that the pass has reached. Returns false if the pass cannot go on. */
+/* Evaluates the pulse that the integration has reached. Returns false if the pass cannot go on. */
 static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const wh_free_rotor *way = &swing->way;
     const unsigned sensor = swing->kept_sensor[swing->at];
     const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
     const wh_real off = wh_free_angle(stands(rotor, swing, sensor, lead) - way->q_rad);
     if (!(WH_ABS(off) < FAR_RAD)) {
-        if (swing->at < swing->first) { /* has the rotor got over the top? */
+        if (swing->at < swing->first) { /* has the rotor not got over the top? */
             return false;
         }
         swing->strays++;
@@ -176,7 +178,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
-    /* if there are more unknowns than pulses, there is no misfit */
+    /* without more pulses than unknowns, the misfit is meaningless */
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
@@ -203,7 +205,8 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
 
 #define FOREIGN WH_R(9.0)
 
-/* Gauss's step. Each unknown moves at most by the uncertainty of its guess. Returns the next piece of the work. */
+/* The Gauss-Newton step. Each unknown moves at most by the uncertainty of its guess. Returns the next part of the
+ * work. */
 static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
@@ -229,7 +232,7 @@ static wh_swing_piece move(wh_swing *swing) {
     return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
 }
 
-/* After a pulse: goes on to the next one, or back to the first passage and on to the pulses before it. */
+/* After a pulse: continues to the next one, or returns to the first passage and continues to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
     const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* may wrap */
@@ -243,7 +246,7 @@ static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, w
     }
 }
 
-#define STEPS 3U /* integration steps per piece of the work */
+#define STEPS 3U /* integration steps per part of the work */
 
 static WH_CALLED void work(const wh_swing_config *config, const wh_rotor_config *rotor,
                            wh_swing *swing) {
@@ -324,7 +327,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
     const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
     const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
     const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
-    wh_real before = h; /* the rotor turns back within the step */
+    wh_real before = h; /* the rotor reverses within the step */
     wh_real after = WH_R(0.0);
     wh_real ratio = WH_R(1.0);
     rotor->rate_radps = rate + h * slowed;
@@ -377,7 +380,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Least pivot: the prior 1 of a diagonal entry may be lost in round-off after the rows have made the entry large. */
+/* Least pivot. The prior's 1 on the diagonal may be lost in round-off when the rows have made the entry large. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {
@@ -393,7 +396,7 @@ void wh_normal_factor(wh_normal *normal) {
     }
 }
 
-/* y becomes L^-1 y; before `from` it is zero. */
+/* Replaces y by L^-1 y; the entries of y before `from` are zero. */
 static WH_CALLED void forward(const wh_normal *normal, wh_real y[N], unsigned from) {
     for (unsigned i = from; i < N; i++) {
         for (unsigned k = from; k < i; k++) {
@@ -414,7 +417,7 @@ void wh_normal_solve(wh_normal *normal) {
     }
 }
 
-/* The inverse's diagonal: the square of L^-1 times the unit vector. */
+/* The diagonal entry of the inverse: the squared length of L^-1 times the unit vector. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which) {
     wh_real y[N] = {WH_R(0.0)};
     wh_real sum = WH_R(0.0);

@@ -1,11 +1,12 @@
 /* free_swing.h: the sensors' positions, from the free swing of a rotor that comes to rest.
  *
- * No quantity of a run distinguishes a misplaced sensor from a force out of line with the masses: both shift the phase
- * equally. The hanging position of the arms does. With the motor's leads open, only gravity and friction move the rotor
- * (below). If q(t) is a motion, -q(t) is one, too. So between two passages of q = 0 it takes as long on the right as
- * on the left, with or without friction, except for the loss from swing to swing. Pulses come at the slot's leading edge: a
- * sensor at p is passed at p - lead to the right and at p + lead to the left. So the lead cancels, and half a swing on the
- * right is shorter than one on the left by 4 p/v, with v the speed at the bottom. A slow rotor shows most.
+ * A driven run cannot distinguish a misplaced sensor from a force out of line with the masses: both shift the phase
+ * equally. A rotor that swings freely shows where the arms hang, and so where the sensors are. With the motor's leads
+ * open, only gravity and friction move the rotor (see "the rotor" below). If q(t) is a motion, -q(t) is one, too. So
+ * between two passages of q = 0 it takes as long on the right as on the left, with or without friction, except for the
+ * loss from swing to swing. Pulses come at the slot's leading edge: a sensor at p is passed at p - lead to the right
+ * and at p + lead to the left. So the lead cancels, and half a swing on the right is shorter than one on the left by 4
+ * p/v, with v the speed at the bottom. The difference is largest for a slow rotor.
  *
  * This needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). Half a swing takes 2
  * K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small: their period
@@ -14,14 +15,17 @@
  *
  * Gauss's regression refines it. The unknowns are q and q' at the first backward passage of the bottom, g, Coulomb and
  * viscous friction over I, and both sensors' positions. The data are the times of all pulses. The equation of motion is
- * integrated forwards over the swings and backwards over the last turns. There, and at amplitudes above 90 deg, the rotor
- * passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass. The first passes give all
- * pulses an uncertainty of some degrees, less from pass to pass: a single pass would not always converge.
+ * integrated forwards over the swings and backwards over the last turns. In those turns, and at amplitudes above 90
+ * deg, the rotor passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass. In the
+ * first pass all pulses have an uncertainty of some degrees; each later pass lowers it. A single pass would not always
+ * converge.
  *
- * The interval is that of the regression, widened by excess residuals of the pulses and by the floor.
+ * The confidence interval is that of the regression. It is widened if residuals of the pulses are larger than expected,
+ * and by floor_rad.
  *
- * Pulses are stored while the rotor swings. Once it rests, each control step does a piece of a pass: three steps of the
- * equation, or one pulse, or part of the solution of the normal equations. The whole takes some seconds. */
+ * Pulses are stored while the rotor swings. After the rotor has come to rest, each control step does a part of a pass:
+ * three steps of the equation, or one pulse, or part of the solution of the normal equations. The whole takes some
+ * seconds. */
 #ifndef WH_RIG_FREE_SWING_H
 #define WH_RIG_FREE_SWING_H
 
@@ -36,8 +40,8 @@ extern "C" {
 /* === normal equations ======================================================================== */
 /* Linear least squares: normal equations that grow row by row, solved by Cholesky factorization.
  *
- * The unit of each unknown is its initial uncertainty, and a row of its own states it. So the matrix is the unit matrix
- * plus the other rows, and never singular. */
+ * Each unknown is scaled by its initial uncertainty, which enters as one row with the weight 1. So the matrix is the
+ * unit matrix plus the other rows, and never singular. */
 
 #define WH_NORMAL_UNKNOWNS 7
 
@@ -58,7 +62,7 @@ typedef struct wh_normal {
 /* Begin with the prior alone: each unknown is `guess`, with a standard deviation of 1. */
 void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS]);
 
-/* Add a measurement: the sum of row times unknowns is `off`, with this weight (the inverse of its variance). */
+/* Add a measurement: the sum of row times unknowns shall be `off`, with this weight (the inverse of its variance). */
 void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
                    wh_real weight);
 
@@ -70,15 +74,16 @@ void wh_normal_solve(wh_normal *normal);
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
 
 /* === the rotor =============================================================================== */
-/* A rotor under gravity and friction alone, and the derivatives of its motion with respect to its causes.
+/* A rotor under gravity and friction alone, and the derivatives of its motion with respect to its parameters: the
+ * initial state, g, f and c.
  *
  *     q'' = -g sin q - f sign q' - c q'          q its angle from hanging; g = S g/I, f and c friction over I
  *
- * Stoermer's steps: drift, kick, drift, forwards in time or backwards. Friction changes sign with the motion within the
- * step. There the rate has a kink, and the derivatives are multiplied with the ratio of the accelerations after and
- * before. */
+ * Steps of Stoermer's method (drift, kick, drift), forwards in time or backwards. If the motion reverses within the
+ * step, friction changes its sign. The rate then has a kink, and the derivatives are multiplied by the acceleration
+ * after it, divided by that before it. */
 
-/* The causes of the motion: initial q and q', g, f, c. */
+/* The parameters of the motion: initial q and q', g, f, c. */
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
 
 typedef struct wh_free_rotor {
@@ -93,10 +98,11 @@ typedef struct wh_free_rotor {
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
-/* A step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` has g, f and c in its places. */
+/* A step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` is indexed by the enum above;
+ * only g, f and c are read. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
-/* Wrap into -pi ... pi, from less than a turn beyond; 0 for larger angles and NaN. */
+/* Wrap an angle to -pi ... pi, from less than a turn outside; 0 for larger angles and NaN. */
 WH_SHARED wh_real wh_free_angle(wh_real rad) {
     const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
     const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
@@ -112,15 +118,16 @@ enum wh_swing_unknown {
     WH_SWING_GRAVITY = WH_FREE_GRAVITY,
     WH_SWING_FRICTION = WH_FREE_FRICTION,
     WH_SWING_DRAG = WH_FREE_DRAG,
-    WH_SWING_PLACE = WH_FREE_CAUSES, /* place of sensor 1; sensor 2's follows */
+    WH_SWING_PLACE = WH_FREE_CAUSES, /* position of sensor 1; that of sensor 2 follows */
 };
 
 #define WH_SWING_SENSORS 2U
-#define WH_SWING_TURNING 6U /* pulses stored from before the swing */
-#define WH_SWING_PULSES 36U /* pulses stored in all */
-#define WH_SWING_LAST 10U   /* times stored of sensor 1's last pulses */
+#define WH_SWING_TURNING 6U /* most pulses stored from the turns before the swings */
+#define WH_SWING_PULSES 36U /* most pulses stored altogether */
+#define WH_SWING_LAST 10U   /* sensor 1's last pulses whose times are stored */
 
-/* Pieces of the work: before a pulse or at it, the equations in two, another pass, another guess, the end. */
+/* Parts of the work, one per control step: integrate up to a pulse, use the pulse, solve the equations (two parts),
+ * begin another pass or another guess, finish. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
     WH_SWING_FACTORS,
@@ -147,13 +154,16 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    wh_real lead_rad;  /* a pulse comes this far before its sensor, from either side */
-    wh_real most_rad;  /* a sensor is within this of its nominal position, at 95 % */
-    wh_real jitter_s;  /* jitter of the pulses, standard deviation */
-    wh_real rough_rad; /* further error of a pulse, standard deviation: a coupling's twist */
-    wh_real floor_rad; /* calibration, 95 %: slot, lead, friction that differs with the direction */
-    wh_real wide_rad;  /* widest useful interval */
-    wh_real off_rad; /* limit of sensor 1's error and its interval: beyond, results are doubtful */
+    wh_real lead_rad; /* a pulse comes this angle before its sensor, from either side */
+    wh_real most_rad; /* a sensor is within this of its nominal position, at 95 % */
+    wh_real jitter_s; /* standard deviation of the pulse times, s */
+    /* further error of a pulse's angle, standard deviation: twist of a coupling */
+    wh_real rough_rad;
+    /* part of the interval from calibration, 95 %: slot, lead, friction that differs with the direction */
+    wh_real floor_rad;
+    wh_real wide_rad; /* a wider interval is useless */
+    /* limit of sensor 1's error and of its interval: beyond it, the run's results are doubtful */
+    wh_real off_rad;
     unsigned swings_least; /* least number of half swings */
 } wh_swing_config;
 
@@ -166,12 +176,12 @@ typedef struct wh_swung {
 
 typedef struct wh_swing {
     wh_swung result;
-    bool free;    /* the motor is off with open leads since the last step */
-    bool any;     /* there was a pulse */
+    bool free;    /* the motor has been off with open leads since the last step */
+    bool any;     /* there was a pulse already */
     bool forward; /* the last pulse's direction */
     uint8_t sensor;
     bool swings;          /* the rotor has passed sensor 1 backwards, first at kept[first] */
-    wh_swing_piece piece; /* the next piece of the work */
+    wh_swing_piece piece; /* the next part of the work */
     unsigned first;
     unsigned passed; /* number of later passages of sensor 1, stored or not */
     unsigned kept;
@@ -180,11 +190,11 @@ typedef struct wh_swing {
     unsigned at;     /* the next pulse */
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* impossible pulses in this pass */
-    /* pulses used of each sensor: a swing seen by sensor 1 alone could be its mirror image */
+    /* pulses used of each sensor: pulses of sensor 1 alone would also fit the mirror image of the swing */
     unsigned fits_of[WH_SWING_SENSORS];
     uint32_t ticks;                     /* time of `way` */
     wh_real soft_rad2;                  /* variance added to the pulses' own */
-    wh_free_rotor way;                  /* the rotor during a pass */
+    wh_free_rotor way;                  /* the rotor's motion during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
     wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place, q', g, f, c, sensor positions */
     wh_real guess[WH_NORMAL_UNKNOWNS];  /* guess of x */
@@ -223,9 +233,9 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call it every control step. `swings`: the rotor turned forwards or has swung out after a run, and the motor's leads
- * have been open since then. When they are closed, the rotor is at rest if `rests`; otherwise it was stopped, and the
- * swing was not free. While wh_swing_works(), each step at rest does a bounded piece of the work. */
+/* Call it every control step. `swings`: the motor's leads have been open since the rotor turned forwards in a run.
+ * `rests`, at the moment when the leads are closed: the rotor is at rest; otherwise the motor stopped it and the swing
+ * was not free. While wh_swing_works(), each step at rest does a bounded part of the work. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 

@@ -1,4 +1,4 @@
-/* gravity_compensation.c: feed-forward of gravity's torque to the motor. */
+/* gravity_compensation.c: the motor voltage that cancels gravity's torque. */
 #include "gravity_compensation.h"
 
 #include "datasheet.h"
@@ -19,7 +19,7 @@ wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensati
     const wh_wave wave = wh_wave_at(wh_observer_phase(observer, now_ticks + config->lead_ticks) -
                                     wh_phase_from_rad(config->gravity_rad));
     const wh_real voltage = compensation->part * wave.sine * (config->weight_Nm / config->stall_Nm);
-    if (!(WH_ABS(voltage) <= config->most)) { /* also NaN */
+    if (!(WH_ABS(voltage) <= config->most)) { /* also true for NaN */
         return voltage > WH_R(0.0) ? config->most : voltage < WH_R(0.0) ? -config->most : WH_R(0.0);
     }
     return voltage;

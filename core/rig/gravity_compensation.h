@@ -1,8 +1,8 @@
-/* gravity_compensation.h: feed-forward of gravity's torque to the motor.
- * Gravity pulls arms in a vertical plane back with S g sin(theta - gamma). S is the sum of mass times radius, gamma the
- * direction of gravity. The rotor's speed would vary by E = S g/(I omega^2) about its mean. A motor with that torque
- * added holds it at the mean. theta is the observer's angle at the middle of the time for which the voltage will be
- * applied. That is half a control step of zero-order hold, and the delay of computing and of the motor's inductance. */
+/* gravity_compensation.h: feed-forward of gravity's torque to the motor. Gravity pulls arms in a vertical plane back
+ * with S g sin(theta - gamma). S is the sum of mass times radius, gamma the direction of gravity. The rotor's speed
+ * would vary by E = S g/(I omega^2) about its mean. If the motor adds the same torque in the opposite direction, the
+ * speed stays at its mean. theta is the observer's angle, predicted for the middle of the time in which the voltage
+ * acts: half a control step of zero-order hold later, plus the delays of computing and of the motor's inductance. */
 #ifndef WH_RIG_GRAVITY_COMPENSATION_H
 #define WH_RIG_GRAVITY_COMPENSATION_H
 
@@ -16,13 +16,13 @@ typedef struct wh_compensation_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
     wh_real gravity_rad; /* gamma: the angle at which the arms hang */
     wh_real stall_Nm;    /* motor torque at standstill and rated voltage, > 0 */
-    uint32_t lead_ticks; /* from now to the middle of the time at which the voltage acts */
+    uint32_t lead_ticks; /* from now to the middle of the time in which the voltage acts */
     wh_real fade_s;      /* fade-in time; 0: at once */
     wh_real most;        /* limit, as a multiple of the rated voltage, >= 0 */
 } wh_compensation_config;
 
 typedef struct wh_compensation {
-    wh_real part; /* share that is faded in, from 0 to 1; initially 0 */
+    wh_real part; /* the present factor of the fade-in, from 0 to 1; initially 0 */
 } wh_compensation;
 
 /* The configuration for the rig of eccentric.whirl. */

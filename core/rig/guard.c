@@ -19,7 +19,7 @@ wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps,
     const wh_real fall = falls * config->fall_radps;
     const wh_real bound = WH_SQRT(led * led + fall * fall);
     const wh_real most = config->limit_radps * (WH_R(1.0) + config->ripple);
-    return bound < most ? bound : most; /* NaN too */
+    return bound < most ? bound : most; /* a NaN bound gives `most` */
 }
 
 WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
@@ -33,14 +33,15 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
 #define LONGER \
-    WH_R(1.02) /* slowing of a coasting turn; in a swing only the last two intervals slow so much */
+    WH_R(1.02) /* slowing of a coasting turn; in a swing only the last two intervals slow that
+                  much */
 #define FASTER WH_R(1.01) /* speed gain over all successive faster turns */
 #define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
-#define ALTERNATE_RISE 6U /* alternating pulses that show three turns */
-#define ALONE_PAIR 2U     /* pulses of a sensor that fires alone and show two turns */
+#define ALTERNATE_RISE 6U /* alternating pulses that show three turns of a sensor */
+#define ALONE_PAIR 2U     /* pulses of a sensor that fires alone, and that show two turns */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-#define ALONE_SURE 6U /* more pulses than jitter makes at the hanging position */
+#define ALONE_SURE 6U /* more pulses than jitter makes while the rotor hangs at a sensor */
 
 static uint8_t one_more(uint8_t count) {
     return (uint8_t)(count < ALONE_SURE ? count + 1U : count);
@@ -91,7 +92,7 @@ static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes
 WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                                   unsigned sensor, uint32_t ticks) {
     wh_off *off = &guard->off;
-    if (guard->quiet) { /* times of old pulses wrap */
+    if (guard->quiet) { /* the times of old pulses have wrapped */
         *off = (wh_off){.released = off->released};
     }
     if (sensor >= WH_SPEED_SENSORS) {

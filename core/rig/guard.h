@@ -39,12 +39,14 @@ typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
 typedef struct wh_guard_config {
     wh_real target_min_radps; /* smallest set-point (docs/rig.md) */
     wh_real target_min_fed_radps;
-    wh_real target_max_radps;    /* largest */
-    wh_real limit_radps;         /* largest speed, mean of a turn */
-    wh_real ripple;              /* excess speed within a turn at the limit, as a fraction */
-    wh_real over;                /* excess over the speed that the drive commands, as a fraction */
-    wh_real climb;               /* largest rise of a turn's speed at two successive marks */
-    wh_real climb_start_radps2;  /* largest rise while the loop takes the rotor over */
+    wh_real target_max_radps; /* largest */
+    wh_real limit_radps;      /* largest speed, mean of a turn */
+    /* a turn's largest speed, less its mean speed, as a fraction of the mean, at the speed limit */
+    wh_real ripple;
+    wh_real over; /* excess over the commanded speed, as a fraction */
+    /* largest rise of the mean speed of a turn, measured at two successive slot pulses */
+    wh_real climb;
+    wh_real climb_start_radps2;  /* largest rise while the control loop takes over the rotor */
     wh_real climb_behind_radps2; /* largest rise while slower than the set-point by behind_radps */
     wh_real behind_radps;        /* speed below the set-point from which climb_behind_radps2
                                   * applies */
@@ -57,13 +59,13 @@ typedef struct wh_guard_config {
     wh_real silence_max_s;      /* longest time without a pulse in closed loop */
     wh_real slow_silence_max_s; /* longest time without a pulse while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    /* a load that changes by less than this times the speed's square is constant */
+    /* below this times the speed's square, a change of the load counts as none */
     wh_real load_still_kgm;
     uint32_t stuck_pulses; /* slot pulses under constant load that show a stuck load cell */
     wh_real supply_min_V;
     wh_real supply_max_V;
-    wh_real rest_s; /* the rotor rests if no pulse comes for this long */
-    /* each turn of a braked rotor must be slower than the previous one by this */
+    wh_real rest_s; /* a rotor without a pulse for this long is at rest */
+    /* each turn of a braked rotor must be slower than the previous one by at least this */
     wh_real braked_radps;
     wh_real hand_radps; /* fastest rotor that a hand can turn */
 } wh_guard_config;
@@ -78,13 +80,13 @@ typedef struct wh_guard_config {
  * A rotor that swings about its hanging position fires a sensor twice in each swing. The times between these pulses get
  * shorter as the swing decays: they are not turns. Pulses show turns
  *
- * - while both sensors fire alternately. A swing that turns back between the two edges of sensor 2's slot does so once,
- *   too: sensor 1, sensor 2, sensor 1 again on the way back. So for sensor 2 an interval is a turn; for sensor 1 it is a
- *   turn if sensor 2 is next.
+ * - while both sensors fire alternately. But a swing that reverses between the two edges of sensor 2's slot also gives
+ *   the pulses 1, 2, 1, the last one on the way back. So an interval between two pulses of sensor 2 is a turn. An
+ *   interval between two pulses of sensor 1 is a turn only if a pulse of sensor 2 follows.
  * - if one sensor fires alone (the other is dead) faster than any swing. Two intervals of a swing last a period, at least 2
  *   pi sqrt(I/S g), so they cannot both appear faster than 2 sqrt(S g/I). The bound allows for half the inertia.
- * - after `released`, if such a sensor's intervals get longer three times running by at least 2 %. At the end of a swing
- *   stopped by friction only the last two do. */
+ * - after `released`, if the intervals of such a sensor get longer three times in succession, by at least 2 % each. At
+ *   the end of a swing that friction stops, this happens at most twice. */
 typedef struct wh_off {
     bool released;
     bool doubted;      /* the brake was released on pulses of one sensor alone */
@@ -93,7 +95,7 @@ typedef struct wh_off {
     uint8_t alternate; /* successive pulses of alternating sensors */
     uint8_t alone;     /* successive pulses of the same sensor */
     struct wh_off_turns {
-        uint32_t ticks;       /* time of the last pulse */
+        uint32_t ticks;       /* time of the last pulse, ticks */
         uint32_t turn_ticks;  /* time from the previous pulse to the last one; 0: no such pulse */
         uint32_t first_ticks; /* duration of the last turn before the turns got faster */
         uint8_t faster;       /* successive turns that were faster than the previous one */
@@ -105,15 +107,16 @@ typedef struct wh_off {
 typedef struct wh_guard {
     wh_trip trip;
     bool quiet;     /* no pulse for rest_s: latched, since times wrap */
-    bool load_good; /* the last load sample was ok, and is not old: latched, since times wrap */
+    bool load_good; /* the last load sample was ok and is recent: latched, since times wrap */
     uint32_t pulses_seen;
     uint32_t pulse_ticks;     /* time of the last pulse, accepted or not; at first, the start */
-    uint32_t lost_before;     /* pulses already lost when the motor began to drive, */
-    uint32_t rejected_before; /* pulses already rejected then */
+    uint32_t lost_before;     /* number of lost pulses when the motor began to drive */
+    uint32_t rejected_before; /* number of rejected pulses when the motor began to drive */
     uint32_t load_ticks;      /* time of the last load sample; at first, the start */
-    uint32_t load_pulses;     /* pulses taken until that sample */
-    uint32_t still_pulses;    /* number of samples with a new pulse since the load last changed */
-    wh_real still_N;          /* the load after that change */
+    uint32_t load_pulses;     /* number of pulses until that sample */
+    /* number of samples with a new pulse since the last change of the load */
+    uint32_t still_pulses;
+    wh_real still_N; /* the load after that change */
     wh_off off;
 } wh_guard;
 
@@ -127,17 +130,19 @@ typedef struct wh_guard {
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that the loop and the shaft can bear, with gravity fed forward if `fed`; false for NaN. */
+/* True for set-points that are safe for the control loop and the shaft, with gravity compensation if `fed`; false for
+ * NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that the drive leads to at most limit_radps. Its speed exceeds that
- * by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity adds nothing. */
+/* The fastest interval between two pulses of a rotor that the drive keeps at limit_radps at most. Its speed exceeds
+ * that by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity adds
+ * nothing. */
 #define WH_GUARD_LIGHTER \
-    WH_R(1.5) /* gain of a rotor with half the configured inertia, with some margin */
+    WH_R(1.5) /* the gain of a rotor with half the configured inertia, with a margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
-/* Limit on the rise of a turn's speed; behind_radps is how far the speed is below the commanded one. A speed above the
- * commanded one must fall. */
+/* Limit on the rise of a turn's speed; behind_radps is the commanded speed minus the speed. If it is negative, the
+ * speed must fall. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -171,22 +176,23 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Checks for over-speed, in each step and every state. Over-speed is a turn above the limit, two successive pulse
- * intervals above the bound, or a turn that at two successive marks is faster than the drive could make it. `reason` is
- * the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. With the motor off, a sensor that fires repeatedly
- * may swing in its slot: only alternating pulses are then turns, at least `alternate` in succession (0 while the motor
- * drives). */
+/* Checks for over-speed, in each step and every state. Over-speed is one of: a turn above the limit; two successive
+ * pulse intervals above the bound; a speed of a turn that rises, at two successive pulses, faster than the drive can
+ * accelerate the rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. With the motor
+ * off, a sensor that fires repeatedly may be in the slot of a rotor that swings. Then only alternating pulses show
+ * turns, if at least `alternate` of them came in succession (0 while the motor drives). */
 #define WH_GUARD_BRAKES 1U /* with the enable on: react at once */
-#define WH_GUARD_COASTS 6U /* with the enable off: after the turns that one false pulse corrupts */
+/* with the enable off: one false pulse corrupts several turns, so wait until they are past */
+#define WH_GUARD_COASTS 6U
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
     const wh_speed *speed = &pulses->speed;
     if (pulses->alternate < alternate) {
         return;
     }
-    /* one early pulse may be a disturbance, two are a speed */
-    const bool sure = !pulses->waits || pulses->fast > 0; /* no later pulse can withdraw it */
-    /* one early pulse may be a disturbance, and a load that vanishes lets the speed rise; both at once are a trip */
+    /* one early pulse may be a disturbance; two show a speed */
+    const bool sure = !pulses->waits || pulses->fast > 0; /* no later pulse can reject it */
+    /* One early pulse may be a disturbance. A vanishing load makes the speed rise. Both at once are a trip. */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
         pulses->climb_radps > WH_R(0.0) &&
@@ -197,7 +203,8 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* Checks while the motor drives: lost, false and doubtful pulses, and silence longer than silence_max_s. */
+/* Checks while the motor drives: the numbers of lost, rejected and doubtful pulses, and a time without a pulse longer
+ * than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
@@ -213,8 +220,8 @@ WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) 
     return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
 }
 
-/* Check a load sample, tare included, in every state. `turning`: the load must change with the rotor's turns. `needed`:
- * a bad sample stops the rig. A repeated sample does not count. */
+/* Check a load sample, tare included, in every state. `turning`: the rotor turns, so the load must change. `needed`: a
+ * bad sample stops the rig. A repeated sample is ignored. */
 WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                              const wh_load *load, bool turning, bool needed) {
     if (load->status == WH_LOAD_REPEATED) {
@@ -225,8 +232,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* A constant load is measured in turns, not in time, because the load of a jammed rotor is also constant. At most
-     * one pulse per sample counts: when a controller is late, the waiting pulses are older than the samples. */
+    /* The time with a constant load is counted in turns, because the load of a jammed rotor is also constant. At most
+     * one pulse per sample counts: if a controller is late, the waiting pulses are older than the samples. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
@@ -238,7 +245,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     }
 }
 
-/* True while load samples arrive. */
+/* True if load samples still arrive. */
 WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
                                    uint32_t now_ticks) {
     /* signed: a time stamp may be later than the step's own reading of the timer */

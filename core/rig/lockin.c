@@ -11,7 +11,8 @@
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
-/* So many equal samples in succession are no changing load: without noise, not even the peak at 100 rpm gives so many. */
+/* If this many successive samples are equal, the load does not change: even without noise, the peak at 100 rpm gives
+ * fewer. */
 #define FROZEN_SAMPLES 8U
 
 /* An outlier differs by more than six standard deviations of the residual, and by more than the effect of a speed
@@ -41,7 +42,7 @@ void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
     wh_turn_angle_start(rotor, &lockin->angle);
 }
 
-/* --- marks -------------------------------------------------------------------------------------- */
+/* --- pulses -------------------------------------------------------------------------------------- */
 
 static WH_CALLED void close_turn(wh_lockin *lockin, uint32_t ticks) {
     if (lockin->stage != WH_LOCKIN_WAITS) { /* the load cell stopped in the middle of a turn */
@@ -91,7 +92,7 @@ void wh_lockin_gap(wh_lockin *lockin) {
 
 /* --- samples ------------------------------------------------------------------------------------ */
 
-/* Take the oldest sample. */
+/* Remove the oldest sample. */
 static void pop(wh_lockin *lockin) {
     lockin->taken = true;
     lockin->taken_ticks = lockin->ticks[lockin->first];
@@ -100,7 +101,7 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
-/* Drop samples older than the turn, except for the last of them; at most WH_LOCKIN_STALE_AT_ONCE. */
+/* Drops the samples older than the turn, except for the newest of these; at most WH_LOCKIN_STALE_AT_ONCE. */
 static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
         if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
@@ -133,7 +134,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* either no turn will need the samples, or the turn is slower than any measured one */
+    /* either the samples belong to no turn, or the turn is slower than any that can be measured */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -161,7 +162,7 @@ WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
-/* First half of a node's work: its place. At this time of the turn the load was force_N. */
+/* First half of a node's work: its angle and load. At this time of the turn the load was force_N. */
 static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lockin_place place) {
     wh_lockin_node *node = &lockin->placed;
     node->force_N = force_N;
@@ -174,7 +175,7 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     lockin->place = place;
 }
 
-/* Second half of a node's work: its weight. Marks lie between two samples. */
+/* Second half of a node's work: its weight. A pulse is between two samples. */
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
@@ -188,7 +189,7 @@ static void weigh_node(wh_lockin *lockin) {
             lockin->next.outliers++;
             return;
         }
-        node->force_N -= rest_N; /* the load at the mark is then the predicted one */
+        node->force_N -= rest_N; /* the predicted load at the pulse */
         rest_N = WH_R(0.0);
     }
     node->rest_N = rest_N;
@@ -221,7 +222,7 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     return lockin->taken_N + part * (later_N - lockin->taken_N);
 }
 
-/* Places the next node of the turn, if its sample has come. */
+/* Begins the work on the next node of the turn, if its sample has come. */
 static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
@@ -318,8 +319,8 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* a gap does not invalidate the prediction, unless outliers caused it: values that differ turn after turn become
-     * the prediction */
+    /* A gap does not invalidate the prediction. But if outliers caused it, they may be the new values of the load: then
+     * they become the prediction */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;
@@ -346,7 +347,7 @@ static void begin_turn(wh_lockin *lockin) {
 /* --- pieces ------------------------------------------------------------------------------------- */
 
 #if WH_RIG_SMALL_PIECES
-/* Does one piece, or all at once; returns true after the last. */
+/* Does one piece, or all of them at once; returns true after the last. */
 static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece++;
     if (lockin->piece < pieces) {
@@ -357,7 +358,7 @@ static bool last_piece(wh_lockin *lockin, unsigned pieces) {
 }
 #endif
 
-/* True when the shape is finished. */
+/* Computes the shape of the turn's angle. Returns true when it is finished. */
 static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_real speed_radps =
         WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;
@@ -370,7 +371,7 @@ static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* True when sensor 2's mark is evaluated. */
+/* Evaluates sensor 2's pulse. Returns true when it is finished. */
 static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_lockin_turn *turn = &lockin->next;
     if (!turn->split_seen || !is_steady(lockin, STILL_PART)) {
@@ -391,7 +392,7 @@ static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* True when the turn's result is finished. */
+/* Computes the result of the turn. Returns true when it is finished. */
 static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
     if (lockin->piece == 0) {
         end_sums(lockin);
@@ -432,7 +433,7 @@ WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config
         }
         return done;
     }
-    if (done) { /* when a stage is finished, the next one follows */
+    if (done) { /* when a stage is finished, the next one begins in the same call */
         lockin->stage = (wh_lockin_stage)(lockin->stage + 1);
     }
     return false;

@@ -1,19 +1,19 @@
 /* lockin.h: digital lock-in: the load's once-per-turn component, turn by turn, as samples arrive.
  *
  * Almesallmy (2006), I.3.3 and I.3.4, read the phase off an oscilloscope: sensor 1's spike sits on the load's peak.
- * Here the load is multiplied with the cosine and sine of the rotor's angle and integrated over the angle of whole
- * turns, from one mark of sensor 1 to its next:
+ * Here the load is multiplied by the cosine and sine of the rotor's angle and integrated over the angle of whole turns,
+ * from one pulse of sensor 1 to its next:
  *
- *     in_phase = 1/pi of the integral of F cos(theta) d theta, quadrature the same with the sine
+ *     in_phase = 1/pi of the integral of F cos(theta) d theta, quadrature: the same with the sine
  *
  * A turn's result is the first Fourier coefficient over the angle (order tracking). Signs: the load is positive along
  * the loading-train axis towards the mass at theta = 0, and
  *     load(theta) = mean + amplitude cos(theta + phase) + the residual.
  * At phase 0 the load peaks with the mass on the axis; at a positive phase it peaks before the mass.
  *
- * Samples wait until the mark that ends their turn. Each control step then takes some of them, to bound its work. The
- * prediction from the turn before (mean, first and second order) is subtracted first and added again at the end. The
- * trapezoidal rule then integrates little more than the change. A sample far from the prediction is an outlier: it is
+ * Samples wait until the pulse that ends their turn. Then each control step evaluates a few of them, to bound its work.
+ * The prediction from the previous turn (mean, first and second order) is subtracted first and added again at the end.
+ * So the trapezoidal rule integrates only the small differences. A sample far from the prediction is an outlier: it is
  * left out and counted.
  *
  *     every control step:
@@ -37,20 +37,21 @@ extern "C" {
  * the turns of a record. Noise and mains hum average out. The errors of a cell with clipping, backlash or a nonlinear gain
  * do not. Neither does a torque twice a turn, which changes the speed and so gives the force a third harmonic.
  *
- * A rigid rotor on a fixed mount has no such harmonics: w^2 = A + B cos(theta + psi - gamma) gives F = S (w^2 cos theta +
- * w' sin theta) the orders 0, 1 and 2 only. Damping's effect on w^2 and the angle's third order add a little (result.c).
+ * A rigid rotor on a fixed mount has no such harmonics: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
+ * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping's effect on w^2 and the angle's third order add a
+ * little (result.c).
  *
  * The noise is estimated from successive differences, as for the tare: hum and slow changes do not count. */
 
 /* Hum that is locked to the turn aliases from harmonic 26 on (115 rpm, 50 Hz), with a fifth of its amplitude. */
 #define WH_REPEATS_BINS 32U
 
-/* The harmonics. The second serves to check the swing of the speed (result.h). */
+/* The harmonics. The second serves to check the speed ripple (result.h). */
 #define WH_REPEATS_FIRST 3U
 #define WH_REPEATS_LAST 6U
 
 typedef struct wh_repeats {
-    uint32_t samples;   /* of the merged turns */
+    uint32_t samples;   /* number of samples in the merged turns */
     wh_real changes_N2; /* sum of squared differences of successive samples' residuals */
     wh_real bin_N[WH_REPEATS_BINS]; /* integral of the residual over the angle */
 } wh_repeats;
@@ -78,7 +79,7 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
 #ifndef WH_LOCKIN_SAMPLES
 #define WH_LOCKIN_SAMPLES 384U /* waiting samples: 1.25 turns at 100 rpm, one per 2 ms */
 #endif
-#define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes per control step */
+#define WH_LOCKIN_HALVES_AT_ONCE 3U /* most half nodes per control step */
 #define WH_LOCKIN_STALE_AT_ONCE 8U  /* samples that belong to no turn, dropped per control step */
 
 /* Reasons why a turn does not count: X(name, words). */
@@ -102,21 +103,21 @@ typedef struct wh_lockin_orders {
 } wh_lockin_orders;
 
 typedef struct wh_lockin_turn {
-    uint32_t begin_ticks; /* time of sensor 1's mark */
+    uint32_t begin_ticks; /* time of sensor 1's pulse */
     uint32_t turn_ticks;
     wh_turn_fault fault;
-    bool split_seen; /* sensor 2's mark was seen */
+    bool split_seen; /* sensor 2's pulse was seen */
     uint16_t samples;
     uint16_t outliers;
-    uint32_t split_ticks;     /* time of sensor 2's mark, if seen */
+    uint32_t split_ticks;     /* time of sensor 2's pulse, if seen */
     wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
     wh_real mean_N;           /* mean over the time */
     wh_real residual_N;       /* rms after orders 0 to 2 */
-    wh_real at_mark_N[2];     /* load at each sensor's mark */
+    wh_real at_mark_N[2];     /* load at each sensor's pulse */
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
-    WH_LOCKIN_WAITS, /* waits for a mark; lockin->piece counts a stage's finished pieces */
+    WH_LOCKIN_WAITS, /* waits for a pulse; lockin->piece counts the finished pieces of a stage */
     WH_LOCKIN_SHAPES,
     WH_LOCKIN_CORRECTS,
     WH_LOCKIN_RESHAPES,
@@ -125,7 +126,7 @@ typedef enum wh_lockin_stage {
     WH_LOCKIN_ENDS
 } wh_lockin_stage;
 
-/* Place of a node with known place and unknown weight: at the marks, or at a sample. */
+/* Where a node is in the turn; its place is known, its weight not yet. */
 typedef enum wh_lockin_place {
     WH_LOCKIN_NOWHERE,
     WH_LOCKIN_BEGIN,
@@ -138,7 +139,7 @@ typedef struct wh_lockin_node {
     wh_real part; /* share of the turn's time */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real rest_N;         /* force minus the prediction */
+    wh_real rest_N;         /* residual: force minus the prediction */
     wh_lockin_orders waves; /* factor of each order's coefficient at this node */
 } wh_lockin_node;
 
@@ -147,7 +148,7 @@ typedef struct wh_lockin {
     wh_lockin_stage stage;
     uint8_t piece;
 
-    /* the turn in progress: since this mark */
+    /* the turn in progress: since this pulse */
     bool open;
     bool split_seen;
     bool taken; /* a sample was taken from the queue */
@@ -157,18 +158,18 @@ typedef struct wh_lockin {
     uint32_t begin_ticks;
     uint32_t begin_quarter;
     uint32_t split_ticks;
-    uint32_t skipped; /* turns without both marks */
+    uint32_t skipped; /* turns without a pulse of both sensors */
 
-    /* samples that wait, the oldest first; the last one taken; the newest */
+    /* waiting samples: index of the oldest; the last one evaluated; the newest */
     uint16_t first;
     uint16_t count;
-    uint16_t equal; /* successive samples equal to the one before */
+    uint16_t equal; /* successive samples equal to the previous one */
     uint16_t most_equal;
     uint32_t taken_ticks;
     wh_real taken_N;
     uint32_t newest_ticks;
     wh_real newest_N;
-    uint32_t refused; /* samples that were not ok, or out of order */
+    uint32_t refused; /* samples that were not ok, or out of order: left out */
 
     /* the turn being evaluated */
     wh_lockin_turn next;
@@ -182,8 +183,8 @@ typedef struct wh_lockin {
     wh_real widest;     /* widest gap between two nodes, as a share of the turn */
     wh_real before_rad; /* angle of the node before the last */
     wh_real before_part;
-    wh_lockin_node last;   /* the last node; its weight depends on the next */
-    wh_lockin_node placed; /* the node in work, unless `place` is nowhere */
+    wh_lockin_node last;   /* the last node; its weight depends on the next one */
+    wh_lockin_node placed; /* the node being evaluated, unless `place` is nowhere */
     wh_repeats repeats;    /* valid until the next turn's sums begin */
 
     wh_lockin_turn turn; /* the last finished turn */
@@ -203,15 +204,15 @@ typedef struct wh_lockin {
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 
-/* Begin again without resetting the counters. For use in a control step, in which clearing the samples' memory would
- * take too long. */
+/* Restart without resetting the counters. For use in a control step, in which clearing the samples' memory would take
+ * too long. */
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* The rotor passed sensor 0 or 1 at `ticks`, after `quarter` quarter turns (wrapping). */
 void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
 
-/* Tells whether gravity is fed forward from now on: see wh_turn_angle_feed(). If that changes, the turn in progress does
- * not count. */
+/* Switches gravity compensation on or off in the model: see wh_turn_angle_feed(). If it changes, the turn in progress
+ * does not count. */
 void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
 
 /* The count of quarter turns has restarted: the turn in progress does not count. */
@@ -221,7 +222,8 @@ void wh_lockin_gap(wh_lockin *lockin);
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
 /* Does a bounded piece of the work, once a control step: `halves` half nodes of a turn's sums, or
- * WH_LOCKIN_HALVES_AT_ONCE if the step has no other work. Returns true if lockin->turn is new. */
+ * WH_LOCKIN_HALVES_AT_ONCE if the step has no other work. Returns true if this call has finished another
+ * lockin->turn. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
 

@@ -1,4 +1,4 @@
-/* measure.c: a run's measurement. */
+/* measure.c: the measurement of a run. */
 #include "measure.h"
 
 #include "core/root.h"
@@ -51,10 +51,11 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     }
 }
 
-/* Pieces of merging turns to a result: the last is the verdict. */
+/* Number of pieces of work that merge the turns to a result: the last decides on its quality. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Pieces before the merging: for a turn, its repeating part; at the record's end, one harmonic per piece. */
+/* Number of pieces before the merging. For a turn it is its repeating residual; at the record's end, one harmonic per
+ * piece. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -116,7 +117,7 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin, halves)) {
         return;
     }
-    /* turns that lie entirely within the record */
+    /* only turns that lie entirely within the record count */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
     if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {

@@ -1,5 +1,5 @@
-/* measure.h: a run's measurement: turns from the lock-in, merged over the record to a result.
- * A turn's work is done in pieces, one a control step. Only turns that lie entirely within the record count. */
+/* measure.h: the measurement of a run: the lock-in's turns within the record, merged to one result. The work for a turn
+ * is divided into pieces, one per control step. Only turns that lie entirely within the record count. */
 #ifndef WH_RIG_MEASURE_H
 #define WH_RIG_MEASURE_H
 
@@ -15,11 +15,12 @@ extern "C" {
 /* === the tare ================================================================================ */
 /* The load cell's reading at rest, from noisy samples, and a check that the rig was at rest.
  *
- * Motion is slow: a drift, a rotor that swings (1 to 3 Hz), a frame (up to some 10 Hz). Hum is fast, and its mean vanishes.
- * So the check uses means of 40 samples with triangular weights, one every 20 samples. With 2 ms a sample they span 80 ms.
- * They pass at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz. White noise of variance s^2 leaves
- * s^2/30, and s^2 is half the mean square of successive differences (von Neumann, Annals of Mathematical Statistics 12
- * (1941) 367). The means may vary by four times that: eleven of them do so in less than one of 10,000 tares. */
+ * Motion is slow: drift, a rotor that swings (1 to 3 Hz), a vibrating frame (up to some 10 Hz). Hum is fast, and its
+ * mean vanishes. So the check uses means of 40 samples with triangular weights, one every 20 samples. With 2 ms a
+ * sample they span 80 ms. They pass at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz. White
+ * noise of variance s^2 gives these means the variance s^2/30, and s^2 is half the mean square of successive
+ * differences (von Neumann, Annals of Mathematical Statistics 12 (1941) 367). Four times that variance is allowed:
+ * noise alone exceeds it, with eleven means, in less than one of 10,000 tares. */
 
 typedef struct wh_tare_config {
     uint32_t samples; /* at least 4 WH_TARE_BLOCK, for three means */
@@ -35,8 +36,8 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
-    wh_real
-        rises_N; /* this block's sum with rising and with falling weights; the last block's, rising */
+    /* this block's sum with rising and with falling weights; the last block's sum with rising weights */
+    wh_real rises_N;
     wh_real falls_N;
     wh_real before_N;
     uint32_t means; /* number of triangular means */
@@ -69,28 +70,29 @@ typedef struct wh_measure_config {
 } wh_measure_config;
 
 typedef struct wh_rig_result {
-    wh_measured force;    /* the load's once-per-turn part: see result.h */
+    wh_measured force;    /* the load's once-per-turn component: see result.h */
     wh_real tare_N;       /* the cell's reading at rest */
     wh_real tare_error_N; /* standard error of tare_N */
     wh_real low_N;        /* peaks of the whole record, without tare */
     wh_real high_N;
     wh_real volts; /* the motor's voltage at the record's end */
-    uint32_t lost; /* lost pulses */
+    uint32_t lost; /* number of lost pulses */
     uint32_t rejected;
 } wh_rig_result;
 
 typedef struct wh_measure {
     bool records;
-    bool adds;            /* the turn itself must be added before the pieces in `due` */
-    bool peaks;           /* low_N and high_N are valid */
-    bool ends;            /* the record's last turn is finished */
-    uint8_t due;          /* pieces of work outstanding from the last turn, or the record's end */
-    uint32_t begin_ticks; /* time of the record's begin */
-    wh_real record_s;     /* record's duration */
+    bool adds;  /* the turn itself must be added before the pieces of work in `due` */
+    bool peaks; /* low_N and high_N are valid */
+    bool ends;  /* the record's last turn is finished */
+    /* number of pieces of work that remain, for the last turn or the record's end */
+    uint8_t due;
+    uint32_t begin_ticks;    /* time of the record's begin */
+    wh_real record_s;        /* record's duration */
     uint32_t skipped_before; /* skipped turns when the record began */
     wh_tare tare;
-    wh_merge merge;       /* turns of the record */
-    wh_rig_result result; /* grows with each turn of the record */
+    wh_merge merge;       /* the turns of the record so far */
+    wh_rig_result result; /* updated with each turn of the record */
     wh_lockin lockin;     /* lockin.turn: the last turn's load */
 } wh_measure;
 
@@ -102,10 +104,10 @@ typedef struct wh_measure {
 #define wh_measure_lasts WH_NAME(wh_measure_lasts)
 #define wh_measure_end WH_NAME(wh_measure_end)
 
-/* A run begins, with the tare: the first call, with the rest of *measure zero. */
+/* A run begins, with the tare. For the first run, *measure is zero. */
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
-/* A confirmed mark, in order of time. */
+/* A confirmed pulse, in order of time. */
 void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
 
 /* Take a load sample: of the tare, or of a turning rotor. */
@@ -122,8 +124,8 @@ void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_
 /* True during the record, at `ticks`. */
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
 
-/* Call it each control step after the record's time until it returns true: then the record's last turn is finished, and
- * all turns are merged again. If no turn was usable, result.force.turns is 0. */
+/* Call it in each control step after the record's time until it returns true. The record's last turn is then finished,
+ * and all turns are merged. If no turn was usable, result.force.turns is 0. */
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
 
 #ifdef __cplusplus

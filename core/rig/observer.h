@@ -1,15 +1,15 @@
 /* observer.h: the rotor's angle and speed at any time, from a generated scene that runs beside the rig.
  *
- * Two slot marks a turn measure the rotor's position; between them gravity, motor and inertia predict it. The scene
- * (eccentric.whirl, rig_fixed) gets the same drive as the rig. At each mark the innovation corrects the scene's angle,
- * its speed, and a disturbance torque that is added to the drive (bearings, a supply with an error). This is a
- * Luenberger observer with fixed gains, of the speed and of the torque in units of a turn's time (Luenberger, IEEE
- * Transactions on Automatic Control 16 (1971) 596). The physics is in the scene.
+ * Two slot pulses per turn measure the rotor's position; between them the model predicts it from gravity, motor and
+ * inertia. The model, a scene (eccentric.whirl, rig_fixed), gets the same drive as the rig. At each pulse the
+ * innovation corrects the scene's angle, its speed, and a disturbance torque that is added to the drive (for bearings,
+ * or an error of the supply). This is a Luenberger observer; its gains are fixed if speed and torque are counted in
+ * units of the time of a turn (Luenberger, IEEE Transactions on Automatic Control 16 (1971) 596).
  *
  *     every control step, in this order:
- *         wh_observer_step(..., now_ticks, drive)      the drive since the step before
+ *         wh_observer_step(..., now_ticks, drive)      the drive since the last control step
  *         wh_observer_mark(..., sensor, ticks)         for each slot pulse taken since
- *         if (observer.valid) wh_observer_phase(..., now_ticks + lead) is the arms' angle then */
+ *         if (observer.valid) wh_observer_phase(..., now_ticks + lead) is the arms' angle at that time */
 #ifndef WH_RIG_OBSERVER_H
 #define WH_RIG_OBSERVER_H
 
@@ -30,44 +30,46 @@ typedef struct wh_observer_config {
     /* input for this motor's torque: per_drive * drive + per_radps * speed */
     wh_real per_drive;
     wh_real per_radps;
-    /* the motor's stage: a voltage below the motor's own makes no torque, instead of a braking one */
+    /* true for a motor stage that cannot brake: a voltage below the back-EMF then makes no torque */
     bool freewheels;
-    wh_real mark_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor */
-    /* Corrections at a mark of each sensor, from its innovation e (rad); n is the speed in turns per second: */
+    wh_real mark_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
+    /* Corrections at a pulse of each sensor. e is the innovation (rad), n the speed in turns per second: */
     wh_real angle_gain[WH_OBSERVER_SENSORS];       /* angle += gain e */
     wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_OBSERVER_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                        /* largest magnitude of the torque */
-    wh_real trusted_rad;    /* trusted_marks successive innovations up to this make it valid */
+    /* trusted_marks successive innovations up to this, rad, make the observer valid */
+    wh_real trusted_rad;
     uint32_t trusted_marks; /* see trusted_rad; one larger innovation makes the observer invalid */
     wh_real lost_rad;       /* above this the observer restarts; < pi */
     wh_real slowest_radps;  /* slowest speed at which the observer starts, > 0 */
     wh_real fastest_radps;
-    uint32_t silence_ticks; /* the state is unknown after this time without a mark */
+    uint32_t silence_ticks; /* the state is unknown after this time without a pulse */
 } wh_observer_config;
 
 typedef struct wh_observer {
     bool valid;       /* angle and speed are reliable */
     bool runs;        /* the observer has started: the scene follows the rotor */
-    bool marked;      /* there was a mark since the restart */
+    bool marked;      /* there was a pulse since the restart */
     wh_status status; /* result of wh_observer_start(); if not WH_OK, the observer is never valid */
     wh_state state;   /* state of the scene at the time `ticks` */
     uint64_t memory[(WH_MEMORY_BYTES(1, 2, 0) + 7U) / 8U];
     uint32_t ticks;
     uint32_t step_ticks;    /* one step of the scene */
     wh_real torque_Nm;      /* the disturbance: torque on the rotor that the scene does not model */
-    wh_real innovation_rad; /* rotor's angle minus the scene's, at the last mark */
-    wh_real since_mark_rad; /* angle turned since the last mark */
-    uint32_t mark_ticks;    /* time of the last mark, if marked */
+    wh_real innovation_rad; /* rotor's angle minus the scene's, at the last pulse */
+    wh_real since_mark_rad; /* angle turned since the last pulse */
+    uint32_t mark_ticks;    /* time of the last pulse, if marked */
     unsigned mark_sensor;
-    uint32_t good_marks; /* number of successive trusted marks */
+    uint32_t good_marks; /* number of successive pulses with a trusted innovation */
 } wh_observer;
 
 /* For the rig of eccentric.whirl; the caller fills in the scene and mark_rad. The gains were chosen for rotors of half
  * to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400 rpm. The errors of
  * angle, speed and torque are multiplied by a matrix each turn. Its spectral radius at a steady speed is 0.72 at 80
- * rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. Over the top gravity drives errors apart, most at low
- * speed. Sensor 1's mark ends the three quarters of a turn over the top, sensor 2's the other quarter. */
+ * rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. While the arms are near the top, gravity increases
+ * errors, most at low speed. That part belongs to the three quarters of a turn before sensor 1's pulse; the other
+ * quarter ends with sensor 2's pulse. */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
@@ -99,26 +101,27 @@ wh_status wh_observer_start(const wh_observer_config *config, wh_observer *obser
  * the motor's drive since the last call, as a fraction of the rated voltage. A call that is more than
  * WH_OBSERVER_STEPS_MOST steps late restarts the observer. */
 #define WH_OBSERVER_STEPS_MOST 8U
-#define WH_OBSERVER_STEPS_AT_ONCE 2U /* steps in one call: several calls make up for a delay */
+/* most steps in one call: after a delay, several calls catch up */
+#define WH_OBSERVER_STEPS_AT_ONCE 2U
 void wh_observer_step(const wh_observer_config *config, wh_observer *observer, uint32_t now_ticks,
                       wh_real drive);
 
-/* The rotor passed sensor 0 or 1 forwards at `ticks`, at most a control step or two ago. */
+/* The rotor passed sensor 0 or 1 forwards at `ticks`, at most two control steps ago. */
 void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                       uint32_t ticks);
 
-/* Restart the observer. For a caller that knows that marks are wrong. */
+/* Restart the observer, for a caller that knows that pulses were wrong. */
 void wh_observer_forget(wh_observer *observer);
 
-/* The angle at a time some milliseconds after the last step, extrapolated linearly: the error is within 3e-5 rad after 1
- * ms at 60 rad/s^2. As a phase (angle.h), or between -pi and pi. Meaningful while the observer is valid. */
+/* The angle at a time some milliseconds after the last step, extrapolated linearly. The error is within 3e-5 rad for 1
+ * ms at 60 rad/s^2. As a phase (angle.h), or between -pi and pi. Valid if observer->valid. */
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);
 
 /* Speed at the last step. */
 wh_real wh_observer_speed_radps(const wh_observer *observer);
 
-/* The drive at which this motor makes no torque: argument of wh_observer_step() while the motor's stage freewheels. */
+/* The drive at which this motor makes no torque: the argument of wh_observer_step() while the motor coasts. */
 wh_real wh_observer_coasting(const wh_observer_config *config, const wh_observer *observer);
 
 #ifdef __cplusplus

@@ -29,13 +29,15 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-#define JUMP_S WH_R(0.5) /* so long the measured speed may jump: its first turn is old */
+/* time in which the measured speed may jump, because its first turn is old */
+#define JUMP_S WH_R(0.5)
 
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
-    /* without load the motor's speed follows the voltage; once the loop is closed the set-point leads */
+    /* without load the motor's speed follows the voltage; after the control loop has closed, it follows the
+     * set-point */
     const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
@@ -51,18 +53,19 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
     return speed_radps / config->no_load_radps * config->rated_V + config->drag_V;
 }
 
-/* Set-points too slow for gravity are used only once it is fed forward. */
+/* Set-points that are too slow for gravity are used only after gravity compensation has begun. */
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
-        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED); /* gravity cannot be fed, for example */
+        /* for example, because gravity compensation is impossible */
+        wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
     }
     return allowed && wh_drive_at_target(&run->drive);
 }
 
-/* A hanging rotor's slot is at sensor 1, where jitter makes pulses. A rotor that passes sensor 2, or sensor 1
- * repeatedly, is not hanging. */
+/* Most pulses during the tare. A hanging rotor's slot is at sensor 1, where jitter makes pulses. If sensor 2 fires, or
+ * sensor 1 fires more often, the rotor is not hanging. */
 #define TARE_PULSES_MOST 2U
 
 static void tare(wh_run *run, const wh_run_scene *scene) {
@@ -76,7 +79,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
         return;
     }
     run->volts = scene->config->spin_up_V;
-    /* the pulses so far come from that jitter, and are old */
+    /* the pulses so far come from that jitter, or are old */
     wh_pulses_forget(scene->pulses);
     wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
@@ -94,7 +97,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     if (speed->known && speed->turn_radps >= config->take_over_radps) {
         wh_drive_start(&run->drive, speed->turn_radps, run->volts);
         run->closed_ticks = scene->now_ticks;
-        /* the speed of the first turns varies so much that the count of lost pulses is meaningless */
+        /* the speed varies so much in the first turns that the count of lost pulses is meaningless */
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;
         enter(run, WH_PHASE_RAMP, scene->now_ticks);
@@ -121,7 +124,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* a turn of a steady speed, or the mean of turns that jitter */
+    /* compares a turn of a rotor with steady speed, or the mean of several turns if they jitter */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&
@@ -136,8 +139,8 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     }
 }
 
-/* The speed of a single turn trips, because the trip must come before a runaway drive is fast. The band of 2 rpm is six
- * times the error of a turn at 330 rpm with 120 us of jitter. */
+/* One turn outside the band trips the rig: a mean over turns would come too late against a runaway drive. The band of 2
+ * rpm is six times the error of a turn at 330 rpm with 120 us of jitter. */
 static bool record(wh_run *run, const wh_run_scene *scene) {
     see_turn(run, &scene->pulses->speed);
     const wh_real off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
@@ -167,7 +170,7 @@ static bool record(wh_run *run, const wh_run_scene *scene) {
 static void close_loop(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const wh_speed *speed = &scene->pulses->speed;
-    /* a speed that pulses no longer confirm must not drive the motor */
+    /* the motor must not be driven by a speed that pulses no longer confirm */
     if (speed->known && !wh_speed_is_overdue(speed, scene->now_ticks)) {
         run->volts = wh_drive_step(&config->drive, &run->drive, speed->turn_radps, scene->supply_V,
                                    config->step_s);

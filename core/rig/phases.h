@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* X(name, words) */
+/* The phases of a run, in order: X(name, words) */
 #define WH_PHASE_ROWS(X) \
     X(WH_PHASE_NONE, "none")           /* no run: motor off */ \
     X(WH_PHASE_TARE, "tare")           /* motor off; the load cell's reading at rest */ \
@@ -30,15 +30,16 @@ typedef enum wh_rig_phase { WH_PHASE_ROWS(WH_PHASE_NAME) WH_PHASES } wh_rig_phas
 typedef struct wh_run_config {
     wh_real step_s; /* time between control steps */
     wh_drive_config drive;
-    wh_real rated_V;         /* rated supply of the rig */
+    wh_real rated_V;         /* rated supply voltage of the rig */
     wh_real no_load_radps;   /* the motor's speed without load at the rated supply */
-    wh_real drag_V;          /* approximate voltage that friction takes */
+    wh_real drag_V;          /* approximate voltage that overcomes friction */
     wh_real spin_up_V;       /* first voltage of the spin-up */
     wh_real spin_up_V_per_s; /* rate of rise of the spin-up voltage, up to rated_V */
-    wh_real take_over_radps; /* the loop closes at this speed */
+    wh_real take_over_radps; /* the control loop closes at this speed */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    wh_real settle_band_radps; /* band of a turn's speed, or of the mean of WH_RUN_TURNS */
+    /* band of the speed of a turn, or of the mean of WH_RUN_TURNS turns, about the target */
+    wh_real settle_band_radps;
     wh_real settle_s;          /* time within the band */
     wh_real settle_max_s;      /* longest time until the speed stays in the band */
     wh_real short_max_s;       /* longest time with a supply too low for the set-point */
@@ -46,9 +47,9 @@ typedef struct wh_run_config {
     wh_real slow_radps;        /* at this speed the ramp down ends; a slower set-point is kept */
 } wh_run_config;
 
-/* While the rig settles, the mean speed of turns that overlap by half decides: two and a half turns in all. A jitter s
- * of the marks gives the mean an error of s/2 of a turn's time: 0.11 rpm for 120 us at 330 rpm; single turns scatter by
- * 0.31. A drift, or a hunting slower than a second, changes the mean as well. */
+/* While the rig settles, the mean speed of this many turns decides. They overlap by half, so they span two and a half
+ * turns. A jitter s of the pulses changes the mean duration of a turn by s/2: 0.11 rpm for 120 us at 330 rpm (single
+ * turns scatter by 0.31 rpm). A drift, or an oscillation slower than a second, changes the mean too. */
 #define WH_RUN_TURNS 4U
 
 typedef struct wh_run {
@@ -59,13 +60,14 @@ typedef struct wh_run {
     uint32_t ample_ticks;  /* time since which the supply has been sufficient */
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
-    wh_real off_radps; /* upper bound on the speed while the motor is off */
-    /* motor on: upper bound on the speed remaining from an earlier set-point, at the last pulse. A drive stage that
-     * does not brake cannot slow the rotor as fast as a set-point falls */
+    wh_real off_radps; /* upper bound on the speed while the motor is off, rad/s */
+    /* motor on: upper bound on the speed that remains from an earlier, higher set-point, at the last pulse. A motor
+     * stage that cannot brake slows the rotor less quickly than the set-point falls */
     wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
-    uint32_t turns;                   /* number of turns seen while the run settles and records */
-    uint32_t turns_taken;             /* number of pulses taken at the last of these turns */
+    /* number of turns counted while the run settles and records */
+    uint32_t turns;
+    uint32_t turns_taken;             /* number of accepted pulses at the last of these turns */
     wh_real turn_radps[WH_RUN_TURNS]; /* speeds of the last turns */
     wh_real mean_radps;               /* mean of turn_radps */
     wh_drive drive;
@@ -80,8 +82,8 @@ typedef struct wh_run_scene {
     wh_pulses *pulses;
     wh_measure *measure;
     wh_real supply_V;
-    bool fed;  /* gravity is fed forward: slower set-points are possible */
-    bool busy; /* a pulse came in this step: a record begins and ends in the next */
+    bool fed;  /* gravity compensation is active: slower set-points are possible */
+    bool busy; /* a pulse came in this step: begin or end of a record waits for the next step */
     uint32_t now_ticks;
 } wh_run_scene;
 
@@ -96,7 +98,7 @@ typedef struct wh_run_scene {
 /* Begin a run to target_radps > 0; it begins with the tare. */
 void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
-/* Another target, in any phase before WH_PHASE_RAMP_DOWN: the record so far is dropped. */
+/* Change the target, in any phase before WH_PHASE_RAMP_DOWN: the record so far is dropped. */
 void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
 /* Switch the motor off, from any phase: the phase becomes WH_PHASE_OFF. */
@@ -114,18 +116,19 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
     return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
 
-/* After the take-over the rotor accelerates for this time. */
+/* The time for which the rotor accelerates after the loop has closed. */
 #define WH_RUN_START_S WH_R(1.5)
 
 /* The set-point at a pulse's time, for the guard. */
 typedef struct wh_setpoint {
     wh_real setpoint_radps;
-    wh_real limit_radps; /* upper bound on the actual speed, which may lag behind */
-    bool jumps;          /* the speeds of its first turns differ widely */
+    wh_real limit_radps; /* upper bound on the actual speed, which may lag behind the set-point */
+    /* the set-point has just changed so much that the speeds of successive turns differ widely */
+    bool jumps;
 } wh_setpoint;
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
-/* The voltage that a steady speed needs. */
+/* The motor voltage for a steady speed. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
 /* The phase in words, for consoles, by wh_text_add(). WH_PHASES is a motor that brakes when it is off

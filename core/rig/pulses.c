@@ -7,9 +7,10 @@
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
-#define DOUBT 2U              /* doubt that a false pulse adds */
-#define SUDDEN WH_R(1.6)      /* multiple of the bound */
-#define SURE_PART WH_R(0.125) /* share of a turn after which no pulse can withdraw the last one */
+#define DOUBT 2U /* added to `doubt` by a false pulse */
+/* with `slow`: one interval above this multiple of bound_radps counts as two */
+#define SUDDEN WH_R(1.6)
+#define SURE_PART WH_R(0.125) /* share of a turn after which no pulse can reject the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
@@ -25,7 +26,8 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* How much earlier a pulse comes than a turn after its sensor's last pulse, ticks; 0 if unknown. */
+/* How many ticks a pulse comes before the time predicted from its sensor's last pulse and the duration of a turn; 0 if
+ * unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -70,7 +72,8 @@ static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) 
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
-/* Excess of a turn's speed over the permitted rise. A disturbance causes it at only one of two successive pulses. */
+/* Excess of a turn's speed over the permitted rise. A disturbance causes such an excess at only one of two successive
+ * pulses. */
 static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
@@ -78,8 +81,8 @@ static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
 }
 
-/* Accepts a pulse that gives the speed `after`. pulses->before was set to the speed without this pulse, or without the
- * withdrawn last one. */
+/* Accepts a pulse that gives the speed `after`. pulses->before was set to the speed without this pulse or, if the last
+ * pulse was rejected, without that one. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
@@ -116,8 +119,8 @@ static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->doubt += doubt;
 }
 
-/* Decides about a suspect when the next pulse comes. The suspect is rejected if that is likely, and likelier than both
- * pulses being true. */
+/* Decides about a suspect when the next pulse comes. The suspect is rejected if a false pulse is likely, and likelier
+ * than two true ones. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
@@ -126,7 +129,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* a false pulse together with a lost true one is less likely than two true ones, at any speed */
+    /* one false pulse together with one lost true pulse is less likely than two true ones, at any speed */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
@@ -150,7 +153,7 @@ static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse,
            (wh_real)(pulse->ticks - last->ticks) < part * turn;
 }
 
-/* Handles a pulse that cannot follow the last one: perhaps the last one is false. */
+/* Handles a pulse that comes impossibly soon after the last one: one of the two is false. */
 static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
     wh_speed instead;
     reject(pulses, soon_after(pulses, pulse, BOUNCE_PART, turn) ? 0U : DOUBT);
@@ -184,7 +187,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* after a fast interval, or an early last pulse, the next pulse gives the speed */
+    /* after a short interval, or if the last pulse was early, the next pulse decides about the speed */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;
@@ -196,7 +199,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
-    /* a rotor that should slow down and does not also counts as early */
+    /* a pulse also counts as early if the rotor should slow down but does not */
     if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
         pulses->alert = true;
     }

@@ -2,11 +2,12 @@
  *
  * Noise must neither count as a pulse nor cause the next true pulse to be rejected. So
  *
- * - a pulse is a suspect if it is early (before the window around the time predicted from the last turn) or needs more
- *   than the possible speed (`bound`). The next pulse decides. Two successive fast intervals are a speed.
- * - a pulse that cannot follow the last one may be the true one of the two: the one closer to its predicted time stays,
- *   the other is withdrawn.
- * - a mark goes to the measurement once no pulse can withdraw it: an eighth of a turn later, or with the next. */
+ * - a pulse is a suspect if it is early (before the window around the time predicted from the last turn) or would need
+ *   a speed above bound_radps. The next pulse decides: two successive short intervals show that the rotor is that fast.
+ * - if a pulse comes impossibly soon after the last one, one of the two is false: the one closer to its predicted time
+ *   stays, the other is rejected.
+ * - a pulse is confirmed and goes to the measurement when no later pulse can reject it: an eighth of a turn later, or
+ *   at the next pulse. */
 #ifndef WH_RIG_PULSES_H
 #define WH_RIG_PULSES_H
 
@@ -23,38 +24,41 @@ typedef struct wh_pulse {
     unsigned sensor; /* 0 or 1 */
 } wh_pulse;
 
-/* A confirmed pulse. */
+/* A confirmed pulse: the index pulse of a sensor. */
 typedef struct wh_mark {
     wh_pulse pulse;
     uint32_t quarter; /* the rotor's position, quarter turns, wrapping */
-    bool gap;         /* the number of turns before this mark is unknown */
+    bool gap;         /* the number of turns before this pulse is unknown */
 } wh_mark;
 
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is a suspect */
     bool waits;    /* the last pulse is unconfirmed */
-    bool alert;    /* the last pulse was a little early: the next early one is no disturbance */
-    /* the rotor almost rests without drive: one interval far beyond the bound counts as two. Set by the caller */
+    /* the last pulse was a little early: if the next one is early too, neither is a disturbance */
+    bool alert;
+    /* the rotor almost rests, with the motor off: one interval far beyond the bound counts as two. Set by the caller */
     bool slow;
-    wh_real bound_radps;  /* faster intervals are not expected; 0: no bound. Set by the caller */
-    wh_real window;       /* share of a turn by which a pulse may be early. Set by the caller */
-    wh_real climb_radps2; /* limit on the rise of a turn's speed per second. Set by the caller */
-    /* excess of the turn's speed over that limit, else 0: */
+    /* limit on the speed between two pulses; 0: no limit. Set by the caller */
+    wh_real bound_radps;
+    wh_real window; /* share of a turn by which a pulse may be early. Set by the caller */
+    /* limit on the rise of the speed from turn to turn, rad/s per s. Set by the caller */
+    wh_real climb_radps2;
+    /* excess of the turn's speed over the speed that this limit allows, or 0: */
     wh_real climb_radps;        /* at the last pulse */
     wh_real climb_before_radps; /* at the previous pulse */
-    unsigned fast;              /* successive intervals beyond the bound */
+    unsigned fast;              /* successive intervals shorter than bound_radps allows */
     /* number of successive pulses of alternating sensors: 0 for a rotor that swings */
     unsigned alternate;
     /* grows by two with each doubtful pulse and shrinks by one with each expected one */
     unsigned doubt;
-    uint32_t rejected; /* false pulses */
+    uint32_t rejected; /* number of rejected pulses */
     wh_pulse suspect;
-    wh_mark last;       /* pulse */
+    wh_mark last;       /* the last pulse */
     wh_speed speed;     /* from the accepted pulses */
-    wh_speed before;    /* the speed without the last pulse */
-    wh_speed suspected; /* the speed with the suspect */
+    wh_speed before;    /* the speed before the last pulse */
+    wh_speed suspected; /* the speed if the suspect is true */
     unsigned marks;
-    wh_mark mark[WH_PULSES_MARKS]; /* confirmed marks, not yet taken */
+    wh_mark mark[WH_PULSES_MARKS]; /* confirmed pulses that the caller has not taken yet */
 } wh_pulses;
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)
@@ -71,10 +75,10 @@ void wh_pulses_forget(wh_pulses *pulses);
 /* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
-/* wh_pulses_mark() after its quick check. */
+/* The part of wh_pulses_mark() after its quick check. */
 bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
 
-/* Take the next mark that is confirmed by now. Returns false if there is none. Call it in each control step until it
+/* Take the next pulse that is confirmed by now. Returns false if there is none. Call it in each control step until it
  * returns false. */
 WH_INLINE bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
     return (pulses->waits || pulses->marks > 0) && wh_pulses_sure(pulses, now_ticks, mark);

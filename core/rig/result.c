@@ -7,24 +7,24 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Largest remaining part of gravity with feed. Above it the feed is wrong or misses the arms, and the torque on them is
- * unknown. */
+/* Largest remaining part of gravity with compensation. If it is larger, the compensation acts at a wrong angle or size,
+ * and the torque on the arms is unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* Tolerance of the speed's swing, in addition to the phase's error. If the rotor's damping is not the configured one,
- * the split makes 1/sqrt(2) of this an error of the phase. */
+/* Tolerance of the speed ripple, in addition to the phase's error. If the rotor's damping is not the configured one,
+ * 1/sqrt(2) of this error of the ripple appears as an error of the phase, by the quadrature ratio. */
 #define SWING_OFF_RAD WH_R(0.01)
 
 /* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared). The first is for the sum
- * of squares of the eight coefficients of four harmonics, the second for the two of the third harmonic. A nonlinearity,
- * or a torque twice a turn, is all in the third harmonic. */
+ * of squares of the eight coefficients of four harmonics, the second for the two of the third harmonic. The effects of
+ * a nonlinearity, or of a torque twice a turn, are all in the third harmonic. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Parts of the force that a healthy rig repeats each turn in harmonics 3 to 6 (tests/host/test_repeats_truth.c). The
- * causes are damping, as tan(psi) E^2; an error of the swing, as E times the vector; a motor that cannot brake enough.
- * Others are a carriage's wave; the cell's own nonlinearity; and sums over few samples a turn, by the square of the
- * angle between two. */
+/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c). The
+ * causes are damping, in proportion to tan(psi) E^2; an error of the speed ripple, in proportion to E times this error;
+ * and a motor that cannot brake enough. Further causes are the ripple of a carriage; the nonlinearity of the cell; and
+ * few samples per turn, in proportion to the square of the angle between two. */
 #define REPEATS_LAG WH_R(0.4)
 #define REPEATS_ARROW WH_R(1.6)
 #define REPEATS_CUT WH_R(0.29)
@@ -32,7 +32,7 @@
 #define REPEATS_CELL WH_R(1e-4)
 #define REPEATS_STEP WH_R(0.012)
 
-/* Effect of the marks' angular jitter on the force in a turn, as a multiple of that angle. */
+/* Effect of the pulses' angular jitter on the force of one turn, as a multiple of that angle. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -60,8 +60,8 @@ static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_tick
     merge->jitters++;
 }
 
-/* Adds the second differences of each sensor's marks, which are differences of the turns' times, if a turn follows
- * another. */
+/* Adds the second differences of the times of each sensor's pulses, if two used turns are successive. They are the
+ * differences between the turns' durations. */
 static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
         merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
@@ -115,8 +115,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->swing_rad * angle->swing_rad;
-    /* S <w^2> over the angle: the cube of the speed over time, and so 3/2 of the square of the swing. A wave of twice
-     * the angle makes the speed vary by twice its amplitude */
+    /* S <w^2>, the mean over the angle. This is the mean of w^3 over time divided by the mean speed, and so contains
+     * 3/2 of the square of the ripple. A term of twice the angle makes the speed vary by twice its amplitude */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -146,17 +146,19 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
 
 /* --- their mean --------------------------------------------------------------------------------- */
 
-/* Square of the phase's half-width due to the marks, without the part that is visible in the turns' scatter. */
+/* Square of the phase's half-width due to the pulses' jitter, without the part that is visible in the scatter of the
+ * turns. */
 static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* a turn has the mean of its two marks, so its variance is one half; the mean of n turns has one n-th */
+    /* a turn's phase has the mean error of its two pulses, so its variance is one half; that of the mean of n turns is
+     * one n-th of this */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->splits == 0) {
         return shared;
     }
-    /* the split at a quarter: variances of 1, 9/16 and 1/16. On average half of the turns behind the split are among
-     * the merged ones, and share marks with them */
+    /* with sensor 2 at a quarter turn: variances of 1, 9/16 and 1/16. On average half of the turns in the estimate of
+     * the ratio are also among the merged ones, and have the same pulses */
     const wh_real averaged =
         (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE ? angle->splits : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_split);
@@ -203,7 +205,7 @@ WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
     }
 }
 
-/* Scatter along the mean and across it, stored in the fields for the half-widths for now. */
+/* Scatter along the mean and across it, stored temporarily in the fields for the half-widths. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -216,7 +218,7 @@ WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
     measured->phase_half_rad = factor * (y * y * s[0] + both + x * x * s[2]);
 }
 
-/* Errors other than the scatter that amplitude and phase share. */
+/* Errors, other than the scatter, that affect both amplitude and phase. */
 typedef struct parts_off {
     wh_real third;
     wh_real lag;
@@ -230,7 +232,8 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* gravity fed at a wrong angle leaves a swing that the split takes for one a quarter turn later */
+        /* gravity compensated at a wrong angle leaves a ripple, which the quadrature ratio shows as one a quarter turn
+         * later */
         .quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
 }
@@ -332,10 +335,11 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
 
 /* --- verdict ------------------------------------------------------------------------------------ */
 
-/* Difference between the speed's swing according to the load and the reference's swing. The swing is a vector of size E
- * in the direction psi - gamma. Over the rotor's own angle, the force's second order is 3/2 E/(1 + 3/2 E^2) times its
- * first, in that direction. An error of the reference's swing appears once more with the weight 1/2, together 2. After
- * subtracting twice the first order's phase, the result hardly depends on a delay, and not on the cell's gain. */
+/* Difference between the speed ripple found from the load and the ripple of the angle model. The ripple is a vector of
+ * size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is 3/2 E/(1 + 3/2 E^2)
+ * times its first order, in that direction. An error of the model's ripple enters again with the weight 1/2, together
+ * 2. Twice the phase of the first order is subtracted. So the result hardly depends on a delay, and not on the cell's
+ * gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
@@ -366,8 +370,8 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
-/* If the motor cannot brake enough, the residual contains no information on the cell. Force and phase must then be as
- * expected within their intervals plus this part. The expected values may differ from the truth by 0.5 %. */
+/* If the motor cannot brake enough, the residual does not show errors of the cell. Force and phase must then agree with
+ * the expected values within their intervals plus this part: the expected values may be wrong by 0.5 %. */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 
@@ -394,7 +398,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (phase > WH_R(0.5) * PI) {
         return WH_WHY_POLARITY;
     }
-    /* written so that NaN is refused */
+    /* this form refuses NaN */
     if (!(off <= config->amplitude_wrong * expected)) {
         return WH_WHY_AMPLITUDE;
     }
@@ -433,7 +437,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    /* the calibration does not matter here */
+    /* the calibration uncertainty does not matter here */
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);

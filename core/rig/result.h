@@ -3,16 +3,18 @@
  * The half-widths are for 95 %: roots of the sum of squares of
  *
  * - scatter: Student's factor times the standard error of the mean over the turns.
- * - marks (phase): the scatter shows only half of the effect of the marks' jitter, because neighbouring turns share a
- *   mark. The second differences of the marks give the jitter.
- * - split (phase): the rotor's inertia, or the part of gravity that remains, comes from marks with the same jitter.
- * - reference: the angle's error within the turn if the rotor's damping has an error of its tolerance, and the
- *   neglected third order. While gravity is fed, also the effect of an error of the feeding angle, and of a motor that
- *   cannot brake as much as commanded. On a carriage (amplitude), also an error of the moving mass by its tolerance.
- * - drift (phase): the reference assumes a constant mean speed within a turn.
+ * - pulses (phase): the scatter shows only half of the effect of the pulses' jitter, because successive turns share a
+ *   pulse. The jitter follows from the second differences of the pulses' times.
+ * - quadrature ratio (phase): the rotor's inertia, or the uncompensated part of gravity, is estimated from pulses with
+ *   the same jitter.
+ * - angle: the error of the angle within the turn, if the rotor's damping is wrong by its tolerance, and the neglected
+ *   third order. With gravity compensation, also the effect of an error of the compensation's angle, and of a motor
+ *   that cannot brake as much as commanded. On a carriage (amplitude), also an error of the moving mass by its
+ *   tolerance.
+ * - drift (phase): the angle is computed for a constant mean speed within a turn.
  * - floors: calibration, as configured; 0.5 % and 0.5 degrees before calibration.
  *
- * A result is good; or doubtful or refused, with a reason. */
+ * A result is good, or it is doubtful or refused for one of the reasons below. */
 #ifndef WH_RIG_RESULT_H
 #define WH_RIG_RESULT_H
 
@@ -57,34 +59,38 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 
 typedef struct wh_result_config {
     wh_real mount_factor; /* force relative to that on a fixed mount: 1; carriage: 1/(1 + ratio) */
-    wh_real amplitude_floor; /* amplitude's calibration, 95 %, part of the force; 0: none */
-    wh_real phase_floor_rad; /* calibration of sensor positions and delays, 95 %; 0: uncalibrated */
-    wh_real amplitude_off;   /* part by which a doubtful force differs from the expected one */
-    wh_real amplitude_wrong; /* part by which a refused force differs */
+    /* calibration uncertainty of the amplitude, 95 %, as a part of the force; 0: none */
+    wh_real amplitude_floor;
+    /* calibration uncertainty of sensor positions and delays, 95 %, rad; 0: uncalibrated */
+    wh_real phase_floor_rad;
+    /* a force that differs from the expected one by more than this part is doubtful */
+    wh_real amplitude_off;
+    wh_real amplitude_wrong; /* a force that differs by more than this part is refused */
     wh_real phase_off_rad;   /* a phase that differs by more than this is doubtful */
     wh_real phase_wrong_rad;
-    wh_real residual_large; /* large residual, as a part of the expected force */
-    wh_real mean_off;       /* large mean, as a part of the expected force */
-    wh_real inertia_off;    /* large error of the inertia, as a part of the configured one */
+    wh_real residual_large; /* a larger residual is doubtful, as a part of the expected force */
+    wh_real mean_off;       /* a larger mean is doubtful, as a part of the expected force */
+    /* a larger error of the inertia is doubtful, as a part of the configured one */
+    wh_real inertia_off;
 } wh_result_config;
 
 /* Turns merged so far; zeros: no turns. */
 typedef struct wh_merge {
-    bool follows; /* the last turn was used: differences to the next turn count */
+    bool follows; /* the last turn was used, so differences to the next turn count */
     bool split_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
     uint32_t split_turns; /* number of turns averaged in at_mark_N[1] */
-    wh_real jitter_s2;    /* sum of squares of the marks' second differences */
+    wh_real jitter_s2;    /* sum of squares of the second differences of the pulse times */
     uint32_t jitters;     /* number of these second differences */
     uint32_t first_ticks; /* times of the first and of the last used turn */
     uint32_t last_ticks;
     uint32_t split_turn_ticks;
     uint32_t begin_ticks;
     uint32_t split_ticks;
-    wh_real repeats_N2; /* sum of the squared amplitudes of the evaluated harmonics */
+    wh_real repeats_N2; /* sum of the squared amplitudes of the harmonics evaluated so far */
     wh_real third_N2;   /* squared amplitude of the third harmonic */
     wh_repeats repeats;
     wh_real in_phase_N; /* means over the turns */
@@ -114,22 +120,24 @@ typedef struct wh_measured {
     wh_real amplitude_half_N; /* half-width of the interval, 95 % */
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
-    wh_real expected_N;      /* amplitude expected from masses, speed and mount */
+    wh_real expected_N;      /* force amplitude expected from masses, speed and mount */
     wh_real residual_N;      /* rms after orders 0 to 2 */
     wh_real repeats_N;       /* repeating residual: harmonics 3 to 6 together, or the third */
     wh_real repeats_limit_N; /* limit from noise and a healthy rig */
-    wh_real jitter_s;        /* jitter of the marks, standard deviation */
+    wh_real jitter_s;        /* jitter of the pulses, standard deviation */
     wh_real inertia_kgm2;
-    wh_real swing_off_rad; /* error of the speed's swing according to the load, as a vector */
-    wh_real left_part;     /* remaining part of gravity, either way, if it is fed forward; else 0 */
-    wh_real at_mark_N[2];  /* load at each sensor's mark, minus the tare */
+    /* error of the speed ripple, found from the load's second order, as a vector */
+    wh_real swing_off_rad;
+    /* with gravity compensation: the uncompensated part of gravity, in either direction; else 0 */
+    wh_real left_part;
+    wh_real at_mark_N[2]; /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
 /* Half-widths for 95 % before calibration, for a commercial load cell and sensors as mounted. */
 #define WH_UNCALIBRATED_PART WH_R(0.005)
 #define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
 
-/* A floor was entered for both amplitude and phase. */
+/* True if the calibration uncertainties of amplitude and phase were both entered. */
 WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
     return config->amplitude_floor > WH_R(0.0) && config->phase_floor_rad > WH_R(0.0);
 }
@@ -144,11 +152,13 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
 #define wh_why_text WH_NAME(wh_why_text)
 #define wh_quality_text WH_NAME(wh_quality_text)
 
-/* Add a turn; `angle` is the one with which it was evaluated. A turn that does not count breaks the series. */
+/* Add a turn; `angle` is the angle model with which it was evaluated. An unusable turn ends a series of successive
+ * turns. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle);
 
-/* Evaluate a harmonic of the repeating part, each once after the last turn: WH_REPEATS_FIRST to WH_REPEATS_LAST. */
+/* Evaluate one harmonic of the repeating residual. Call it after the last turn, once for each from WH_REPEATS_FIRST to
+ * WH_REPEATS_LAST. */
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 /* Means and half-widths; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted. */
@@ -163,7 +173,8 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
 
-/* After wh_merge_mean(): evaluate the speed's swing according to the load, the repeating part, and the turns' scatter. */
+/* After wh_merge_mean(): evaluate the error of the speed ripple, the repeating residual, and the scatter of the
+ * turns. */
 void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
                       const wh_turn_angle *angle, wh_measured *measured);
 
@@ -174,7 +185,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
 /* Student's factor, two-sided, 95 %. Within 0.3 % for 2 and more degrees of freedom, 0 for none. */
 wh_real wh_student(uint32_t freedom);
 
-/* In words, for consoles, by wh_text_add(). */
+/* The reason in words, for consoles, by wh_text_add(). */
 const char *wh_why_text(wh_why why);
 const char *wh_quality_text(wh_quality quality);
 

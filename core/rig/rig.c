@@ -28,7 +28,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
     (void)wh_observer_start(&config->observer, &rig->observer,
-                            now_ticks); /* on an error the observer is never valid */
+                            now_ticks); /* after an error the observer is never valid */
     enter(rig, WH_RIG_IDLE, now_ticks);
     /* the rotor's earlier speed is unknown */
     rig->run.off_radps = config->guard.limit_radps;
@@ -50,7 +50,8 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-/* The enable stays on at 0 V until the pulses show a rotor that does not slow down, or the stop input is pressed. */
+/* True if the motor brakes. The enable stays on at 0 V until the pulses show that the rotor does not slow down, or the
+ * stop input is pressed. */
 static bool brakes(const wh_rig *rig) {
     return rig->brakes && rig->run.phase == WH_PHASE_OFF && !rig->guard.off.released;
 }
@@ -102,7 +103,7 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
                                    .supply_V = inputs->supply_V};
 }
 
-/* Decide whether a run at this speed gets gravity fed forward. */
+/* Decides whether a run at this speed uses gravity compensation. */
 static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
     rig->fed =
         config->feeds == WH_COMPENSATION_ALWAYS ||
@@ -128,7 +129,8 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
-/* Upper bound on the present speed. It is needed because the last turn of an accelerating rotor is old. */
+/* Upper bound on the present speed. The measured speed is that of the last turn, which is too old if the rotor
+ * accelerates. */
 static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_real turn_radps = rig->pulses.speed.turn_radps;
     const wh_real limit_radps =
@@ -165,7 +167,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
-        /* a stop never switches the enable on */
+        /* a stop never switches on an enable that is off */
         rig->brakes = config->stop_brakes && (wh_run_drives(&rig->run) || brakes(rig));
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             rig->ended = stopped_by(inputs, order->event);
@@ -185,7 +187,8 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR:
         rig->guard.trip = WH_TRIP_NONE;
-        rig->record = (wh_trip_record){.trip = WH_TRIP_NONE}; /* a reset finds no record */
+        /* after a reset there is no record of this trip */
+        rig->record = (wh_trip_record){.trip = WH_TRIP_NONE};
         break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
     case WH_EVENT_DONE: rig->ended = WH_END_DONE; break;
@@ -216,7 +219,7 @@ static void finds(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     (void)happens(config, rig, inputs, &order);
 }
 
-/* Only external orders: the rig's own findings are not orders. */
+/* Only orders from outside: the rig's own events are handled elsewhere. */
 static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     for (unsigned i = 0; i < rig->orders; i++) {
         const wh_rig_order *order = &rig->order[i];
@@ -230,7 +233,8 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
 
 /* --- the guard, in every state ------------------------------------------------------------------- */
 
-/* At a slow speed, silence is measured as an angle: two lost pulses leave nearly two turns without a pulse. */
+/* At a slow speed, the time without a pulse is limited as an angle: after two lost pulses the rotor has made nearly two
+ * turns. */
 #define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
@@ -242,12 +246,12 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
-/* With the motor off: clear data that a resting rotor makes invalid. */
+/* With the motor off: clear the data that are no longer valid for a rotor at rest. */
 static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
     if (rig->guard.quiet) {
         rig->run.off_radps = WH_R(0.0);
-        if (rig->pulses.speed.running) { /* times of old pulses wrap */
+        if (rig->pulses.speed.running) { /* the times of old pulses would wrap */
             wh_pulses_forget(&rig->pulses);
         }
     }
@@ -273,7 +277,8 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        wh_guard_trip(guard, WH_TRIP_STALLED); /* or unseen: it must not get fast */
+        /* or the pulses do not come: the rotor must not become fast */
+        wh_guard_trip(guard, WH_TRIP_STALLED);
     }
     if (drives) {
         wh_guard_pulses(&config->guard, guard, &rig->pulses, silence_s(config, rig),
@@ -284,7 +289,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* until a sample comes: stamps wrap */
+        guard->load_good = false; /* until the next sample, because time stamps wrap */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
@@ -293,7 +298,8 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 
 /* --- where the rotor is --------------------------------------------------------------------------- */
 
-/* The pulse after a suspect costs as much computing time as two: the observer catches up in the next step. */
+/* The pulse after a suspect needs as much computing time as two pulses: the observer's work is postponed to the next
+ * step. */
 static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
     return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
 }
@@ -316,7 +322,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
 }
 
-/* Gravity's part of the voltage, V. */
+/* The part of the voltage that compensates gravity, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (!rig->fed || !wh_run_is_closed(&rig->run)) {
         rig->compensation.part = WH_R(0.0);
@@ -334,7 +340,7 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
 
 /* --- states -------------------------------------------------------------------------------------- */
 
-/* Motor off: waits until no pulses come, so the rotor rests. */
+/* Motor off: waits until no pulses come, so that the rotor is at rest. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool tripped = rig->state == WH_RIG_TRIPPED;
     const wh_real passed_s =
@@ -357,7 +363,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     }
 }
 
-/* Most pulses that jitter makes: if there are more, a person turns the rotor. */
+/* Most pulses that jitter makes while the rig is armed: more pulses mean that a person turns the rotor. */
 #define ARMED_PULSES_MOST 2U
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
@@ -389,9 +395,9 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     }
 }
 
-/* The number of half nodes of a turn's sums for which this step has time. If the controller is late, a step finds the
- * samples and observer steps of more than one step, and the next step finds none. If a mark may be confirmed while the
- * rotor is observed, there is less time. */
+/* The number of half nodes of a turn's sums for which this step has time. A controller that is late finds the samples
+ * and observer steps of several steps in one, and none in the next. If a pulse may be confirmed while the observer
+ * runs, there is less time. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -402,8 +408,7 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
 }
 
-/* A step does not process a mark if it has processed a pulse. But if this many marks wait, they would be lost: then it
- * does. */
+/* A step that has processed a pulse confirms none, unless this many confirmed pulses wait, which would be lost. */
 #define MARKS_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -429,7 +434,7 @@ static void age(wh_rig *rig, uint32_t now_ticks) {
     }
 }
 
-/* Motor off: the rotor swings out after a run, or has done so, and its swing is evaluated. */
+/* With the motor off after a run: the rotor swings freely, or has come to rest and its swing is evaluated. */
 static void swing(const wh_rig_config *config, wh_rig *rig) {
     const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
     wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
@@ -462,13 +467,14 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
         rig->guard.off.released =
-            true; /* releasing the brake switches the enable off in any case */
+            true; /* a trip releases the brake: the enable is off in any case */
     }
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     live(config, rig, inputs);
-    follow_trip(config, rig, inputs); /* before the sums, which a trip makes useless */
+    /* before the measurement's work, which a trip makes useless */
+    follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {
         rig->busy = true;
     }
@@ -483,7 +489,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     return rig->command;
 }
 
-/* === conditions of an order beyond the states': a supply, a rig at rest, a removed cause ===== */
+/* === further conditions of an order: supply, rig at rest, cause of a trip removed ===== */
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
                                    const wh_rig_inputs *inputs) {
@@ -513,7 +519,7 @@ static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
 
 static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
-    /* slower set-points are possible if gravity's torque can be fed forward */
+    /* slower set-points are possible with gravity compensation */
     const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
     const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
                                     target_radps < config->guard.target_min_radps);
@@ -524,8 +530,8 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                                                                           : WH_REFUSED_VOLTAGE;
 }
 
-/* A trip can be cleared when the rotor rests and the cause is removed. With unreliable pulses, the rotor is assumed to
- * rest after a time. */
+/* A trip can be cleared when the rotor rests and the cause is removed. If the pulses are unreliable, the rotor counts
+ * as at rest after tripped_max_s. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
     if (!rig->at_rest || !rig->guard.quiet) {
@@ -572,7 +578,7 @@ wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
     return WH_ALLOWED;
 }
 
-/* === read-out: stage, speed, a result's age, the likely cause of a trip ====================== */
+/* === read-out: stage, speed, age of the result, likely cause of a trip ====================== */
 
 WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
     return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
@@ -624,7 +630,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* speed.h takes a rotor that slows down over the top for a gap, and keeps the speed before it */
+    /* speed.h cannot distinguish a rotor that slows down over the top from a gap, and keeps the old speed */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;
@@ -638,8 +644,8 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
 #define STORM_TICKS 18750U
 
 /* Do the sensors' pulses come in the wrong order? Forwards, the rotor takes a quarter turn from sensor 1 to sensor 2,
- * backwards three quarters. That time must exceed both times back, because a starting rotor changes its speed. Pulses
- * faster than any rotor show no direction. */
+ * backwards three quarters. That time must exceed the times before and after it, because a starting rotor changes its
+ * speed. Pulses that are faster than any rotor show no direction. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -652,8 +658,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* While the rotor starts, or was just taken over, the commanded voltage determines its speed, not yet the loop. A
- * falling bound then shows after two further pulses. */
+/* While the rotor starts, or shortly after the loop has closed, the commanded voltage determines its speed. A fall of
+ * the bound is then visible only after two further pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {

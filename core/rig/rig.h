@@ -8,7 +8,7 @@
  *         wh_rig_load(&config, &rig, ...) for each load sample
  *         wh_rig_post(&rig, ...) for each order from outside: nothing moves without `arm` and then `start`
  *         command = wh_rig_step(&config, &rig, &inputs)
- *         motor as commanded, watchdog kicked: also when the rig is tripped */
+ *         set the motor as commanded and kick the watchdog: also when the rig is tripped */
 #ifndef WH_RIG_RIG_H
 #define WH_RIG_RIG_H
 
@@ -21,13 +21,13 @@
 extern "C" {
 #endif
 
-/* === a trip's record, as bytes the same on every processor; readable after a reset =========== */
+/* === the record of a trip, in bytes with the same layout on every processor =========== */
 
-/* The record of a trip. Given to wh_rig_start() after a reset, it is latched again. */
+/* The record of a trip. wh_rig_start() after a reset restores the trip from it. */
 typedef struct wh_trip_record {
     wh_trip trip;
     wh_rig_phase phase;
-    uint32_t ticks; /* of a timer that a reset may have cleared since */
+    uint32_t ticks; /* time of the trip, on a timer that a reset may have cleared */
     wh_real speed_radps;
     wh_real volts;
     wh_real supply_V;
@@ -55,7 +55,7 @@ typedef struct wh_rig_inputs {
     wh_real supply_V;
     bool stop_pressed;
     wh_stop_by stop_by;     /* source of the stop, if pressed */
-    bool clock_is_fallback; /* the clock is too inaccurate for a speed */
+    bool clock_is_fallback; /* the clock is too inaccurate to measure a speed */
     bool watchdog_has_cut;
 } wh_rig_inputs;
 
@@ -68,15 +68,15 @@ typedef struct wh_rig_order {
 
 #define WH_RIG_ORDERS_MOST 4U /* orders that can be posted between two control steps */
 
-/* When gravity's torque is fed forward to the motor. This removes the ripple of the speed, and with it gravity's part
- * of the load's peaks. */
+/* When gravity compensation is on. It removes the ripple of the speed, and with it gravity's part of the load's
+ * peaks. */
 typedef enum wh_compensation_when {
     WH_COMPENSATION_NEVER,
-    WH_COMPENSATION_SLOW, /* for set-points that are too slow without it */
+    WH_COMPENSATION_SLOW, /* only for set-points that are too slow without compensation */
     WH_COMPENSATION_ALWAYS
 } wh_compensation_when;
 
-/* A small chip's build may set 0: observer.scene is NULL, and gravity is never fed forward. */
+/* A small chip's build may set 0: observer.scene is NULL, and gravity is never compensated. */
 #ifndef WH_RIG_FEEDS
 #define WH_RIG_FEEDS 1
 #endif
@@ -91,15 +91,16 @@ typedef struct wh_rig_config {
     wh_compensation_when feeds;
     wh_real impossible_radps; /* see wh_speed_start() */
     wh_real armed_max_s;
-    wh_real tripped_max_s; /* longest wait for rest after a trip */
+    wh_real tripped_max_s; /* longest time to come to rest after a trip */
     wh_real rest_max_s;    /* longest time to come to rest with the motor off */
     /* the motor brakes at a run's end and after `stop`; otherwise it coasts, as after a trip and the stop input */
     bool stop_brakes;
-    /* a completed run always coasts, and its swing gives the sensors' positions; `stop` may brake */
+    /* a completed run always coasts, and the rotor's free swing gives the sensors' positions; `stop` may brake */
     bool swings;
-    bool host_loss_stops; /* a run ends when the giver of orders is lost; otherwise it goes on */
-    uint32_t host_max_s;  /* silence after which the giver of orders counts as lost; 0: never */
-    uint32_t settings;    /* hash of the settings (core/station/conf.h); 0: no settings */
+    /* a run ends if the host that gives the orders is lost; otherwise it goes on */
+    bool host_loss_stops;
+    uint32_t host_max_s; /* time without an order after which the host counts as lost; 0: never */
+    uint32_t settings;   /* hash of the settings (core/station/conf.h); 0: no settings */
 } wh_rig_config;
 
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
@@ -113,14 +114,15 @@ typedef struct wh_rig_command {
 typedef struct wh_rig {
     wh_rig_state state;
     bool brakes; /* the motor brakes when it is switched off */
-    /* for this run: the observer follows the rotor, and once it is valid gravity is fed forward */
+    /* in this run the observer follows the rotor; as soon as it is valid, gravity is compensated */
     bool fed;
-    /* a pulse or a mark is work enough for one step: other work waits for the next */
+    /* this step has a pulse to process, which is work enough: other work waits for the next step */
     bool busy;
-    bool decides;  /* a pulse of this step came after a suspect */
-    uint8_t loads; /* samples since the last step: with more than one the step has less time */
-    bool rested;   /* motor off, and the rotor rests or the wait is over */
-    /* no pulses come; if pulses are unreliable, the longest wait is over */
+    bool decides; /* this step has a pulse that came after a suspect */
+    /* samples since the last step: with more than one, the step has less time for other work */
+    uint8_t loads;
+    bool rested; /* motor off, and the rotor is at rest or the longest wait is over */
+    /* no pulses come; or, if pulses are unreliable, the longest wait is over */
     bool at_rest;
     bool has_result;    /* of run number `runs`: false from `start` to the end of its record */
     wh_rig_end ended;   /* how the last run ended */
@@ -130,14 +132,14 @@ typedef struct wh_rig {
     wh_guard guard;
     uint32_t answers;     /* number of processed orders */
     uint32_t since_ticks; /* time at which the state began */
-    uint32_t observed;    /* number of pulses that the observer has seen */
+    uint32_t observed;    /* number of pulses processed by the observer */
     uint32_t pulses_ever;
     uint32_t pulses_before; /* number of pulses at `arm` */
     uint32_t runs;          /* starts since the reset */
     uint32_t settings;      /* config->settings when the result was measured */
-    uint32_t result_s;      /* age of the result in whole seconds at result_ticks */
-    uint32_t result_ticks;  /* time for which result_s is valid */
-    /* times of each sensor's last pulse and the one before, accepted or not */
+    uint32_t result_s;      /* age of the result at the time result_ticks, whole seconds */
+    uint32_t result_ticks;  /* time at which the age was result_s */
+    /* times of each sensor's last two pulses, accepted or not */
     uint32_t heard_ticks[WH_SPEED_SENSORS][2];
     wh_compensation compensation;
     wh_rig_command command; /* command of the last step */
@@ -147,12 +149,12 @@ typedef struct wh_rig {
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
     wh_rig_result result; /* the last result, if has_result; stays until the next start */
-    wh_swing swing;       /* swing of the last run that ended in one: swing.result */
+    wh_swing swing;       /* the last evaluated free swing: swing.result */
     wh_measure measure;
 } wh_rig;
 
 /* The rig of eccentric.whirl. measure.cell and the sensors' angles depend on the hardware: wh_rig_slots() and the
- * caller fill them in. observer.scene is rig_fixed, or NULL: then gravity is never fed forward. */
+ * caller fill them in. observer.scene is rig_fixed, or NULL: then gravity is never compensated. */
 #define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
 
@@ -173,7 +175,8 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_speed WH_NAME(wh_rig_speed)
 #define wh_rig_cause WH_NAME(wh_rig_cause)
 
-/* The rig's stage as one number for consoles and records: in a run WH_RIG_STAGE_OF_PHASE + its phase, else the state. */
+/* The rig's stage as one number for consoles and records: in a run WH_RIG_STAGE_OF_PHASE + its phase, otherwise the
+ * state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
@@ -182,7 +185,7 @@ unsigned wh_rig_stage(const wh_rig *rig);
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
 
-/* Either number in words. */
+/* The words for a stage of either function. */
 const char *wh_rig_stage_text(unsigned stage);
 
 /* The mean speed of the last whole turn, or 0 at rest. Returns false if the speed is unknown: before the first turn, or
@@ -192,7 +195,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 /* Seconds since the result was finished. */
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* The guard's trip, or the trip's likely cause if that is known, in the step that trips. Part of wh_rig_step(). */
+/* The guard's trip, or its likely cause if that is known; for the step that trips. Part of wh_rig_step(). */
 wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
 
 /* Configure sensors on the loading-train axis and a quarter turn later. Each pulse comes when the arms are lead_rad
@@ -210,10 +213,11 @@ typedef struct wh_rig_motor {
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
 
 /* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply, bounds
- * of the guard, damping, feed-forward. The observer's scene must have the configuration's motor: call this once. */
+ * of the guard, damping, gravity compensation. The observer's scene keeps the original motor, so call this once. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* Limit pulses to the speed without load at the highest supply. Call it again after a change of guard.supply_max_V. */
+/* Limit the speed between pulses to that without load at the highest supply. Call it again after a change of
+ * guard.supply_max_V. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
 /* Start in the idle state, motor off, for any motion of the rotor. If `before` is the record of a trip (it may be NULL),
@@ -254,12 +258,12 @@ typedef struct wh_carriage {
 #define wh_carriage_mount WH_NAME(wh_carriage_mount)
 #define wh_carriage_displacement_m WH_NAME(wh_carriage_displacement_m)
 
-/* Change wh_rig_standard, or a copy with other cells and sensors, to the rig on that carriage. Without gravity there is
- * nothing to observe or to feed forward. */
+/* Change wh_rig_standard, or a copy with other cells and sensors, to the rig on that carriage. In a level plane gravity
+ * has no effect, so observer and gravity compensation are off. */
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 
-/* Displacement amplitude of the carriage in m: F/(M <w^2>) with the cell's force F and the mean over the angle. 0 for a
- * fixed mount. */
+/* Displacement amplitude of the carriage, m: F/(M <w^2>), with the cell's force F and the squared speed's mean over the
+ * angle. 0 for a fixed mount. */
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force);
 

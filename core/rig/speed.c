@@ -35,12 +35,13 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (interval == 0 || interval_radps > speed->impossible_radps) {
         return false;
     }
-    /* the alternative is a whole turn later: four quarters late, or (order reversed) two */
+    /* the alternative is that the pulse came a whole turn later: by four quarters, or by two if the order is
+     * reversed */
     const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
-        /* one gap keeps the speed; a second successive one shows that it was wrong */
+        /* after one gap the speed stays; a second gap in succession shows that the speed was wrong */
         speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         begin(speed, sensor);

@@ -3,8 +3,8 @@
  *     IDLE --arm--> ARMED --start--> RUNNING --done, stop--> STOPPING --rested--> IDLE
  *       \_____________\________________\_______trip___________/--> TRIPPED --clear--> IDLE
  *
- * The motor moves only after `arm` and then `start`. One table has every pair of state and event; a test checks all.
- * Further conditions of an event (a supply, a rig at rest) are in rig.c, with the refusals listed here. */
+ * The motor moves only after `arm` and then `start`. One table has every pair of state and event. Further conditions of
+ * an event (supply in range, rig at rest) are tested in rig.c; their refusals are listed here. */
 #ifndef WH_RIG_STATE_MACHINE_H
 #define WH_RIG_STATE_MACHINE_H
 
@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/* X(name, words) */
+/* The states: X(name, words) */
 #define WH_RIG_STATE_ROWS(X) \
     X(WH_RIG_IDLE, "idle")         /* motor off; the rotor is watched */ \
     X(WH_RIG_ARMED, "armed")       /* motor off; `start` is allowed, for a minute */ \
@@ -22,7 +22,7 @@ extern "C" {
     X(WH_RIG_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
     X(WH_RIG_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 
-/* X(name, words): orders from outside, then the rig's own findings. */
+/* X(name, words): first the orders from outside, then the rig's own events. */
 #define WH_EVENT_ROWS(X) \
     X(WH_EVENT_ARM, "arm") \
     X(WH_EVENT_START, "start")         /* value: set-point, rad/s */ \
@@ -35,7 +35,7 @@ extern "C" {
     X(WH_EVENT_EXPIRED, "expired")     /* armed for too long */ \
     X(WH_EVENT_TRIP, "trip")           /* the guard has a reason to stop */
 
-/* X(name, number, words): numbers are for consoles and records, and never change. */
+/* Refusals: X(name, number, words). Numbers are for consoles and records, and never change. */
 #define WH_REFUSAL_ROWS(X) \
     X(WH_ALLOWED, 0, "done") \
     X(WH_REFUSED_NOT_ARMED, 1, "the rig is not armed") \
@@ -57,7 +57,7 @@ extern "C" {
     X(WH_REFUSED_QUEUE, 16, "too many orders at once") \
     X(WH_REFUSED_EVENT, 17, "there is no such order")
 
-/* How the last run ended, until the next start: X(name, words). */
+/* How the last run ended: X(name, words). Reset at the next start. */
 #define WH_END_ROWS(X) \
     X(WH_END_NONE, "none") /* no run since the reset, or it is in progress */ \
     X(WH_END_DONE, "done") /* the record is measured */ \
@@ -92,7 +92,7 @@ typedef struct wh_rig_transition {
 /* Look up the table. An unknown event or state is refused. */
 wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event);
 
-/* In words, for consoles, by wh_text_add(). */
+/* The words for consoles, for wh_text_add(). */
 const char *wh_rig_state_text(wh_rig_state state);
 const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);

@@ -1,4 +1,4 @@
-/* swing_guess.c: the first guess of a free swing, from its pulses' times alone. */
+/* swing_guess.c: the first guess of a free swing, from the times of its pulses alone. */
 #include "free_swing.h"
 
 #include "core/root.h"
@@ -6,8 +6,8 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* sin(A/2) from the ratio of half a swing's time to that of a small one, 2/pi K(sin(A/2)). The table has A = 0, 30, ...
- * 120, 150, 165, 175 deg. */
+/* sin(A/2) from the time of half a swing, divided by that of a small swing: this ratio is 2/pi K(sin(A/2)). The table
+ * has A = 0, 30, ... 120, 150, 165, 175 deg. */
 static wh_real sine_of_time(wh_real time) {
     static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
                                     WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
@@ -22,7 +22,7 @@ static wh_real sine_of_time(wh_real time) {
     return WH_R(1.0);
 }
 
-/* sqrt(g) from the last swings: the second shortest period, or the only one. */
+/* sqrt(g) from the period of the last swings: the second shortest, or the only one. */
 static wh_real guess_root(const wh_swing *swing) {
     wh_real shortest_s = WH_R(100.0);
     wh_real second_s = WH_R(100.0);
@@ -36,7 +36,7 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* the more swings, the smaller they are */
+    /* the last swings are smaller if there were more of them */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
@@ -72,7 +72,7 @@ void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing) {
     }
 }
 
-/* The mean of sin^2(q/2) from 0 to 90 deg, times 4. */
+/* Four times the mean of sin^2(q/2) from 0 to 90 deg. */
 #define FALLEN WH_R(0.727)
 
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
@@ -83,7 +83,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     const wh_real time = first_time(swing, root);
     wh_real sine = sine_of_time(time);
     sine = sine > WH_R(0.4) ? sine : WH_R(0.4);
-    if (first > 0 && swing->kept_sensor[first - 1U] == 1U) { /* it has fallen from sensor 2 */
+    if (first > 0 && swing->kept_sensor[first - 1U] == 1U) { /* the rotor fell from sensor 2 */
         const wh_real mean_radps =
             WH_R(0.25) * WH_RIG_TWO_PI /
             wh_rig_since_s(swing->kept_ticks[first - 1U], swing->kept_ticks[first]);
@@ -96,7 +96,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_SWING_RATE] = WH_R(-2.0) * root * sine;
     x[WH_SWING_GRAVITY] = gravity;
-    /* a swing loses 2 f/g on either side, over its half swings; A is some 2.3 sin(A/2) */
+    /* each half swing, of 2 passed + 1, reduces the amplitude by 2 f/g; A is about 2.3 sin(A/2) */
     x[WH_SWING_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_SWING_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_SWING_Q] =

@@ -1,17 +1,17 @@
-/* turn_angle.c: the rotor's angle within a turn, from the two sensors' marks and the rotor's lag. */
+/* turn_angle.c: the rotor's angle within a turn, from the two sensors' pulses and the rotor's equation of motion. */
 #include "turn_angle.h"
 
 #include "core/root.h"
 #include "datasheet.h"
 #include "polar.h"
 
-/* Beyond this the series is invalid: the rotor hardly gets over the top. */
+/* Largest E for which the series is valid: above it the rotor hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)
 
-/* Least derivative of the split with respect to the swing for an estimate. */
+/* Least derivative of the quadrature ratio with respect to E for an estimate. */
 #define SLOPE_LEAST WH_R(0.15)
 
-/* The first splits correct an inertia with a large error, by Newton's method; later ones are averaged. */
+/* The first quadrature ratios correct an inertia with a large error, by Newton's method; later ones are averaged. */
 #define SPLITS_TO_FIND 3U
 
 /* Limits value to -most ... most; NaN gives most. */
@@ -24,7 +24,7 @@ static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
-/* The swing's addition to base + phi at the angle u, given its sine and cosine. */
+/* The ripple's addition to base + phi at the angle u, given the sine and cosine of u. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
     return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
@@ -45,7 +45,7 @@ void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) 
     }
 }
 
-/* The wave of twice the angle from a carriage that yields. */
+/* The term of twice the angle, for a carriage that moves. */
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
@@ -64,8 +64,9 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* A motor that cannot brake as much as commanded leaves a pulse of gravity's torque: S g (-sin(theta - gamma) - k) if
- * that is positive, which contains twice the angle. k is the torque at standstill of the drive's own voltage, over S g. */
+/* If a motor cannot brake as much as commanded, a part of gravity's torque remains: S g (-sin(theta - gamma) - k) where
+ * that is positive. Its Fourier series has a term of twice the angle. k is the standstill torque at the drive's own
+ * voltage, divided by S g. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->held_V * angle->stall_Nm_per_V;
@@ -95,7 +96,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
     angle->swing_rad = within(angle->part * angle->whole_rad, SWING_MOST);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
-    /* the arc sine to 1e-4 below 0.5 */
+    /* the arc sine: error up to 1e-4 below 0.5 */
     angle->lag_rad =
         sine *
         (WH_R(1.0) + square * (WH_R(0.16666667) + square * (WH_R(0.075) + square * WH_R(0.0446))));
@@ -108,7 +109,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
 }
 
 WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
-    /* base plus the addition at the begin is the mark's angle, and u there is base + psi - gamma */
+    /* base plus the ripple's addition at the begin of the turn is the pulse's angle; u is then base + psi - gamma */
     const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
         const wh_wave u = wh_wave_of(angle->begin_rad);
@@ -140,7 +141,7 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 }
 #endif
 
-/* Computes the split from u's sine and cosine at the turn's begin and at the split. */
+/* Computes the quadrature ratio from the sines and cosines of u at the begin of the turn and at sensor 2's pulse. */
 WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
                            wh_wave from, wh_wave to) {
     const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
@@ -152,14 +153,14 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* derivative with respect to the swing, with the lag that follows from the inertia: d psi = tan psi dE / E */
+    /* derivative with respect to E, including that of psi, which depends on the inertia: d psi = tan psi dE / E */
     const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(split_per_swing) > SLOPE_LEAST)) {
-        /* for too light a rotor the lag reverses the split's change: Newton's method converges from a heavier one. With
-         * gravity along a diagonal, the split does not depend on the rotor. */
+        /* For a rotor that is too light, psi reverses the ratio's dependence on the inertia: Newton's method converges
+         * if it starts from a heavier rotor. With gravity along a diagonal, the ratio does not depend on the rotor. */
         if (!angle->fed && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }
@@ -178,7 +179,7 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
             WH_R(1.0));
         return off;
     }
-    /* d ln E / d ln I = -cos^2 psi; within a factor of two, for any mark */
+    /* d ln E / d ln I = -cos^2 psi; the change is limited to a factor of two, whatever the pulse */
     const wh_real change = within(-off / (split_per_swing * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;

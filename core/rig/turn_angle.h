@@ -1,6 +1,7 @@
-/* turn_angle.h: the rotor's angle within a turn, from the two sensors' marks and the rotor's lag.
+/* turn_angle.h: the rotor's angle within a turn, from the two sensors' pulses and the rotor's equation of motion.
  *
- * Arms in a vertical plane do not turn evenly. With phi rising evenly and u = phi + psi - gamma,
+ * Arms in a vertical plane do not turn at a constant speed. With phi rising at a constant rate and u = phi + psi -
+ * gamma,
  *
  *     theta = base + phi + E [sin u + (E/8) sin(2u - psi/2)]
  *
@@ -9,24 +10,24 @@
  *     E = S g / (omega sqrt(I^2 omega^2 + c^2))      sin psi = c / sqrt(I^2 omega^2 + c^2)
  *
  * S is the sum of mass times radius, gamma the direction of gravity, c the slope of the motor's torque line with the
- * bearings' drag, I the rotor's inertia. An even angle (E = 0) gives errors of 2.6 % and 2.0 degrees of the force at
- * 170 rpm. I is estimated, not configured: sensor 2's mark splits a turn, which gives E, thus I. c is assumed, because
- * the split does not show it.
+ * bearings' drag, I the rotor's inertia. Without the ripple term (E = 0) the force has errors of 2.6 % and 2.0 degrees
+ * at 170 rpm. I is estimated, not configured. The quadrature ratio, the part of a turn's time before sensor 2's pulse,
+ * gives E and thus I. It does not show c, so c is assumed.
  *
- * If gravity is fed forward (gravity_compensation.h), a part of it remains, of either sign: E is that part of the above. The split then
- * gives the part, and I stays at its last estimate. The motor's voltage cannot go below 0, so a motor cannot remove
- * more torque than the drive's own voltage gives. If that is less than S g, the feed is cut off, and the remaining
- * torque is no sine.
+ * With gravity compensation (gravity_compensation.h) a part of gravity remains, of either sign, and E is reduced to
+ * that part. The quadrature ratio then gives the part, and I stays at its last estimate. The motor's voltage cannot go
+ * below 0, so the compensation cannot remove more torque than the drive's own voltage gives. If that is less than S g,
+ * the compensation is clipped, and the remaining torque is no sine.
  *
- * A carriage of mass M moves along theta = 0. The arms, of mass m, then have the less inertia the more they are across:
- * I - D sin^2 theta, with D = S^2/(M + m) at most. They speed up twice a turn, and to the first order theta has the
- * further term
+ * A carriage of mass M moves along theta = 0. The arms have the mass m. Their effective inertia is I - D sin^2 theta,
+ * with D = S^2/(M + m) at most, and least when they are across the rail. So they speed up twice a turn. To the first
+ * order theta has the further term
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
- * The sensors' marks do not show it: the user gives D and I. The arms must turn in a level plane, because the
- * interaction of gravity's swing with this wave is neglected. On a carriage three times as heavy as the arms an even angle makes
- * the force 0.9 % too large, and its phase error is 0.11 degrees. */
+ * The sensors' pulses do not show this term: the user gives D and I. The arms must turn in a level plane, because
+ * products of gravity's ripple with this term are neglected. On a carriage three times as heavy as the arms, the force
+ * without this term is 0.9 % too large, and its phase error is 0.11 degrees. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
@@ -36,8 +37,8 @@
 extern "C" {
 #endif
 
-/* 1 on a chip whose float product takes 200 cycles. A control step then does one half node, and work that is one piece
- * elsewhere is split over several steps without a sample. The results are the same. */
+/* 1 on a chip whose float product takes 200 cycles. A control step then does one half node of a turn's sums, and work
+ * that is one piece elsewhere is spread over several steps without a sample. The results are the same. */
 #ifndef WH_RIG_SMALL_PIECES
 #define WH_RIG_SMALL_PIECES 0
 #endif
@@ -48,11 +49,12 @@ typedef struct wh_rotor_config {
     wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
     wh_real damping_Nms;       /* c */
     wh_real damping_tolerance; /* relative error of c, at 95 % */
-    wh_real fed_tolerance_rad; /* error of the angle at which gravity is fed, at 95 % */
-    wh_real inertia_kgm2;      /* initial inertia */
-    wh_real mark_rad[2];       /* angle theta of the arms at a pulse of each sensor */
-    wh_real yields_kgm2;       /* D, only without gravity; 0: the mount is fixed */
-    wh_real yields_tolerance;  /* relative error of D or I, at 95 % */
+    /* error of the angle that the gravity compensation uses, rad, at 95 % */
+    wh_real fed_tolerance_rad;
+    wh_real inertia_kgm2;     /* inertia before the first estimate */
+    wh_real mark_rad[2];      /* angle theta of the arms at a pulse of each sensor */
+    wh_real yields_kgm2;      /* D, only without gravity; 0: the mount is fixed */
+    wh_real yields_tolerance; /* relative error of D or I, at 95 % */
 } wh_rotor_config;
 
 #define WH_TURN_ANGLE_PATIENCE 32U /* turns over which the inertia is averaged */
@@ -60,25 +62,30 @@ typedef struct wh_rotor_config {
 typedef struct wh_turn_angle {
     wh_real inertia_kgm2; /* present estimate of the inertia */
     bool fed;
-    wh_real stall_Nm_per_V; /* the motor's torque per volt at standstill, while fed */
-    wh_real held_V;         /* the drive's voltage without the feed; the caller updates it */
-    wh_real part;           /* estimated part of gravity that remains: 1 without feed */
-    uint32_t splits;        /* number of turns in the estimate of inertia or part */
-    wh_real whole_rad;      /* E of the whole gravity */
-    wh_real cut;            /* part of S g that a motor with feed cannot brake */
-    wh_real swing_rad;      /* E */
-    wh_real lag_rad;        /* psi */
-    wh_real begin_rad;      /* u at the turn's begin */
+    /* with gravity compensation: the motor's torque per volt at standstill */
+    wh_real stall_Nm_per_V;
+    /* the drive's voltage without the compensation; the caller updates it */
+    wh_real held_V;
+    wh_real part;      /* estimated part of gravity that remains: 1 without compensation */
+    uint32_t splits;   /* number of turns in the estimate of inertia or part */
+    wh_real whole_rad; /* E of the whole gravity, without compensation */
+    /* part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0 */
+    wh_real cut;
+    wh_real swing_rad; /* E: ripple of the angle, rad */
+    wh_real lag_rad;   /* psi */
+    wh_real begin_rad; /* u at the begin of the turn */
     wh_real base_rad;
-    wh_real twice_rad;   /* A */
+    wh_real twice_rad;   /* A, rad */
     wh_real second_sine; /* coefficients of sin 2u and cos 2u */
     wh_real second_cosine;
-    wh_real base_per_split; /* derivative of base_rad with respect to the split, with its lag */
-    wh_real base_per_lag;   /* derivative of base_rad with respect to the lag at a fixed split */
-    /* derivative with respect to a swing a quarter turn after E, which the split attributes to E */
+    /* derivative of base_rad with respect to the quadrature ratio, psi included */
+    wh_real base_per_split;
+    /* derivative of base_rad with respect to psi at a fixed quadrature ratio */
+    wh_real base_per_lag;
+    /* derivative with respect to a ripple a quarter turn after E, which the estimate from the ratio takes for E */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
-    wh_wave split_from; /* sine and cosine of u at the turn's begin and at the split */
+    wh_wave split_from; /* sine and cosine of u at the begin of the turn and at sensor 2's pulse */
     wh_wave split_to;
 #endif
 } wh_turn_angle;
@@ -95,12 +102,12 @@ typedef struct wh_turn_angle {
 /* Forget the estimates. */
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
-/* Tells whether gravity is fed forward from now on. After a change, gravity's remaining part is estimated again, and the
- * inertia stays. stall_Nm_per_V > 0: the motor's torque at standstill per volt. */
+/* Switches gravity compensation on or off in the model. After a change, gravity's remaining part is estimated again,
+ * and the inertia stays. stall_Nm_per_V > 0: the motor's torque at standstill per volt. */
 void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
 
-/* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded; each
- * call improves begin_rad, and little remains to improve from turn to turn. */
+/* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded: each
+ * call does one iteration for begin_rad, which converges over a few turns. */
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
 #if WH_RIG_SMALL_PIECES
@@ -110,12 +117,13 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
                                wh_real speed_radps, unsigned piece);
 #endif
 
-/* Sensor 2's mark came after the part `split` (0 to 1) of the turn's time: correct the inertia, or the remaining part
- * of gravity. The shape must be that of this turn's speed. Returns the mark's error, rad. */
+/* Corrects the inertia, or the remaining part of gravity, from the quadrature ratio `split` (0 to 1): sensor 2's pulse
+ * came after this part of the turn's time. The shape must be that of this turn's speed. Returns the error of the angle
+ * at that pulse, rad. */
 wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split);
 
 #if WH_RIG_SMALL_PIECES
-/* wh_turn_angle_split() in two pieces: first the waves, then the correction. */
+/* wh_turn_angle_split() in two pieces: first the sines, then the correction. */
 void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split);
 wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
                                  wh_real split);
