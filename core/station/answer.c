@@ -5,7 +5,7 @@
 
 /* --- answers ----------------------------------------------------------------------------------------- */
 
-/* Adds words with `blank` in place of blanks: words without blanks may be list items. */
+/* Adds words with `blank` in place of blanks, so that a list item of several words is one word. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
@@ -15,7 +15,8 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Seven significant digits: a float has no more, and nine can be typed (line.h). */
+/* Adds a number with seven significant digits: a float has no more. The text can be typed (line.h reads nine
+ * digits). */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
     wh_real size = WH_ABS(number);
@@ -65,7 +66,7 @@ unsigned wh_list_find(const char *list, const char *word) {
     const char part = wh_word_at(list);
     unsigned number = 0;
     for (char next = part; next == part; number++) {
-        const char *at = word; /* up to the first difference; or NULL */
+        const char *at = word; /* NULL after the first difference */
         for (next = wh_word_at(++list); next != '\0' && next != part; next = wh_word_at(++list)) {
             at = at != NULL && wh_word_at(at) == next ? at + 1 : NULL;
         }

@@ -1,4 +1,5 @@
-/* answer.h: formatting of the console's answers, "OK name=value name=value: words"; and lists of words. */
+/* answer.h: formatting of the console's answers, "OK name=value name=value: words"; and lists of words in one
+ * string. */
 #ifndef WH_STATION_ANSWER_H
 #define WH_STATION_ANSWER_H
 
@@ -18,7 +19,7 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* All words may stay in flash (core/number/flash.h), except the one that is searched for. */
+/* All these texts may stay in flash (core/number/flash.h), except the word to search for. */
 
 /* Add a form to the text. An @ and a letter or digit stand for the next value:
  *
@@ -26,7 +27,7 @@ typedef union wh_value {
  *     @s           words
  *     @c           a count
  *     @x           a count in eight hexadecimal digits
- *     @g           good or bad: a count of 1 or 0
+ *     @g           the word good or bad, for a count of 1 or 0
  *     @0 ... @9    a number with this many decimals
  *     @e           a number to the seventh digit, as it can be typed, without trailing zeros */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);

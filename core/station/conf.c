@@ -27,7 +27,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Least damping, as a share of the slope of the motor's line: a measured damping may have an error. */
+/* Least damping, as a share of the slope of the motor's torque line: a measured damping may be too small. */
 #define LINE_PART WH_R(0.9)
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
@@ -113,7 +113,7 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     }
 }
 
-/* --- its range ---------------------------------------------------------------------------------------- */
+/* --- range of a setting ---------------------------------------------------------------------------------------- */
 
 /* The value as memory stores it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
@@ -176,7 +176,7 @@ static bool has_motor(const wh_conf *conf) {
 static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
                                    WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
 
-/* The program's own configuration, with this motor. */
+/* Sets the program's own configuration, scaled to the motor of the settings. */
 static void begin_with_motor(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     conf->own(c);
@@ -204,8 +204,8 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if the motor lifts the arms, reaches the largest set-point at its rated voltage, and has at least the damping of
- * its own line. */
+/* True if the motor can lift the arms, reaches the largest set-point at its rated voltage, and the damping is at least
+ * that of its torque line. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -224,7 +224,7 @@ static bool motor_goes(const wh_conf *conf) {
            value[WH_CONF_damping] >= LINE_PART * line_Nms;
 }
 
-/* Different settings have different hashes. */
+/* A hash of the settings. Different settings have different hashes. */
 static uint32_t hash(const wh_conf *conf) {
     uint32_t crc = 0;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -276,7 +276,7 @@ static bool renew(wh_conf *conf) {
     return true;
 }
 
-/* --- setting one --------------------------------------------------------------------------------------- */
+/* --- changing one setting --------------------------------------------------------------------------------------- */
 
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];
@@ -296,7 +296,8 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     return WH_STATION_FINE;
 }
 
-/* --- words ------------------------------------------------------------------------------------------------ */
+/* --- settings as words
+ * ------------------------------------------------------------------------------------------------ */
 
 static bool is_choice(wh_conf_id id) { return ROW(id)->kind >= WH_CONF_SWITCH; }
 
@@ -316,7 +317,7 @@ wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
     return known ? wh_conf_set(conf, id, value) : WH_STATION_CONF_VALUE;
 }
 
-/* --- all of them ------------------------------------------------------------------------------------------- */
+/* --- all settings ------------------------------------------------------------------------------------------- */
 
 void wh_conf_default(wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -346,7 +347,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* Sets the program's own values of settings that stand for several members. */
+/* Gives each setting that changes several members the value of the program's own configuration. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];

@@ -1,8 +1,9 @@
 /* conf.h: the rig's settings as named numbers. One table (conf_rows.h) gives their ranges, their places in the rig's
  * configuration and their numbers in permanent memory.
  *
- * A setting that is not set equals the program's own configuration, to the bit. Only set ones are stored, with their
- * numbers: another version of the program takes those it knows, and its own values for the others. */
+ * A setting that the user has not set has the value of the program's own configuration, with the same bits. Only the
+ * settings that were set are stored, with their numbers. So another version of the program reads the settings that it
+ * knows, and takes its own values for the others. */
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 
@@ -26,7 +27,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* The effect of a setting, alone or with others, on the configuration. */
+/* Which part of the configuration a setting changes, alone or together with others. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -73,37 +74,38 @@ typedef struct wh_conf {
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-/* *room is for the row if constants stay in flash (core/number/flash.h). */
+/* The row of a setting. *room is memory for the row if constants stay in flash (core/number/flash.h). */
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
 /* The setting with this name, or WH_CONF_COUNT. */
 wh_conf_id wh_conf_find(const char *name);
 
-/* The setting's name; its values and unit in words, items of lists (answer.h); and its description. */
+/* The setting's name; its values and its unit in words, as items of lists (answer.h); and its description. */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);
 const char *wh_conf_words(wh_conf_id id);
 
-/* Set a setting: to a value in its unit (for a choice its number), or from typed text. The configuration follows, unless
- * the value is refused. Only while the rig is idle. */
+/* Set a setting: to a value in its unit (for a choice its number), or from typed text. Updates the configuration,
+ * unless the value is refused. Call it only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 
-/* Reset all settings to their defaults. The saved ones stay. */
+/* Reset all settings to their defaults. The settings in memory stay. */
 void wh_conf_default(wh_conf *conf);
 
-/* Save to memory. Takes as long as the memory does (hal/settings.h). */
+/* Save to memory. Takes as long as the memory needs (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
 
-/* A choice's word for a value, from a list (answer.h); NULL for a number. */
+/* The word for a value of a choice, from a list (answer.h); NULL for a number. */
 const char *wh_conf_text(wh_conf_id id, wh_real value);
 
 /* === the console's command `conf` ============================================================ */
 
 #define wh_conf_answer WH_NAME(wh_conf_answer)
 
-/* Answer the words after `conf` into *answer, which is empty; or return the error. `idle`: settings may change. */
+/* Executes `conf` with the words after it. Writes the answer into *answer, which must be empty, or returns the error.
+ * `idle`: settings may change. */
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer);
 
 #ifdef __cplusplus

@@ -19,7 +19,8 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number): `number` of these units are one of the configuration's own; then the configuration's own units. */
+/* X(unit, word, number). First the units that need a conversion: `number` of them are one unit of the configuration.
+ * Then the units of the configuration itself. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 #define WH_LINE_MOST 79U /* characters of a line */
-#define WH_LINE_WORDS 4U /* stored words; more are counted */
+#define WH_LINE_WORDS 4U /* most words that are stored; further words are only counted */
 
 typedef enum wh_line_event {
     WH_LINE_NOTHING,
@@ -18,12 +18,12 @@ typedef enum wh_line_event {
     WH_LINE_ESCAPE /* the Escape key; typed characters are dropped */
 } wh_line_event;
 
-/* All zeros: nothing typed. */
+/* The state of the line editor. All zeros: nothing typed. */
 typedef struct wh_line {
     bool ended;    /* the next byte begins a line */
     bool returned; /* the last byte was a carriage return: a line feed then does not count */
     bool bad;
-    uint8_t key; /* state in the sequence of a special key, which begins with Escape */
+    uint8_t key; /* position in the byte sequence of a special key, which begins with Escape */
     unsigned length;
     char text[WH_LINE_MOST + 1U];
 } wh_line;
@@ -40,7 +40,7 @@ typedef struct wh_words {
 /* Process a byte. Lines end with carriage return, line feed or both; backspace and delete remove the last character. */
 wh_line_event wh_line_take(wh_line *line, char byte);
 
-/* Split a line at blanks and tabulators. Writes the words' ends into the text. */
+/* Split a line at blanks and tabulators. Writes a NUL after each word into the text. */
 void wh_line_split(wh_words *words, char *text);
 
 /* Convert "330", "-3.5", ".5": a sign, digits, a point, digits; at most nine digits. Returns false for other text. */

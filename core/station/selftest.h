@@ -11,17 +11,17 @@ extern "C" {
 
 #define wh_selftest_answer WH_NAME(wh_selftest_answer)
 
-/* "OK selftest=good|bad", then each part, as of the last control step:
+/* Answers "OK selftest=good|bad", then the result of each part, from the values of the last control step:
  *
- *   arithmetic  of the observer's scene, if there is one, is that of the tests (core/number/arithmetic.h)
- *   clock       not its fallback
+ *   arithmetic  of the observer's scene, if there is one, gives the reference results (core/number/arithmetic.h)
+ *   clock       is not the fallback clock
  *   watchdog    has not cut the drive
  *   supply      within its range
  *   cell        gives good samples, and the last one lies within half of its range
  *   stop        not pressed
  *   rotor       rests
  *   swing       the last free swing found sensor 1 where the settings have it; or `none`, which counts as good
- */
+ * */
 void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_step_inputs *seen,
                         wh_text *answer);
 

@@ -7,12 +7,13 @@
 #include "telemetry.h"
 
 #define RPM_PER_RADPS (WH_R(1.0) / WH_RIG_RADPS_PER_RPM)
-/* `measure` takes up to 380, with the longest reason against a result. */
+/* `measure` needs up to 380 characters, with the longest reason for a refused result. */
 #define ANSWER_BYTES 400U
 #define END_BYTES 2U /* "\r\n" */
 #define ESCAPE_KEY '\x1b'
 #define HOST_MOST_S WH_R(3600.0)
-#define DIALOGUE 1U /* a program at the other end finds it by `id` */
+/* version of the protocol, in the answer to `id`: a program at the other end recognizes the console by it */
+#define DIALOGUE 1U
 
 typedef struct request {
     wh_station *station;
@@ -38,7 +39,7 @@ static void send(request *r) {
     text->truncated = false;
 }
 
-/* `why`: 0, or a wh_refusal or wh_station_error. */
+/* Sends the answer, or the refusal `why`: 0, a wh_refusal or a wh_station_error. */
 static void send_answer(request *r, unsigned why) {
     if (why != 0) {
         wh_answer_refused(&r->answer, why);
@@ -52,7 +53,7 @@ static void send_answer(request *r, unsigned why) {
 
 /* --- commands -------------------------------------------------------------------------------------- */
 
-/* Each of these returns the reason for refusal, or 0. */
+/* Each function of a command returns the reason for its refusal, or 0. */
 
 /* Posts an order. The answer follows when the rig has one. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
@@ -82,7 +83,8 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Without wh_station_see() there is no clock: ages end at the last step with the motor off. */
+/* The time of the last step. Without wh_station_see() it is unknown: the ages in answers then end at the last step with
+ * the motor off. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -92,7 +94,7 @@ static bool is_outdated(const request *r) {
     return r->station->conf != NULL && r->rig->settings != r->station->conf->config->settings;
 }
 
-/* The verdict is valid for the settings of its measurement. */
+/* The quality and reason of the result, which are valid for the settings at its measurement. */
 static const char *verdict(const request *r) {
     return !r->rig->has_result ? "none"
            : is_outdated(r)    ? "outdated"
@@ -315,7 +317,7 @@ static void tell_stage(request *r) {
     send(r);
 }
 
-/* True if the giver of orders has just been silent for too long: the rig is informed once. */
+/* True in the step in which the host has been silent for too long: the rig is informed only once. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
     const uint32_t host_steps = station->host_told ? station->host_steps
                                 : station->config != NULL
@@ -348,7 +350,7 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     }
 }
 
-/* Losing one byte could change "start 330" to "start 30". So an incomplete line is changed to one that is refused. */
+/* A lost byte could change "start 330" to "start 30". So a line with a lost byte is replaced by one that is refused. */
 static void take_byte(wh_station *station, char byte) {
     static const char spoilt[] = {'\1', '\n'};
     if (byte == ESCAPE_KEY) {
@@ -366,7 +368,8 @@ static void take_byte(wh_station *station, char byte) {
 
 void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
-        station->silent_steps = bytes[i] != 0 ? 0 : station->silent_steps; /* a zero is noise */
+        /* a zero is noise, not a byte from a host */
+        station->silent_steps = bytes[i] != 0 ? 0 : station->silent_steps;
         take_byte(station, bytes[i]);
     }
 }
@@ -392,7 +395,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* the next answer is the order's: the queue never holds two */
+        return; /* the next answer belongs to the order: at most one order waits */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {
@@ -405,7 +408,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         }
         wh_line_split(&r.words, station->line.text);
         if (event == WH_LINE_WHOLE && r.words.count == 0) {
-            return; /* nothing was asked */
+            return; /* no order waits for its answer */
         }
         why = event == WH_LINE_BAD ? WH_STATION_LINE : run(&r);
     }

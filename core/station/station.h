@@ -3,17 +3,17 @@
  *     OK name=value name=value: words         ERR number words
  *
  * For a person at any terminal, and for a program at the other end of a serial line. It never waits: bytes go through
- * rings. An answer without room, because its reader is slow, is dropped as a whole and counted.
+ * rings. If the reader is slow and the ring has no room for an answer, the whole answer is dropped and counted.
  *
  *     every control step, after wh_rig_step() and the motor's command:
- *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, if there is one
- *         wh_station_take(&station, bytes, count)         the bytes that came
+ *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, if compiled in
+ *         wh_station_take(&station, bytes, count)         the received bytes
  *         wh_station_step(&station, &rig)                 at most the work of one line
  *         count = wh_station_peek(&station, bytes, room)  bytes to send: the console takes some,
  *         wh_station_drop(&station, taken)                and those are removed
  *
- * wh_rig_post() passes orders to the rig; their outcome is the answer. The Escape key means `stop`, before all waiting
- * input. */
+ * wh_rig_post() passes orders to the rig; their outcome is the answer. The Escape key acts as `stop`, before all
+ * waiting input. */
 #ifndef WH_STATION_STATION_H
 #define WH_STATION_STATION_H
 
@@ -29,10 +29,10 @@
 extern "C" {
 #endif
 
-/* Literals of the commands' arguments. */
+/* The argument texts of commands, for their rows below. */
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
-/* X(name, most words after it, arguments, words) */
+/* The commands: X(name, most words after it, arguments, words) */
 #define WH_COMMAND_ROWS(X) \
     X(help, 1, " [COMMAND]", "the commands, or what one does") \
     X(id, 0, "", "program, board, version of this dialogue") \
@@ -52,12 +52,12 @@ extern "C" {
       "the setting host, until a reset: a run ends when nothing is heard for so long") \
     X(talk, 1, " on|off", "echo what is typed, tell of each new state")
 
-/* 0, possible in a small chip's build: station->tel stays NULL, and no telemetry is linked. */
+/* 0 (possible in a small chip's build): station->tel stays NULL, and no telemetry is linked. */
 #ifndef WH_STATION_TELEMETRY
 #define WH_STATION_TELEMETRY 1
 #endif
 
-/* Room for bytes waiting to be read, and for bytes to be sent, of which half are the console's own. */
+/* Sizes of the rings for received bytes and for bytes to send. Half of the latter is the console's own. */
 #ifndef WH_STATION_IN_BYTES
 #define WH_STATION_IN_BYTES 256U
 #endif
@@ -65,10 +65,11 @@ extern "C" {
 #define WH_STATION_OUT_BYTES 1024U
 #endif
 
-/* Must not be moved in memory once started. Large members come last: instructions for near ones are shorter. */
+/* Must not be moved in memory once started. Large members come last, because instructions for members near the begin
+ * are shorter. */
 typedef struct wh_station {
     bool talks;
-    bool escaped;        /* stop, before anything else */
+    bool escaped;        /* Escape was received: stop, before anything else */
     bool spoils;         /* bytes were lost: the line is invalid to its end */
     bool waits;          /* the console waits for the outcome of an order */
     uint32_t answers;    /* rig->answers when the order was given */
@@ -76,10 +77,10 @@ typedef struct wh_station {
     const char *board;
     wh_conf *conf;               /* NULL: no settings */
     wh_tel *tel;                 /* NULL: no telemetry */
-    const wh_rig_config *config; /* configuration in the last step */
+    const wh_rig_config *config; /* configuration of the last step */
     const wh_step_inputs *seen;  /* observations of the last step */
     uint32_t steps_per_s;        /* calls of wh_station_step() per second */
-    unsigned stage;              /* as last reported */
+    unsigned stage;              /* the stage as last reported */
     uint32_t lost_bytes;         /* received bytes lost for lack of room */
     uint32_t lost_answers;       /* answers lost for lack of room */
     bool host_told;              /* the command `host` was given: it overrides the setting */
@@ -98,21 +99,21 @@ typedef struct wh_station {
 #define wh_station_see WH_NAME(wh_station_see)
 #define wh_station_step WH_NAME(wh_station_step)
 
-/* `steps_per_s`: the rate of wh_station_step(). No host is watched at first. The caller sets the other parts (conf,
- * tel) afterwards. */
+/* `steps_per_s`: the rate of wh_station_step(). At first no host is expected, so none can be lost. The caller sets conf
+ * and tel afterwards. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
 /* Take received bytes. Looks for Escape at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* Show the last control step's observations, which must stay unchanged until the next. Telemetry takes none of the
- * console's room. */
+/* Give telemetry and self-test the last control step's observations, which must stay unchanged until the next step.
+ * Telemetry takes none of the console's room. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_step_inputs *seen);
 
-/* Execute the oldest line, if the line before is answered. If the giver of orders has been silent for the time of
- * `host`, the rig gets WH_EVENT_HOST_LOST, once; the rig's configuration says what ends then. */
+/* Execute the oldest line, if the previous line is answered. If the host has been silent for the time set by `host`,
+ * the rig gets WH_EVENT_HOST_LOST, once; the rig's configuration decides about the run. */
 void wh_station_step(wh_station *station, wh_rig *rig);
 
 /* Copy the oldest bytes to send, at most `room`. Returns their number. */

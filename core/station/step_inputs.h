@@ -18,10 +18,10 @@ typedef struct wh_step_sample {
 
 typedef struct wh_step_inputs {
     wh_rig_inputs inputs;
-    bool pulsed; /* a pulse came in this step: the next two members */
+    bool pulsed; /* a pulse came in this step: the next two members are valid */
     unsigned sensor;
     uint32_t pulse_ticks;
-    bool ended; /* a pulse's end came in this step: the next two members */
+    bool ended; /* the end of a pulse came in this step: the next two members are valid */
     unsigned end_sensor;
     uint32_t end_ticks;
     unsigned samples; /* number of: */

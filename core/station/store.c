@@ -7,7 +7,7 @@
 #define HEAD_BYTES WH_STORE_HEAD_BYTES
 #define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of any bytes that end in their own CRC */
 
-/* Numbers of four bytes. */
+/* Reads a number of four bytes. */
 static uint32_t get(const uint8_t *bytes) {
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
@@ -19,8 +19,8 @@ static void put(uint8_t *bytes, uint32_t number) {
     bytes[3] = (uint8_t)(number >> 24);
 }
 
-/* Returns the sequence of a slot's record, or 0 if the record is not good; *length gets its length with head and CRC. It
- * reads in pieces, because there is no room for a second record. */
+/* Returns the sequence of a slot's record, or 0 if the record is not good; *length gets its length with head and CRC.
+ * The slot is read in pieces, because there is no memory for a second record. */
 static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned *length) {
     uint8_t bytes[HEAD_BYTES];
     uint32_t sequence = 0;

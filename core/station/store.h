@@ -1,12 +1,12 @@
-/* store.h: bytes that survive a power loss, in two slots: one always holds the last complete record.
+/* store.h: bytes that survive a power loss, in two slots, one of which always has the last complete record.
  *
- * A record goes into the slot without the newest one, so that a power failure during a write leaves the one before
+ * A record goes into the slot without the newest one, so that a power failure during a write leaves the previous record
  * intact. In a slot, multi-byte numbers are low byte first:
  *
  *     format 2 | bytes of the payload 2 | sequence 4 | payload | CRC-32 4
  *
- * The newest good one counts; sequences wrap, skipping 0. The memory may be flash, where an erase sets all bits and a
- * write only clears some. A slot is written front to back, once after each erase. */
+ * The newest record with a right CRC is the valid one. Sequence numbers wrap and skip 0. The memory may be flash, where
+ * an erase sets all bits and a write only clears some. A slot is written front to back, once after each erase. */
 #ifndef WH_STATION_STORE_H
 #define WH_STATION_STORE_H
 
@@ -40,7 +40,7 @@ typedef struct wh_store_memory {
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
 
 /* Write a record with a payload of `count` bytes, at most WH_STORE_PAYLOAD_MOST; this function adds the other fields.
- * It reads the record back. Returns its sequence; 0: the write failed, and the record before is intact. */
+ * It reads the record back. Returns its sequence number, or 0 if the write failed and the previous record is intact. */
 uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count);
 
 #ifdef __cplusplus

@@ -15,7 +15,7 @@
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
 #define NONE_16 0xFFFFU
 
-/* The destination and the source. */
+/* Where the bytes go, and the rig they describe. */
 typedef struct sight {
     wh_tel *tel;
     const wh_rig_config *config;
@@ -125,7 +125,7 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
     (void)send_frame(s, WH_TEL_EVENT);
 }
 
-/* The ring's frames are never dropped: they wait for room. */
+/* Sends the ring's frames. They are never dropped: they wait for room. */
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
@@ -195,7 +195,8 @@ static void take_sample(sight *s, const wh_step_sample *sample) {
     const uint32_t period = cell->period_ticks * tel->every;
     const uint32_t due = tel->first_ticks + tel->samples * period;
     if (load.ticks - due + period / 8U > period / 4U) {
-        send_run(s); /* sends the samples so far, because the next one is no neighbour */
+        /* sends the samples so far, because the next one does not follow them in time */
+        send_run(s);
     }
     if (tel->samples == 0) {
         tel->first_ticks = load.ticks;
@@ -210,7 +211,7 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* this frame is the first to be dropped if many pulses fill the line */
+    if (seen->ended) { /* the end of a pulse is dropped first if many pulses fill the line */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
                    2U * LINE_BYTES_OF(EVENT_BYTES); /* room for later data of this step */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
@@ -251,7 +252,7 @@ void wh_tel_rate(wh_tel *tel, uint32_t every) {
     tel->every = every;
     tel->passed = 0;
     tel->samples = 0;
-    tel->stage = NONE_16; /* to be reported again */
+    tel->stage = NONE_16; /* an impossible stage, so that the stage is reported again */
     tel->trip = NONE_16;
 }
 
@@ -319,7 +320,7 @@ void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_
     wh_captured *to = &capture->step[capture->next];
     if (capture->count == 0) {
         capture->first_ticks = now_ticks;
-    } else if (capture->count == WH_CAPTURE_STEPS) { /* the oldest makes room */
+    } else if (capture->count == WH_CAPTURE_STEPS) { /* the new step replaces the oldest */
         const uint16_t second = capture->step[(capture->next + 1U) % WH_CAPTURE_STEPS].ticks;
         capture->first_ticks += (uint16_t)(second - to->ticks);
     }
@@ -384,7 +385,7 @@ static void ring_told(const wh_tel *tel, wh_text *answer) {
 
 /* --- contents of a frame --------------------------------------------------------------------------------- */
 
-/* "load[N]:i2:scale:offset" */
+/* The load's part of the schema: "load[N]:i2:scale:offset". */
 static void add_load(const wh_cell_config *cell, wh_text *answer) {
     const wh_value offset[] = {{.number = -cell->offset_N}};
     wh_answer(answer, "load[N]:i2:", NULL);
@@ -440,7 +441,7 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
 
 /* --- settings ---------------------------------------------------------------------------------------------- */
 
-/* True if text has no room for so many samples per second. */
+/* True if the text format has no room for this many samples per second. */
 static bool is_too_fast(wh_tel_format format, uint32_t per_s) {
     return format != WH_TEL_FRAMES && per_s > WH_TEL_TEXT_PER_S_MOST;
 }
@@ -452,7 +453,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
     if (!wh_line_number(word, &wanted)) {
         return WH_STATION_TEL_RATE;
     }
-    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* at most nine digits */
+    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* the word has at most nine digits */
     if ((wh_real)(int32_t)wanted != wanted || per_s == 0 || per_s > most || most % per_s != 0 ||
         is_too_fast(tel->format, per_s)) {
         return WH_STATION_TEL_RATE;
@@ -479,7 +480,7 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
     return WH_STATION_FINE;
 }
 
-/* Sets another trigger, or starts `read`. */
+/* Sets the ring's trigger, or starts `read`. */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
     const unsigned what = wh_list_find(TRIGGERS "|"
                                                 "read",
@@ -497,7 +498,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-/* X(what, word): requests without and with a further word. */
+/* X(what, word): the requests, first those of one word, then those with an argument. */
 #define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \

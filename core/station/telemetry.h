@@ -4,10 +4,10 @@
  *
  *     0x80 + channel 1 | sequence 2 | dropped 2 | ticks 4 | payload | CRC-16/CCITT 2
  *
- * On the line it stands between two zeros. Text has no zeros, and its second byte is below 0x80. So the second byte
- * between two zeros distinguishes frames from text, and text can be shown as it comes. `sequence` counts the channel's
- * frames, including those dropped here for lack of room; `dropped` counts the dropped ones. The rest of a gap in the
- * sequence was lost on the line. Both wrap.
+ * On the line each frame is between two zeros. Text has no zeros, and its second byte is below 0x80. So the second byte
+ * between two zeros distinguishes frames from text, and a terminal can show the text directly. `sequence` counts the
+ * channel's frames, including those dropped here for lack of room; `dropped` counts the dropped ones. Other frames
+ * missing in the sequence were lost on the line. Both wrap.
  *
  * Channels describe themselves: WH_TEL_CHANNEL_ROWS, and `tel schema` at the console.
  *
@@ -16,7 +16,8 @@
  *   event  one event, at `ticks`: a slot pulse, another state, a trip
  *   ring   the stored control steps around a trigger (below), ten a frame
  *
- * It never waits and takes none of the console's room: frames without room of their own are dropped. Off at first. */
+ * Telemetry never waits, and takes none of the console's room: frames that do not fit its own part of the ring are
+ * dropped. It is off at first. */
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
@@ -34,7 +35,7 @@ extern "C" {
 /* === the control steps around a trigger ====================================================== */
 
 #define WH_CAPTURE_STEPS 192U /* 0.38 s at 500 Hz */
-#define WH_CAPTURE_BYTES 8U   /* of a step in a frame */
+#define WH_CAPTURE_BYTES 8U   /* bytes of one step in a frame */
 
 /* Triggers: X(trigger, word) */
 #define WH_CAPTURE_ROWS(X) \
@@ -52,7 +53,7 @@ typedef struct wh_captured {
     uint16_t ticks; /* low half of the step's time */
     int16_t load;   /* load in the units of telemetry */
     uint16_t drive_mV;
-    uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: it is the trigger; 8: tripped */
+    uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: this step is the trigger; 8: tripped */
     uint8_t stage;
 } wh_captured;
 
@@ -73,7 +74,7 @@ typedef enum wh_capture_state {
 typedef struct wh_capture {
     wh_capture_trigger trigger;
     wh_capture_state state;
-    unsigned left;        /* steps still to record after the trigger */
+    unsigned left;        /* number of steps still to record after the trigger */
     unsigned count;       /* number of stored steps */
     unsigned next;        /* index of the next stored step */
     uint32_t first_ticks; /* time of the oldest step, all 32 bits */
@@ -84,7 +85,7 @@ typedef struct wh_capture {
 #define wh_capture_step WH_NAME(wh_capture_step)
 #define wh_capture_at WH_NAME(wh_capture_at)
 
-/* Restart with this trigger. Triggers count once half of the ring is filled. */
+/* Restart with this trigger. Triggers are ignored until half of the ring is filled. */
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
 
 /* True if the capture records steps. */
@@ -92,8 +93,8 @@ WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
     return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
 }
 
-/* Record a step, if wh_capture_runs(). The step is less than 65 ms after the last one; its flags are without 4.
- * `now_ticks` has all 32 bits. */
+/* Record a step, if wh_capture_runs(). The step is less than 65 ms after the last one. The caller leaves bit 4 of its
+ * flags clear. `now_ticks` has all 32 bits. */
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
 
 /* Stored step i, from the oldest. */
@@ -101,7 +102,8 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
 
 #define WH_TEL_SAMPLES 10U
 #define WH_TEL_HEAD_BYTES 9U
-#define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U) /* on the line: zeros, code, sum */
+/* bytes on the line besides the payload: zeros, code, CRC */
+#define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U)
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
 #define WH_TEL_NO_LOAD (-32768) /* no good sample */
 /* Limit on samples per second as text, which takes more room. */
@@ -135,20 +137,21 @@ typedef enum wh_tel_event {
 typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh_tel_format;
 #undef WH_TEL_NAME
 
-/* All zeros: off. Large members come last: instructions for near ones are shorter. */
+/* The state of telemetry. All zeros: off. Large members come last, because instructions for members near the begin are
+ * shorter. */
 typedef struct wh_tel {
     bool reads; /* the ring is being sent, from step read_at on */
     uint16_t sequence[WH_TEL_CHANNELS];
     uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
     unsigned read_at;
     uint32_t read_ticks;
-    uint32_t every; /* every so many samples of the cell one is sent; 0: off */
+    uint32_t every; /* every `every`-th sample of the cell is sent; 0: off */
     uint32_t passed;
     wh_tel_format format;
-    unsigned samples; /* of the frame in progress: */
+    unsigned samples; /* samples of the frame in progress: */
     uint32_t first_ticks;
     int16_t load[WH_TEL_SAMPLES];
-    unsigned stage; /* as last reported */
+    unsigned stage; /* the stage as last reported */
     unsigned trip;
     uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, as sent */
     wh_capture capture;
@@ -169,7 +172,7 @@ void wh_tel_rate(wh_tel *tel, uint32_t every);
 bool wh_tel_read(wh_tel *tel);
 
 /* After each control step: at most the work of its pulse and two samples, or of one frame of the ring. Bytes to send go
- * into `out`, half of which belongs to others. */
+ * into `out`; telemetry uses at most half of its room. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
                  const wh_step_inputs *seen, wh_ring *out);
 
@@ -177,7 +180,7 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
 
 #define wh_tel_answer WH_NAME(wh_tel_answer)
 
-/* Answer the words after `tel` into *answer, which is empty; returns the reason if it is refused. */
+/* Executes `tel` with the words after it. Writes the answer into *answer, which must be empty, or returns the error. */
 wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh_words *words,
                                wh_text *answer);
 
