@@ -1,7 +1,7 @@
 # check.mk: the quality gates of `make check`, each a target gate-NAME. tests/gates.sh runs them, stores their output in
 # build/check/NAME.log and prints a line for each. Gates joined by a plus run at the same time.
 GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware size boards$(FAMILY_GATES:%=+%)
-GATES += libm cycles hashes+flashed hosts docs
+GATES += libm hashes+flashed hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
 
 check-now: $(GEN)/.stamp
@@ -231,11 +231,6 @@ BOARDS_CHECKED = $(filter-out mps2-an505 $(BOARDS_TEST) $(boards_without_suites)
 gate-boards: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS_CHECKED),$(call on_board,$(b),SUITES=less board-tests) &&) true
 	@SUITES=less sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
-
-# Both estimates of a Cortex-M's cycles must agree.
-gate-cycles: $(GEN)/.stamp
-	+@$(foreach b,$(filter $(patsubst boards/%/board.mk,%,$(shell grep -l '^BOARD_TIMING' boards/*/board.mk)),$(BOARDS)),\
-	    $(call on_board,$(b),cycles-agree) &&) true
 
 # --- what the pages print -----------------------------------------------------------------------------
 # README's commands need only `make run`; other pages need more.

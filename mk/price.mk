@@ -117,7 +117,7 @@ $(ELF)/priced/bench_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libr
 	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -I$(GEN) -include $(GEN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1 \
 	    $(BOARD_LDFLAGS) -o $@ boards/programs/bench.c $(@:.elf=.c) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
 
-.PHONY: bench-board bench-boards-now cycles-agree
+.PHONY: bench-board bench-boards-now
 bench-board: $(PRICED_IMAGES) $(or $(BOARD_RUN_BY),$(PLUGIN))
 	@mkdir -p $(FIGURES)
 	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
@@ -130,11 +130,6 @@ bench-boards-now: $(GEN)/.stamp
 	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
 	@mk/price/into_page.sh build/boards.md docs/dev/price.md boards
 	@cat build/boards.md
-
-# A second estimate, from the disassembly.
-cycles-agree: $(ELF)/bench.elf $(PLUGIN)
-	@BOARD=$(BOARD) NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) TIMING=$(BOARD_TIMING) PLUGIN=$(PLUGIN) \
-	    EMULATE="$(call emulate,$(ELF)/bench.elf)" mk/count/cycles_agree.sh $(ELF)/bench.elf
 
 # Flash, memory and stack of images: from the compiler's call graph or, if a family says so (BOARD_SIZE_BY), from the code.
 size_of = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJDUMP=$(BOARD_OBJDUMP) OBJECTS="$(sort $(ELF) $(B)/$(FLASHED))" $(SIZE_MOST) \

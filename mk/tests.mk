@@ -59,7 +59,7 @@ CORE_LESS_PARTS := $(CORE_LESS_C) $(B)/tests/less_suites.c $(UNITY_DIR)/unity.c
 $(B)/tests/less_suites.c: tests/suites.sh mk/tests.mk $(CORE_LESS_C)
 	$(say) GEN $@
 	$(Q)mkdir -p $(@D) && sh $< $(filter tests/core/test_%,$(CORE_LESS_C)) >$@
-HOST_TEST_PARTS := $(HOST_TEST_C) $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
+HOST_TEST_PARTS := $(HOST_TEST_C) mk/count/thumb_cycles.c $(B)/tests/host_suites.c $(UNITY_DIR)/unity.c
 $(foreach b,host float double $(BOARD),$(call objects,$(b),$(CORE_TEST_PARTS) $(HOST_TEST_PARTS) tests/tools/long_runs.c)): \
     | $(UNITY_DIR)/unity.c
 

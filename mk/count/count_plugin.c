@@ -5,7 +5,6 @@
  *
  *     begin, end    addresses of two functions without a body, wh_count_begin() and wh_count_end():
  *                   one return instruction each
- *     profile=on    also say how often every single address was executed between markers
  *     every=N       N intervals after each other count as one, which has the instructions of the largest; the last ones
  *                   may be fewer
  *     cycles=CORE   estimate cycles, too, as a Cortex of that name takes them: m0, m3 or m4 (thumb_cycles.h)
@@ -23,8 +22,6 @@
  *                                              of the longest stretch of that kind, how many there were
  *                                              (the most, where several intervals count as one), and the
  *                                              most cycles of one, with cycles=CORE
- *     address ADDRESS EXECUTIONS JUMPS         decimal, with profile=on; JUMPS: how often what was executed
- *                                              next was not what follows it in memory
  *     unfinished INSTRUCTIONS                  if it ended inside an interval
  *     intervals TOTAL                          always the last line
  *
@@ -68,11 +65,9 @@ void qemu_plugin_outs(const char *string);
 
 int qemu_plugin_version = 1;
 
-/* Executions by address: a hash table with chains, one entry an instruction ever translated. */
+/* Instructions by address: a hash table with chains, one entry an instruction ever translated. */
 typedef struct place {
     uint64_t address;
-    uint64_t executions;
-    uint64_t jumps;  /* of the executions, those with something else behind them */
     uint64_t behind; /* address of what follows in memory */
     unsigned kind;   /* of the mark here, or 0 */
     thumb_timing timing;
@@ -84,7 +79,6 @@ static place *buckets[BUCKETS];
 
 static uint64_t begin_address;
 static uint64_t end_address;
-static bool profile; /* count the executions of each address */
 static uint64_t every = 1;
 
 static bool counting;
@@ -157,9 +151,6 @@ static bool follows(uint64_t address) {
         return last != NULL;
     }
     cycles += last->timing.jumping;
-    if (profile) {
-        last->jumps++;
-    }
     return false;
 }
 
@@ -171,9 +162,6 @@ static void on_plain(unsigned cpu, void *data) {
         cycles += thumb_cycles(before == NULL ? NULL : &before->timing, &here->timing);
         last = here;
         count++;
-        if (profile) {
-            here->executions++;
-        }
     }
 }
 
@@ -287,15 +275,6 @@ static void report(qemu_plugin_id_t id, void *data) {
             qemu_plugin_outs(line);
         }
     }
-    for (unsigned bucket = 0; bucket < BUCKETS; bucket++) {
-        for (const place *at = buckets[bucket]; at != NULL; at = at->next) {
-            if (at->executions > 0) {
-                snprintf(line, sizeof line, "address %" PRIu64 " %" PRIu64 " %" PRIu64 "\n",
-                         at->address, at->executions, at->jumps);
-                qemu_plugin_outs(line);
-            }
-        }
-    }
     if (counting) {
         snprintf(line, sizeof line, "unfinished %" PRIu64 "\n", count);
         qemu_plugin_outs(line);
@@ -362,8 +341,6 @@ int qemu_plugin_install(qemu_plugin_id_t id, const struct qemu_info_t *info, int
             }
         } else if ((value = value_of(argv[i], "marks")) != NULL) {
             read_marks(value);
-        } else if ((value = value_of(argv[i], "profile")) != NULL) {
-            profile = strcmp(value, "on") == 0;
         } else {
             fprintf(stderr, "count_plugin: unknown argument %s\n", argv[i]);
             return -1;
