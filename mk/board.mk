@@ -174,9 +174,6 @@ $(ELF)/scenes_short.elf: boards/programs/scenes.c $(BOARD_OBJECTS) $(call librar
 short-images: $(ELF)/scenes_short.elf
 print-short-hashes:
 	@$(call emulate,$(ELF)/scenes_short.elf)
-bench-matrix: $(ELF)/bench_matrix.elf $(PLUGIN) ##- a step of linear scenes as one matrix, on BOARD
-	@mkdir -p $(FIGURES)
-	@$(call count_board,$<)
 print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one matrix
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$<)

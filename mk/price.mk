@@ -5,14 +5,11 @@ PLUGIN := build/count_plugin.so
 FIGURES := build/figures
 # The same mechanisms written by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
-# Two scenes also with compensated sums, to see their cost, and some with many steps a call, on the board. On this machine,
-# functions are counted without the functions that they call.
-COMPENSATED := epicyclic_from_rest thomson_a
+# Some scenes also with many steps a call, on the board. On this machine, functions are counted without the functions that they
+# call.
 AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
-again_compensated := --compensated
 again_matrix := --matrix exact
 again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
-COMPENSATED_C := $(call again_c,compensated,COMPENSATED)
 AHEAD_C := $(call again_c,ahead,AHEAD)
 MATRIX_C := $(call again_c,matrix,MATRIX)
 # What of the flags belongs beside a figure.
@@ -26,9 +23,7 @@ $(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 	$(Q)$(CC) -std=c11 $(WARN) -O2 -I. -fPIC -shared -fvisibility=hidden -o $@ $(PLUGIN_C)
 
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
-$(eval $(call program,bench_compensated,$(BENCH_C) $(COMPENSATED_C),whirl))
 $(eval $(call program,bench_ahead,$(BENCH_C) $(AHEAD_C),whirl))
-$(eval $(call program,bench_matrix,$(BENCH_C) $(MATRIX_C),whirl))
 $(eval $(call program,scenes_matrix,boards/programs/scenes.c $(MATRIX_C),whirl))
 $(ELF)/build/ahead/%.o $(B)/float/build/ahead/%.o: FILE_FLAGS := -DWH_AHEAD=1
 
@@ -47,10 +42,9 @@ build/$(1)/scenes.c: mk/count/index.sh $(2:%=build/$(1)/%.c)
 	$$(say) GEN $$@
 	$$(Q)$$< $(2) >$$@
 endef
-$(eval $(call scenes_again,compensated,$(COMPENSATED)))
 $(eval $(call scenes_again,ahead,$(AHEAD)))
 $(eval $(call scenes_again,matrix,$(MATRIX)))
-.SECONDARY: $(COMPENSATED_C) $(AHEAD_C) $(MATRIX_C)
+.SECONDARY: $(AHEAD_C) $(MATRIX_C)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
     $(B)/host/tests/tools/naive_main.o
@@ -83,50 +77,25 @@ worst-now: $(GEN)/.stamp
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: $(GEN)/.stamp
-	@$(MAKE) build/bench build/bench_compensated build/bench_double \
-	    $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) \
-	    $(ELF)/bench.elf $(ELF)/bench_compensated.elf $(ELF)/bench_ahead.elf \
-	    build/bench_matrix $(ELF)/bench_matrix.elf
+	@$(MAKE) build/bench build/bench_double $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) \
+	    $(ELF)/bench.elf $(ELF)/bench_ahead.elf
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
-	@for program in bench bench_compensated bench_matrix bench_double $(addprefix tools/,$(BY_HAND)); do \
+	@for program in bench bench_double $(addprefix tools/,$(BY_HAND)); do \
 	    BOARD=host CC="$(CC)" FLAGS="$(OPT)" \
 	        mk/count/count_rows.sh $(FIGURES)/bench.csv build/$$program || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
-	@$(call count_board,$(ELF)/bench_compensated.elf)
 	@$(call count_board,$(ELF)/bench_ahead.elf)
-	@$(call count_board,$(ELF)/bench_matrix.elf)
 
 # --- every board beside the others ----------------------------------------------------------------
-# These scenes' steps: instructions, cycles where something counts or estimates them, bytes.
+# These scenes' steps, counted as for price-rows: instructions, cycles where something counts or estimates them, bytes.
 PRICED := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
-PRICED_IMAGES := $(PRICED:%=$(ELF)/priced/size_%.elf) \
-    $(if $(filter single,$(BOARD_IMAGES)),$(PRICED:%=$(ELF)/priced/bench_%.elf),$(ELF)/bench.elf)
-
-$(ELF)/priced/size_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) boards/programs/size.c
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -DPRICE_SCENE=$* -include $(GEN)/$*.h -c boards/programs/size.c -o $(@:.elf=.o)
-	$(Q)$(BOARD_CC) $(BOARD_LDFLAGS) -o $@ $(@:.elf=.o) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
-
-$(ELF)/priced/bench_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) \
-    boards/programs/bench.c boards/programs/counted.h mk/count/index.sh
-	@mkdir -p $(@D)
-	$(say) LINK $@
-	$(Q)mk/count/index.sh $* >$(@:.elf=.c)
-	$(Q)$(BOARD_CC) $(BOARD_CFLAGS) -I$(GEN) -include $(GEN)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS -DBENCH_SMALL=1 \
-	    $(BOARD_LDFLAGS) -o $@ boards/programs/bench.c $(@:.elf=.c) $(filter %.o,$^) $(filter %.a,$^) $(BOARD_LDLIBS)
-
-.PHONY: bench-board bench-boards-now
-bench-board: $(PRICED_IMAGES) $(or $(BOARD_RUN_BY),$(PLUGIN))
-	@mkdir -p $(FIGURES)
-	@BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) FLAGS="$(call TOLD,$(BOARD_CFLAGS))" \
-	    TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,IMAGE)" \
-	    $(if $(filter single,$(BOARD_IMAGES)),,BENCH=$(ELF)/bench.elf PLUGIN=$(PLUGIN)) \
-	    mk/count/board_rows.sh $(FIGURES)/boards.csv $(ELF)/priced $(PRICED)
-
-bench-boards-now: $(GEN)/.stamp
-	+@for board in $(BOARDS_PRICED); do $(MAKE) BOARD=$$board bench-board || exit 1; done
+.PHONY: bench-boards-now
+bench-boards-now: build/whirl
+	@mkdir -p build/boards $(FIGURES)
+	@printf '%s\n' $(foreach s,$(PRICED),"$(s) $(s)") >build/boards/cases
+	+@for board in $(BOARDS_PRICED); do $(MAKE) BOARD=$$board price-measure-board PRICE_OUT=build/boards \
+	    PRICE_CSV=$(FIGURES)/boards.csv || exit 1; done
 	@awk -F, -f mk/count/boards_table.awk $(FIGURES)/boards.csv >build/boards.md
 	@mk/price/into_page.sh build/boards.md docs/dev/price.md boards
 	@cat build/boards.md

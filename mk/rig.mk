@@ -47,6 +47,7 @@ faults-now: $(GEN)/.stamp
 	@build/tools/faults --firmware $(if $(ASKED_BOARD),$(ELF)/pil_dialled.elf --board $(BOARD),$(B)/pil_dialled) \
 	    --runs $(RUNS) --seed $(SEED) >$(FAULTS_OUT); code=$$?; cat $(FAULTS_OUT); exit $$code
 
+##@ Tests and quality
 # The same firmware on a bench that was written from docs/dev/pil.md alone.
 rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ##- the rig's firmware against a bench written from docs/dev/pil.md alone: SEED (ten minutes)
 	@code=0; for campaign in bench healthy stuck runouts; do build/tools/rig_bench $$campaign --seed $(SEED) || code=1; done; exit $$code
@@ -55,9 +56,3 @@ rig-bench: $(B)/tools/rig_bench $(B)/pil_dialled $(B)/pil_swing ##- the rig's fi
 TEL_SECONDS ?= 3600
 tel-hour: $(B)/whirl $(B)/station $(B)/tools/sim_station $(B)/tools/tel_check ##- an hour of telemetry at three speeds of the line, simulated (minutes; TEL_SECONDS=n)
 	@WHIRL=$(B)/whirl TEL_SECONDS=$(TEL_SECONDS) sh tests/cli/monitor.sh
-
-##@ Tests and quality
-# What the last campaign on this machine found, between the marks of docs/dev/rig.md.
-faults-page: ##- docs/dev/rig.md shows what the last make faults found
-	@[ -s build/faults.md ] || { echo "faults-page: no build/faults.md: make faults first" >&2; exit 1; }
-	@mk/price/into_page.sh build/faults.md docs/dev/rig.md faults

@@ -30,11 +30,9 @@ print_of = printf '%s\n' $(1) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename
 
 $(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(SCENE_NEEDS)
 	$(call scene_link,boards/programs/scenes.c,$(GEN),-DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
-# A linear scene again, a step as one matrix (mk/price.mk): to its end, and counted.
+# A linear scene again, a step as one matrix (mk/price.mk).
 $(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
 	$(call scene_link,boards/programs/scenes.c,build/matrix)
-$(SINGLE)/bench_matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
-	$(call scene_link,boards/programs/bench.c,build/matrix,-DBENCH_SMALL=1)
 
 # Files shared by several suites: each uses what it needs.
 $(SINGLE)/shared.a: $(call objects,$(BOARD),$(filter-out tests/core/test_%,$(wildcard tests/core/*.c)))
@@ -63,8 +61,6 @@ run-suites: # each says how many tests failed
 print-hashes:
 	@for elf in $(SINGLE_SCENES); do $(call emulate,$$elf) || exit 1; done
 	@for scene in $(LARGE_SCENES); do echo "without $$scene"; done
-bench-matrix: $(MATRIX:%=$(SINGLE)/bench_matrix_%.elf) $(BOARD_RUN_BY) # a step of linear scenes as one matrix, on BOARD
-	@BOARD=$(BOARD) CC=$(BOARD_CC) EMULATE="$(call emulate,IMAGE)" mk/count/count_rows.sh /dev/null $(filter %.elf,$^)
 print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(BOARD_RUN_BY)
 	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 

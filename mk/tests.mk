@@ -148,12 +148,6 @@ test-now: $(GEN)/.stamp
 	@WHIRL=build/whirl sh tests/run.sh build/tests/log $(RUN_HOST) $(RUN_BOARD) $(RUN_CLI) $(RUN_CHIP) $(RUN_CORE)
 
 ##@ Tests and quality
-# The time until which runs are accurate by `whirl trust`, against references in long double (docs/stability.md).
-TRUST_SEED ?= 14
-trust-check: build/tests/host ##- whirl trust on thirty drawn chaotic mechanisms and all its scenes, against long double (a minute; TRUST_SEED=n)
-	@WHIRL_FULL=1 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust trust_scenes
-	@WHIRL_CASES=30 WHIRL_SEED=$(TRUST_SEED) build/tests/host trust_drawn
-
 # Parts of the tests, for work on one part.
 test-cli: $(GEN)/.stamp ##- the scripts of tests/cli alone
 	@$(MAKE) test-programs

@@ -2,7 +2,6 @@
 
 MODELS := $(sort $(wildcard core/models/*.whirl))
 
-
 # --- libraries ----------------------------------------------------------------------------------
 # Of every build of the portable code:
 #   libwhirl    the core, all that a scene needs

@@ -61,26 +61,3 @@ done
         sorted | awk -F, -v OFS=, -v counted="$counted" -f "$here/front.awk"
 } >"$csv.new"
 mv "$csv.new" "$csv"
-
-# What was counted, and how far off that was predicted.
-for board in $counted; do
-    awk -F, -v OFS=, -f "$here/words.awk" -f /dev/stdin "$work/counted_$board.csv" "$work/rows" <<'AWK' | sort -g |
-FNR == 1 && !counts { counts = 1; header(); next }
-counts == 1 && FNR == 1 { counts = 2 }
-counts == 1 { cycles[field("board") "," field("run")] = field("cycles"); next }
-$12 == "predicted" && (($2 "," $18) in cycles) {
-    off = $11 / cycles[$2 "," $18] - 1
-    print (off < 0 ? -off : off)
-}
-AWK
-        awk -v board="$board" -v counted="$(($(wc -l <"$work/counted_$board.csv") - 1))" '
-            { off[NR] = $1 * 100 }
-            END {
-                printf "%s: %d steps of fronts counted", board, counted
-                if (NR > 0) {
-                    printf "; %d were predicted, off by %.1f %% in the middle, by %.1f %% for nine of ten, by %.1f %% at most", \
-                        NR, off[int((NR + 1) / 2)], off[int(NR * 0.9 + 0.5)], off[NR]
-                }
-                print ""
-            }'
-done

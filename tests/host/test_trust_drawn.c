@@ -1,6 +1,6 @@
 /* test_trust_drawn.c: time until which chaotic runs are accurate, on random mechanisms. They are
  * pendulums of two and three links, on carriages and springs, turning arms, and planetary gears with a disc on a
- * hinge. Masses, lengths, springs, starts, number format and method vary. `make trust-check` takes thirty and prints them.
+ * hinge. Masses, lengths, springs, starts, number format and method vary. WHIRL_CASES=30 takes thirty and prints them.
  *
  * The same mechanisms measure an alternative for boards: twin runs in the board's own arithmetic
  * (docs/dev/stability.md). */
