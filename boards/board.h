@@ -1,6 +1,6 @@
-/* board.h: the interface of every board, including the PC. Boards differ in nothing else.
- * On bare metal the startup code clears and copies memory, switches the FPU on, paints the stack and calls main(); main()'s
- * result goes to board_exit(). On the PC main() is main(). */
+/* board.h: the interface of every board, including the PC. Only the implementations of this interface differ between
+ * boards. On bare metal the startup code clears and copies memory, switches the FPU on, paints the stack and calls
+ * main(); main()'s result goes to board_exit(). On the PC main() is main(). */
 #ifndef BOARDS_BOARD_H
 #define BOARDS_BOARD_H
 
@@ -38,12 +38,12 @@ extern const uint32_t board_ticks_per_s;
 void board_wait_until(uint32_t ticks);
 
 /* Open the console for a dialogue (hal_console_read()): on the PC a pseudo-terminal, whose name is printed. Returns
- * false and prints the reason if there is none. Boards with a UART have it open. */
+ * false and prints the reason if there is none. On boards with a UART the console is already open. */
 bool board_converse(void);
 
-/* The processor's own cycle counter, wrapping at 2^32. board_cycles_start() switches it on and returns whether one
- * counts. Silicon with a Cortex-M3, M4, M7 or M33 has one (DWT's CYCCNT). The PC has none, and emulators have no cycle
- * times. Without one, board_cycles() is 0. */
+/* The processor's own cycle counter, wrapping at 2^32. board_cycles_start() switches it on and returns true if there is
+ * a counter. Chips with a Cortex-M3, M4, M7 or M33 have one (DWT's CYCCNT). The PC has none, and emulators do not model
+ * cycles. Without a counter, board_cycles() is 0. */
 bool board_cycles_start(void);
 uint32_t board_cycles(void);
 
@@ -51,9 +51,10 @@ uint32_t board_cycles(void);
  * unknown. */
 uint32_t board_chip(void);
 
-/* Worst use of the stack. board_stack_paint() marks the presently unused part (the startup code has done it once).
- * board_stack_used_bytes() is the depth of the deepest mark overwritten since, from the top of the stack;
- * board_stack_size_bytes() is the stack's size. Both are 0 on the PC, where the stack belongs to the operating system. */
+/* The largest use of the stack. board_stack_paint() fills the presently unused part with a pattern (the startup code
+ * has done this once). board_stack_used_bytes() is the depth, from the top of the stack, down to which the pattern has
+ * since been overwritten; board_stack_size_bytes() is the stack's size. Both are 0 on the PC, where the stack belongs
+ * to the operating system. */
 void board_stack_paint(void);
 unsigned board_stack_used_bytes(void);
 unsigned board_stack_size_bytes(void);

@@ -1,6 +1,6 @@
-/* console.h: the connection to a person or a program: a UART; on the PC standard output, or a pseudo-terminal.
- * The board implements it (boards/<family>/), because programs without a rig need it, too: tests, benches. Bytes are
- * not converted, not even line ends. */
+/* console.h: the connection to a person or a program: a UART; on the PC standard output, or a pseudo-terminal. The
+ * board implements it (boards/<family>/), because programs without a rig (tests, benchmarks) need a console, too. Bytes
+ * are not converted, not even line ends. */
 #ifndef HAL_CONSOLE_H
 #define HAL_CONSOLE_H
 
@@ -16,9 +16,10 @@ void hal_console_write(const char *bytes, unsigned count);
 
 /* Versions for control loops, which do not wait. hal_console_read() takes the oldest received bytes, at most `room`;
  * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes: 0 if nobody is
- * connected. A device that stores only the last byte or two loses bytes unless it is read every control step. A zero byte
- * replaces each damaged byte, and lost bytes if the board notices the loss: do not execute a line that contains a zero
- * byte. But a damaged Escape counts as Escape: a needless stop is harmless. Not from an interrupt or a fault handler. */
+ * connected. If a device stores only one or two bytes, read it in every control step: otherwise bytes are lost. A zero
+ * byte replaces each damaged byte, and lost bytes if the board notices the loss: do not execute a line that contains a
+ * zero byte. But a damaged Escape counts as Escape: a needless stop is harmless. Not from an interrupt or a fault
+ * handler. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

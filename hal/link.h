@@ -1,7 +1,7 @@
-/* link.h: a two-way line of bytes to the simulator of the plant.
- * The board implements it (boards/<family>/link.c): by semihosting with files on the debugger's side under an emulator, by
- * two file descriptors on the PC; on silicon a UART would do. Bytes arrive in order and without loss; a read may return
- * fewer than there is room for. If the other side is gone, the program ends by itself, with exit status HAL_LINK_GONE. */
+/* link.h: a two-way line of bytes to the simulator of the plant. The board implements it (boards/<family>/link.c): by
+ * semihosting with files on the debugger's side under an emulator, by two file descriptors on the PC; on silicon a UART
+ * would do. Bytes arrive in order and without loss; a read may return fewer than there is room for. If the simulator is
+ * gone, these functions end the program, with exit status HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 
@@ -27,8 +27,8 @@ unsigned hal_link_read(uint8_t *bytes, unsigned room);
 /* Writes all `count` bytes. */
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* A free-running counter to measure computing time, wrapping at 2^32, and its counts per second (0: the counter
- * means nothing). */
+/* A free-running counter to measure computing time, wrapping at 2^32, and its counts per second (0: the counter is
+ * unusable). */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 

@@ -16,9 +16,9 @@ typedef enum hal_motor_off_way {
 
 /* Status bits of the drive stage: */
 enum {
-    HAL_MOTOR_CUT =
-        1, /* the hardware has cut the drive or prevented a start, because of stop or the drive
-            * stage's own fault; off until the next hal_motor_off() */
+    /* the hardware has cut the drive or prevented a start, because stop was pressed or the drive stage has a fault. The
+     * drive stays off until the next hal_motor_off() */
+    HAL_MOTOR_CUT = 1,
     HAL_MOTOR_FAULT = 2,    /* stop is pressed, or the drive stage has a fault: it cannot drive */
     HAL_MOTOR_NO_SUPPLY = 4 /* no supply voltage measured: the stage does not drive */
 };
@@ -41,8 +41,8 @@ void hal_motor_off(hal_motor_off_way way);
  * an interrupt. */
 unsigned hal_motor_status(void);
 
-/* The supply as last measured, V, at most 10 ms ago. HAL_MOTOR_SUPPLY_BEYOND means that the converter is at its end,
- * so the true value is unknown. It lies above every limit that a setting can have. */
+/* The supply as last measured, V, at most 10 ms ago. HAL_MOTOR_SUPPLY_BEYOND means that the converter is at its end, so
+ * the true value is unknown. This value is above every limit that a setting can have. */
 #define HAL_MOTOR_SUPPLY_BEYOND __builtin_inff()
 float hal_motor_supply_V(void);
 

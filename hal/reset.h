@@ -1,6 +1,6 @@
-/* reset.h: the cause of the processor's start, and data that survive a reset.
- * A reset makes the pins float, so the drive stage is off from that instant until the program enables it. The
- * program loses all data except a few bytes in memory that a reset does not clear, if the chip has such memory. */
+/* reset.h: the cause of the processor's start, and data that survive a reset. In a reset the pins float, so the drive
+ * stage is off from that instant until the program enables it. The program loses all data except a few bytes in memory
+ * that a reset does not clear, if the chip has such memory. */
 #ifndef HAL_RESET_H
 #define HAL_RESET_H
 
@@ -21,7 +21,7 @@ typedef enum hal_reset {
 /* The cause, after hal_clock_start() (clock.h). */
 hal_reset hal_reset_cause(void);
 
-/* The cause in words, for consoles; for a fault also its kind, place, time and state. Writes at most room - 1 bytes
+/* The cause in words, for consoles; for a fault also its kind, address, time and stage. Writes at most room - 1 bytes
  * and a zero; the text is never empty. Returns its length without the zero. */
 unsigned hal_reset_words(char *words, unsigned room);
 

@@ -29,7 +29,7 @@ typedef enum hal_settings_result {
 /* Set all bytes of the slot to 0xFF. */
 hal_settings_result hal_settings_erase(unsigned slot);
 
-/* Write to an erased slot, front to back; `at` is a multiple of 4, `count` may be any. */
+/* Write to an erased slot, front to back; `at` is a multiple of 4, `count` any number. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count);
 

@@ -31,9 +31,9 @@ typedef struct hal_slot_edge {
  * simulated pulses, or one that cannot distinguish edges, gives only leading edges. */
 bool hal_slots_take(hal_slot_edge *edge);
 
-/* How often since the start edges were lost, or may have been: an edge came before the previous edge was read, or
- * the memory was full. Capture then pauses until an edge is taken, so that a storm of edges takes no computing time.
- * The number of lost edges is unknown. */
+/* The number of times since the start that edges were lost, or may have been lost: an edge came before the previous
+ * edge was read, or the memory was full. Capture then pauses until an edge is taken, so that a storm of edges takes no
+ * computing time. The number of lost edges is unknown. */
 uint32_t hal_slots_overruns(void);
 
 #ifdef __cplusplus

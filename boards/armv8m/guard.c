@@ -24,6 +24,7 @@ void board_guard_stack(void) {
     REGISTER(MPU_RBAR) = strip | read_only_privileged | no_execute;
     REGISTER(MPU_RLAR) =
         ((strip + BOARD_STRIP_BYTES - 1U) & ~31U) | 1U; /* the last 32 bytes; attribute 0 */
-    REGISTER(MPU_CTRL) = 1U << 2 | 1U; /* elsewhere the default map; not inside fault handlers */
+    /* outside the regions the default map applies; the unit is off inside fault handlers */
+    REGISTER(MPU_CTRL) = 1U << 2 | 1U;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }

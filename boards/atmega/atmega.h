@@ -51,7 +51,8 @@ extern volatile uint8_t atmega_wraps;
 /* Within an interrupt: the time at which both timers showed `count`, less than half a wrap ago. */
 static inline atmega_instant atmega_instant_of(uint16_t count) {
     atmega_instant at = {count, atmega_wraps};
-    const uint16_t now = TCNT4; /* first: a wrap after it does not matter */
+    /* read first: a wrap of the timer after this line does not matter */
+    const uint16_t now = TCNT4;
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
     if (count >= 0x8000U && now < 0x8000U) { /* the instant was before the last wrap */
         at.wraps = (uint8_t)(at.wraps - (pending ? 0U : 1U));
@@ -64,8 +65,8 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 /* The instant in ticks. */
 uint32_t atmega_ticks_of(atmega_instant at);
 
-/* Start the watchdog: it resets after 2048 << twice of its oscillator's clocks (DS 12.5.2). The second store must
- * follow within four clocks of the first. */
+/* Start the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The second store
+ * must follow within four clocks of the first. */
 static inline void atmega_watch(uint8_t twice) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
     const uint8_t settings =
@@ -77,12 +78,12 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* The supply at the last sample of the load (cell.c) as a factor: ATMEGA_WHOLE divided by the volts; 0: no supply.
- * Dividing for each use would fall into control steps that have no time for it. */
+/* The supply at the last sample of the load (cell.c) as a factor: ATMEGA_WHOLE divided by the volts; 0: no supply. The
+ * division is done with the sample, because some control steps have no time for it. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 
-/* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */
+/* The starts of the parts of the rig's hardware, called by hal_clock_start() (rig_clock.c). */
 void atmega_motor_start(void);
 void atmega_slots_start(void);
 void atmega_cell_start(void);
@@ -92,7 +93,7 @@ typedef enum atmega_fault_kind {
     ATMEGA_FAULT_NONE,
     ATMEGA_FAULT_STRAY,  /* an interrupt without a handler */
     ATMEGA_FAULT_STACK,  /* the stack has reached the variables */
-    ATMEGA_FAULT_RESTART /* the program restarted without a reset: a wild jump */
+    ATMEGA_FAULT_RESTART /* the program restarted without a reset, because of a wild jump */
 } atmega_fault_kind;
 
 /* Switch the motor off, record the fault, reset. `at`: the byte address of the fault; 0: unknown. */
@@ -109,10 +110,10 @@ typedef struct atmega_fault_record {
 
 void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 
-/* Read the record from before the start, once. Returns false if there is none. */
+/* Read the record of a fault before this start, once. Returns false if there is none. */
 bool atmega_take_fault(atmega_fault_record *record);
 
-/* Power-on: forget this record, and the remembered bytes. */
+/* After a power-on: forget the record and the remembered bytes, which are then random. */
 void atmega_forget(void);
 
 /* MCUSR at the processor's start (DS 12.5.1); 0: no reset occurred. */

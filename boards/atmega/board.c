@@ -1,4 +1,4 @@
-/* board.c: board.h on an ATmega2560 with the rig's hardware. Programs never end there. */
+/* board.c: board.h on an ATmega2560 with the rig's hardware. Programs never end on this board. */
 #include "boards/board.h"
 
 #include "hal/motor.h"

@@ -1,12 +1,14 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us: sixteen of the cell, then those of the supply, for a sample each 8 ms. A sample
- * is the mean of its sixteen, stamped with their middle, so that it has no delay. A force that turns at 6 Hz becomes 0.06 %
- * too small. One count of the converter is 0.434 N. The error of a mean of sixteen is 0.03 N if the force moves by some
- * counts meanwhile, and below half a count, 0.22 N, if it does not.
+ * Timer 2 starts a conversion every 200 us: sixteen of the cell, then 24 of the supply, so that a sample takes 8 ms. A
+ * sample is the mean of the sixteen. Its time stamp is the middle of their times, so it has no delay. A force that
+ * rotates at 6 Hz becomes 0.06 % too small. One count of the converter is 0.434 N. The error of a mean of sixteen is
+ * 0.03 N if the force changes by some counts meanwhile. If the force is constant, the error is below half a count,
+ * 0.22 N.
  *
- * The amplifier's output without force is half of the reference, the chip's own supply. Near either end it is saturated. A
- * whole sample near the lower end is a broken wire, which a resistor pulls down except for the pin's leakage. */
+ * The amplifier's output without force is half of the reference, the chip's own supply. Near either end it is
+ * saturated. If a whole sample is near the lower end, a wire is broken: a resistor then pulls the pin down, except for
+ * its leakage. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -15,7 +17,8 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS 8U /* the last conversions measure the supply; most are not used */
+#define SUPPLY_TICKS \
+    8U /* the last conversions measure the supply; only SUPPLY_TICKS of them are used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
@@ -78,7 +81,7 @@ void atmega_cell_start(void) {
     TIFR2 = _BV(OCF2A);
     TIMSK2 = _BV(OCIE2A);
     TCCR2B = _BV(CS21) | _BV(CS20);
-    place = CELL_TICKS; /* the conversion that ends at the first tick does not count */
+    place = CELL_TICKS; /* the conversion that ends at the first tick is not part of a sample */
 }
 
 static uint8_t status_now(void) {
@@ -87,8 +90,8 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* A sample is complete: in a separate interrupt, so that the ticks' interrupts save fewer registers. Its timer has
- * counted the time since the tick. */
+/* A sample is complete. This is a separate interrupt, so that the ticks' interrupts save fewer registers. Its timer has
+ * counted the time since the last tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -106,7 +109,7 @@ ISR(TIMER2_COMPB_vect) {
     saturated = false;
 }
 
-/* The conversion started a tick ago ended 96 us later. */
+/* A tick. The conversion that started at the previous tick, 200 us ago, has ended. */
 ISR(TIMER2_COMPA_vect) {
     const uint16_t count = ADC;
     uint8_t next = (uint8_t)(place + 1U);

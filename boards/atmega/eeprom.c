@@ -1,5 +1,5 @@
-/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Its bytes are erased and written one by
- * one, 1.8 ms each: a slot takes at most 0.46 s. Bytes with the right value are skipped. */
+/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Bytes are erased and written one by one,
+ * 1.8 ms each: a slot takes at most 0.46 s. Bytes with the right value are skipped. */
 #include "hal/settings.h"
 
 #include "atmega.h"
@@ -43,8 +43,8 @@ static uint8_t load(uint16_t address) {
     return byte;
 }
 
-/* Program one byte. The second store must follow within four clocks of the first. Returns false if the byte then has a
- * wrong value. */
+/* Program one byte. The second store must follow within four clocks of the first. Returns false if the byte read back
+ * is wrong. */
 static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     if (!rests()) {
         return false;

@@ -1,8 +1,9 @@
-/* fault.c: faults on a chip without fault hardware. They are an interrupt without a handler, a stack that has reached
- * the variables, and a program that restarted without a reset. The last happens after a wild jump: erased flash leads
- * to address 0.
+/* fault.c: faults on a chip without fault hardware. Three faults are detected: an interrupt without a handler, a stack
+ * that has reached the variables, and a restart without a reset. The latter follows a wild jump, because execution of
+ * erased flash ends at address 0.
  *
- * The motor is switched off first: one instruction that needs neither a register nor the stack clears the enable's pin. */
+ * The motor is switched off first: one instruction that needs neither a register nor the stack clears the enable's
+ * pin. */
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -17,7 +18,7 @@ __attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
     __asm__ volatile(OFF "cli");
 }
 
-/* In memory that is not cleared, because the start-up code initializes variables later. */
+/* In memory that is not cleared: the start-up code clears variables after this value is stored. */
 __attribute__((section(".noinit"))) static volatile uint8_t flags;
 
 /* After a watchdog reset the watchdog goes on resetting, every 16 ms, until its flag is cleared. */
@@ -32,7 +33,7 @@ __attribute__((used)) void atmega_see_reset(void) {
     WDTCSR = 0;
 }
 
-/* After the stack is set up, before the variables are. */
+/* Runs after the stack is set up and before the variables are initialized. */
 __attribute__((naked, used, section(".init3"))) void atmega_first(void);
 __attribute__((naked, used, section(".init3"))) void atmega_first(void) {
     __asm__ volatile("call atmega_see_reset");
@@ -51,7 +52,7 @@ _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     }
 }
 
-/* `sp` points below the return address, which has three bytes, the highest first. */
+/* `sp` points just below the return address, which has three bytes, the highest first. */
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp);
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp) {
     const uint32_t words = (uint32_t)sp[1] << 16 | (uint16_t)((uint16_t)sp[2] << 8) | sp[3];

@@ -44,7 +44,7 @@ bool atmega_take_fault(atmega_fault_record *record) {
     const bool there = fault_holds() && fault.kind != ATMEGA_FAULT_NONE;
     if (there) {
         *record = fault;
-        fault.kind = ATMEGA_FAULT_NONE; /* the count goes on */
+        fault.kind = ATMEGA_FAULT_NONE; /* the number of faults continues */
         seal();
     }
     return there;

@@ -18,7 +18,8 @@ static uint16_t carried;      /* the carried error, in parts of a step */
 
 /* Timer 1 with OC1A low, duty 0 and disconnected from its pin. OC1A keeps its level from the last disconnection, and
  * only a strobe in normal mode sets it (DS 17.7.1, 17.8). The pin is an input until then. In normal mode OCR1A also
- * takes effect at once. ICR1 comes after the mode: it is writable only in modes in which it is the TOP (DS 17.6). */
+ * takes effect at once. ICR1 is set after the mode, because it is writable only in modes that use it as TOP (DS
+ * 17.6). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;
@@ -51,11 +52,13 @@ static uint16_t parts_of(float volts) {
 
 unsigned hal_motor_start(void) {
     const unsigned status = hal_motor_status();
-    const uint8_t before = atmega_hold(); /* a hal_motor_off() from now on waits */
+    /* a hal_motor_off() from an interrupt waits until atmega_go_on() */
+    const uint8_t before = atmega_hold();
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        set_up_timer(); /* again, because a hal_motor_off() may have interrupted a change */
+        /* again, because a hal_motor_off() may have interrupted a change of the settings */
+        set_up_timer();
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
     }
@@ -65,7 +68,7 @@ unsigned hal_motor_start(void) {
 
 void hal_motor_set_voltage(float volts) {
     if (!driving) {
-        return; /* a start begins at 0 */
+        return; /* after a start the voltage begins at 0 */
     }
     const uint16_t parts = parts_of(volts);
     const uint16_t owed = parts + carried;
@@ -75,13 +78,13 @@ void hal_motor_set_voltage(float volts) {
     OCR1A = steps;
 }
 
-/* Clears the enable first, by one instruction that is also a fault's first action (fault.c). */
+/* Clears the enable first, by one instruction, which is also the first action of a fault (fault.c). */
 void hal_motor_off(hal_motor_off_way way) {
     if (way != HAL_MOTOR_BRAKE) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     }
     TCCR1A = _BV(WGM11); /* disconnects the timer from the pin, which is low */
-    OCR1A = 0;           /* takes effect in the next period, as the 0 of a start does */
+    OCR1A = 0;           /* takes effect in the next period, as after a start */
     if (way == HAL_MOTOR_BRAKE) {
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
     }
@@ -89,7 +92,7 @@ void hal_motor_off(hal_motor_off_way way) {
     carried = 0;
 }
 
-/* No bit for a cut: only software switches this motor off. */
+/* No bit for a cut: only software can switch this motor off. */
 unsigned hal_motor_status(void) {
     return (hal_stop_pressed() ? HAL_MOTOR_FAULT : 0U) |
            (hal_motor_supply_V() > 0.0f ? 0U : HAL_MOTOR_NO_SUPPLY);

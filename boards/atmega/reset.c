@@ -1,4 +1,4 @@
-/* reset.c: the cause of the chip's start (DS 12.5.1), and the record from before (kept.c). */
+/* reset.c: the cause of the chip's start (DS 12.5.1), and the record of a fault before it (kept.c). */
 #include "hal/reset.h"
 
 #include "core/text.h"

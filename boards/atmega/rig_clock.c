@@ -1,4 +1,5 @@
-/* rig_clock.c: the start of the rig's hardware, and its clock's source (its time: boards/shared/rig_time.c). */
+/* rig_clock.c: the start of the rig's hardware, and the source of its clock (the time itself is in
+ * boards/shared/rig_time.c). */
 #include "hal/clock.h"
 
 #include "boards/board.h"
@@ -7,7 +8,7 @@
 
 #include "atmega.h"
 
-/* The motor first: it is off from here on, even if later parts fail. */
+/* The motor is started first: it is off from here on, even if later parts fail. */
 hal_start hal_clock_start(void) {
     atmega_motor_start();
     (void)hal_reset_cause();

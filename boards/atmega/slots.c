@@ -1,10 +1,10 @@
-/* slots.c: the slot sensors on the input captures of timers 4 and 5, which stamp an edge by themselves (DS 17.6). Their
- * noise canceller requires four equal samples, 0.25 us. They wait for rising and falling edges alternately. The
- * interrupt only stores the stamps.
+/* slots.c: the slot sensors on the input captures of timers 4 and 5, which store the time of an edge in hardware (DS
+ * 17.6). Their noise canceller requires four equal samples, 0.25 us. They wait for rising and falling edges
+ * alternately. The interrupt only copies the times.
  *
- * The chip does not report a capture that is overwritten before it is read: edges of one sensor within an interrupt's
- * latency count as one, the later. If a pulse has ended by then, its end is missing. Overruns count edges without room,
- * and beginnings too soon after an end. */
+ * The chip does not report a capture that is overwritten before it is read: of several edges of one sensor within the
+ * latency of the interrupt, only the last is seen. If a pulse has ended by then, its end is missing. Overruns count
+ * edges for which there was no room, and pulses that began too soon after the end of another. */
 #include "hal/slots.h"
 
 #include "atmega.h"
@@ -25,7 +25,7 @@ static volatile bool stopped;
 static void listen(void) {
     TCCR4B |= _BV(ICES4);
     TCCR5B |= _BV(ICES5);
-    TIFR4 = _BV(ICF4); /* edges left by a storm may be of any age: drop them */
+    TIFR4 = _BV(ICF4); /* edges that remain from a storm may be of any age: drop them */
     TIFR5 = _BV(ICF5);
     TIMSK4 |= _BV(ICIE4);
     TIMSK5 |= _BV(ICIE5);
@@ -58,34 +58,35 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* True if the edge that a sensor's timer waits for has already passed, unseen. */
+/* True if the edge that a sensor's timer waits for came before the timer began to wait. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;
     return high == ((*control & _BV(ICES4)) != 0) && (*flags & _BV(ICF4)) == 0;
 }
 
-/* Wait for the other edge from now on. The change of edge may set the capture flag (DS 17.6.3), which is then cleared. */
+/* From now on the timer waits for the other edge (falling instead of rising, or the reverse). The change of edge may
+ * set the capture flag (DS 17.6.3), which is then cleared. */
 static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *flags) {
     *control ^= _BV(ICES4);
     *flags = _BV(ICF4);
 }
 
-/* Returns the edge that a sensor's timer has captured, as bits of kept_edge. Then the timer waits for the other edge, or
- * for this one again if the other has already passed. A burst may go on meanwhile: its remains are checked with each
- * edge taken. */
+/* Returns the edge that a sensor's timer has captured, as bits of kept_edge. Then the timer waits for the other edge,
+ * or for the same one again if the other edge has already passed. During a burst more edges may pass: hal_slots_take()
+ * checks for this. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);
     for (uint8_t looks = 0; looks < 3U && waits_in_vain(sensor, control, flags); looks++) {
-        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* a beginning is lost */
+        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* the begin of a pulse was lost */
         wait_for_other(control, flags);
     }
     return (uint8_t)(sensor | (rose ? HAL_SLOT_LEADING : HAL_SLOT_TRAILING) << 1);
 }
 _Static_assert(ICES4 == ICES5 && ICF4 == ICF5 && PL0 == 0 && PL1 == 1, "one turn() for both");
 
-/* Stores the captured edges; of two at the same time, the earlier one first. */
+/* Stores the captured edges. If both sensors have one, the earlier edge comes first. */
 static void fetch(bool first, bool second) {
     const uint16_t first_count = ICR4;
     const uint16_t second_count = ICR5;
@@ -107,7 +108,7 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-/* Waits for edges again. After any burst, the next edge of a low pin is a rise. */
+/* Waits for edges again. After a burst, the next edge of a pin that is low is a rising one. */
 static void go_on_waiting(void) {
     if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
         return;

@@ -9,7 +9,7 @@ _Static_assert(F_CPU / 8U == ATMEGA_COUNTS_PER_TICK * 1000000U, "the prescaler's
 
 #define TICKS_PER_WRAP (0x10000U / ATMEGA_COUNTS_PER_TICK)
 
-static volatile uint32_t base_ticks; /* ticks at the count's last wrap */
+static volatile uint32_t base_ticks; /* time in ticks when the count last wrapped */
 volatile uint8_t atmega_wraps;
 
 ISR(TIMER4_OVF_vect) {
@@ -17,7 +17,8 @@ ISR(TIMER4_OVF_vect) {
     atmega_wraps++;
 }
 
-/* Sets the noise canceller, rising edges, an eighth of the clock, and only the overflow interrupt. */
+/* Sets the timers: noise canceller, rising edges, an eighth of the processor's clock, and only the overflow
+ * interrupt. */
 void atmega_time_base_start(void) {
     GTCCR = _BV(TSM) | _BV(PSRSYNC);
     TCCR4A = 0;
@@ -47,7 +48,7 @@ uint32_t board_ticks(void) {
     return ticks;
 }
 
-/* The number of wraps since the instant follows from the lowest bytes of both counts. */
+/* The number of wraps since the instant follows from the lowest bytes of both wrap counts. */
 uint32_t atmega_ticks_of(atmega_instant at) {
     const uint8_t before = atmega_hold();
     const uint32_t base = base_ticks;

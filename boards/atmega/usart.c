@@ -1,5 +1,6 @@
 /* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity.
- * Interrupts fill and empty rings in both directions. For a fault, or before other parts are up, it polls. */
+ * Interrupts fill and empty rings in both directions. After a fault, or before other parts have started, the console
+ * polls. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -7,7 +8,8 @@
 #define BAUD 115200UL
 #define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL)
 
-/* Powers of two that divide 256: indices wrap freely. A control step of 2 ms takes at most 24 bytes. */
+/* Sizes are powers of two that divide 256, so that indices wrap correctly. A control step of 2 ms takes at most 24
+ * bytes. */
 #define IN_BYTES 64U
 #define OUT_BYTES 64U
 
@@ -16,7 +18,8 @@ static volatile uint8_t in_head; /* written by the interrupt only */
 static volatile uint8_t in_tail;
 static volatile char out[OUT_BYTES];
 static volatile uint8_t out_head;
-static volatile uint8_t out_tail; /* used by the interrupt, and by code that disables it */
+/* used by the interrupt, and by code that has disabled the interrupt */
+static volatile uint8_t out_tail;
 static volatile bool lost;
 
 void atmega_usart_start(void);
@@ -93,7 +96,7 @@ void hal_console_write(const char *bytes, unsigned count) {
         atmega_usart_start();
     }
     const uint8_t before = atmega_hold();
-    for (; out_tail != out_head; out_tail++) { /* earlier bytes first */
+    for (; out_tail != out_head; out_tail++) { /* bytes that were queued before go first */
         send(out[out_tail % OUT_BYTES]);
     }
     for (unsigned i = 0; i < count; i++) {

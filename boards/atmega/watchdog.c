@@ -9,7 +9,7 @@
 #define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks, 16 ms, less 13 % */
 #define LONGEST 9U                     /* doublings: 8 s */
 
-/* May be called again, with another time. */
+/* May be called again with another timeout. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint8_t twice = 0;
     while (twice < LONGEST && SHORTEST_TICKS << twice < timeout_ticks) {
@@ -18,7 +18,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     atmega_watch(twice);
 }
 
-/* Called once per control step. Also checks the stack, which no other code does. */
+/* Called once per control step. This function also checks the stack, for which the chip has no hardware. */
 void hal_watchdog_kick(void) {
     if (!avr_stack_is_whole()) {
         atmega_fault(ATMEGA_FAULT_STACK, 0);
@@ -26,5 +26,5 @@ void hal_watchdog_kick(void) {
     __asm__ volatile("wdr");
 }
 
-/* This watchdog resets the chip instead. */
+/* This watchdog resets the chip instead of cutting the drive. */
 bool hal_watchdog_has_cut(void) { return false; }

@@ -1,5 +1,6 @@
-/* clock.c: the board's clock on AVR's sixteen-bit timer, whose overflows an interrupt counts. In a file of its own: a
- * program without it has no interrupt, and its steps always take the same cycles. */
+/* clock.c: the board's clock on AVR's sixteen-bit timer; an interrupt counts the timer's overflows. Programs that do
+ * not use this clock do not link this file: they have no interrupt, and their steps always take the same number of
+ * cycles. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -14,7 +15,7 @@ ISR(TIMER1_OVF_vect) { overflows++; }
 /* The first call starts the timer. */
 uint32_t board_ticks(void) {
     if (TCCR1B == 0) {
-        TCCR1B = _BV(CS11) | _BV(CS10); /* by 64 */
+        TCCR1B = _BV(CS11) | _BV(CS10); /* a count every 64 clocks */
         TIMSK1 = _BV(TOIE1);
     }
     const uint8_t before = SREG;

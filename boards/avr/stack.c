@@ -1,4 +1,5 @@
-/* stack.c: the stack's paint on an AVR. The stack has all memory after the variables; no hardware guards it. */
+/* stack.c: measures the used part of the stack on an AVR. The stack may use all memory after the variables; no hardware
+ * guards it. */
 #include "stack.h"
 
 #include <avr/io.h>

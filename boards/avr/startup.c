@@ -6,7 +6,7 @@ int main(void);
 void board_enter(void);
 _Noreturn void board_run(void);
 
-/* The last but one piece of the start-up code; the pieces run one after the other. */
+/* Runs as the last piece but one of the C library's start-up code. */
 __attribute__((naked, used, section(".init8"))) void board_enter(void) {
     __asm__ volatile("jmp board_run");
 }

@@ -1,6 +1,7 @@
 /* cmsdk_watchdog.c: hal/watchdog.h on Arm's CMSDK APB watchdog (Cortex-M System Design Kit Technical Reference Manual,
- * 4.4), as on the MPS2 boards: one that resets. It counts down twice. After the first count it requests the interrupt,
- * which is the NMI there. After the second it resets: after twice the timeout. */
+ * 4.4), as on the MPS2 boards. This watchdog resets the processor. It counts down twice: at the end of the first count
+ * it requests an interrupt, which is the NMI on these boards; at the end of the second, after twice the timeout, it
+ * resets. */
 #include "cortexm.h"
 
 #include "hal/clock.h"
@@ -24,7 +25,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     REGISTER(WATCHDOG_LOCK) = 0;
 }
 
-/* Clearing the interrupt reloads the count, with or without a pending one. */
+/* Clearing the interrupt reloads the count, even if no interrupt is pending. */
 void hal_watchdog_kick(void) {
     REGISTER(WATCHDOG_LOCK) = WATCHDOG_KEY;
     REGISTER(WATCHDOG_CLEAR) = 1;

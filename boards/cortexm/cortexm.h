@@ -23,12 +23,12 @@
 #define MPU_CTRL 0xE000ED94U
 #define SCB_CPACR 0xE000ED88U /* coprocessor access: the FPU is 10 and 11 */
 
-/* The console's device, one driver file for each chip family. uart_start() may be called again at any time, also from
- * the fault handler before other parts are up. */
+/* The console's device, which has one driver file for each chip family. uart_start() may be called again at any time,
+ * also from the fault handler before other parts are up. */
 void uart_start(void);
 void uart_write(const char *bytes, unsigned count);
 
-/* The free-running clock's device. */
+/* The device of the free-running clock. */
 void timer_start(void);
 
 /* Vectors that a program may handle by a function on_NAME(). A vector without such a function is a fault. X(exception,
@@ -45,13 +45,13 @@ CORTEXM_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 BOARD_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 #undef CORTEXM_DECLARE_VECTOR
 
-/* The vector table's entry for every unhandled exception. Never returns. It first makes the stores of BOARD_SAFE_ROWS
+/* The vector of every unhandled exception. Never returns. It first makes the stores in the list BOARD_SAFE_ROWS
  * (board_data.h), X(address, value), which cut the power of the board's outputs. */
 void board_fault(void);
 
 typedef struct board_fault_facts {
     uint32_t exception; /* its number */
-    uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are unknown */
+    uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are not known */
     uint32_t pc;
     uint32_t lr;
     uint32_t cfsr; /* copy of SCB_CFSR */
@@ -72,12 +72,13 @@ void board_fault_words(wh_text *text, const board_fault_facts *facts);
 /* The end of a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts);
 
-/* Sets up the chip's clocks before variables have their values. So it uses no variables, and every wait is bounded. On
- * chips with clocks to set up, the result is in board_clock_is, in memory that the start-up code does not clear. */
+/* Sets up the chip's clocks before the variables are initialized. So board_clock_start() uses no variables, and every
+ * wait is bounded. On chips with clocks to set up, its result is in board_clock_is, in memory that the start-up code
+ * does not clear. */
 typedef enum board_clock {
     BOARD_CLOCK_CRYSTAL,  /* the board's crystal */
     BOARD_CLOCK_FALLBACK, /* the crystal does not oscillate: the chip's own oscillator */
-    BOARD_CLOCK_GIVEN     /* no clock to set up: an emulator */
+    BOARD_CLOCK_GIVEN     /* there is no clock to set up: an emulator */
 } board_clock;
 void board_clock_start(void);
 extern board_clock board_clock_is;

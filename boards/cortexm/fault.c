@@ -10,8 +10,8 @@ void board_fault_report(const uint32_t *frame, uint32_t exception);
                      : \
                      : "i"(address), "i"(value));
 
-/* SP points to the stacked frame (this program uses only the main stack). The handler runs on a stack of its own: after
- * an overflow the old one is unusable. */
+/* SP points to the stacked frame (this program uses only the main stack). The handler has its own stack, because the
+ * old one is unusable after an overflow. */
 __attribute__((naked)) void board_fault(void) {
     BOARD_SAFE_ROWS(SAFE_STORE)
     __asm__ volatile("cpsid i\n\t"
@@ -28,7 +28,8 @@ __attribute__((naked)) void board_fault(void) {
 CORTEXM_VECTOR_ROWS(WEAK_VECTOR)
 BOARD_VECTOR_ROWS(WEAK_VECTOR)
 
-/* Armv8-M's: the stack pointer would have passed MSPLIM; no frame was stacked below it then. */
+/* Bit of CFSR on Armv8-M: the stack pointer would have passed MSPLIM. No frame was then stacked at the stack
+ * pointer. */
 #define STACK_LIMIT_PASSED (1U << 20)
 
 #define CFSR_MEMORY_ADDRESS (1U << 7)

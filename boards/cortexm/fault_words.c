@@ -1,4 +1,4 @@
-/* fault_words.c: a fault's facts in words. */
+/* fault_words.c: the facts of a fault as text. */
 #include "cortexm.h"
 
 #include "core/text.h"

@@ -1,5 +1,5 @@
-/* flashed.c: the end of a program on a real board: it never ends. A fault is recorded and the processor restarts. A
- * program that cannot go on stops with the motor off. */
+/* flashed.c: the end of a program on a real board: the program never ends. A fault is recorded and the processor
+ * restarts. A program that cannot continue stops with the motor off. */
 #include "boards/board.h"
 #include "hal/motor.h"
 

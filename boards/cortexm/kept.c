@@ -15,7 +15,7 @@ static uint32_t crc_of_fault(void) {
 
 static bool fault_holds(void) { return fault.crc == crc_of_fault(); }
 
-/* Make the present content valid. */
+/* Make the present content of the record valid. */
 static void seal(void) {
     board_kept_settle();
     fault.crc = crc_of_fault();
@@ -41,7 +41,7 @@ bool board_kept_take_fault(board_fault_record *record) {
         *record = fault;
     }
     if (!held) {
-        fault.faults = 0; /* otherwise the count continues */
+        fault.faults = 0; /* the number of faults restarts only without an earlier record */
     }
     if (there || !held) {
         fault.facts.exception = 0;

@@ -15,17 +15,17 @@ typedef struct board_fault_record {
     uint32_t crc;
 } board_fault_record;
 
-/* Store a fault's record; called by the fault handler. */
+/* Store the record of a fault; called by the fault handler. */
 void board_kept_fault(const board_fault_facts *facts, uint32_t ticks);
 
-/* Read the record from before the start, once, when the program starts. The record is then no longer new. Returns false
- * if there is none. */
+/* Read the record of a fault before this start, once, at the start of the program. The record is then no longer new.
+ * Returns false if there is none. */
 bool board_kept_take_fault(board_fault_record *record);
 
-/* After a power-on: forget the record, and the bytes of boards/shared/remembered.c. */
+/* After a power-on: forget the record, and the bytes of boards/shared/remembered.c, which are then random. */
 void board_kept_forget(void);
 
-/* True if any data from before the start exist: then it was no power-on. */
+/* True if any data from before the start exist: then the start was no power-on. */
 bool board_kept_anything(void);
 
 #endif

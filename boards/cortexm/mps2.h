@@ -3,8 +3,8 @@
 #define BOARDS_MPS2_H
 
 #define BOARD_INTERRUPTS 32
-#define BOARD_VECTOR_ROWS(X) /* no driver takes one */
-#define BOARD_SAFE_ROWS(X)   /* the rotor is simulated */
+#define BOARD_VECTOR_ROWS(X) /* no driver handles an interrupt */
+#define BOARD_SAFE_ROWS(X)   /* nothing to switch off: the rotor is simulated */
 #define BOARD_UART 0x40004000U
 #define BOARD_UART_DIVISOR 217U /* 25 MHz / 115200 */
 #define BOARD_TIMER 0x40000000U

@@ -10,7 +10,7 @@ typedef void (*vector)(void);
 #define CORE_ROW(number, name) [(number)] = on_##name,
 #define CHIP_ROW(number, name) [16 + (number)] = on_##name,
 
-/* A row deliberately overrides the range of fault handlers before it. */
+/* The table below first fills a range with the fault handler; later rows deliberately override it. */
 #pragma GCC diagnostic ignored "-Woverride-init"
 
 /* Sixteen system vectors, then the chip's interrupts. The fault handler serves all vectors without a row of their own. */
@@ -27,7 +27,7 @@ static void enable_fpu(void) {
 #endif
 }
 
-/* A loader in ROM leaves its own table active. */
+/* Use the table above: a loader in ROM may have set its own. */
 static void take_vectors(void) {
 #if __ARM_ARCH >= 7
     REGISTER(SCB_VTOR) = (uint32_t)(uintptr_t)vectors;

@@ -10,7 +10,7 @@
 const char *const board_name = "host";
 const uint32_t board_ticks_per_s = 1000000U;
 
-/* Line by line, so that a file or pipe has the output before a crash; unbuffered is also acceptable. */
+/* Line-buffered output, so that a file or pipe has it before a crash. If this call fails, the output is still right. */
 void board_start(void) {
     if (setvbuf(stdout, NULL, _IOLBF, BUFSIZ) != 0) {
         setbuf(stdout, NULL);
@@ -33,7 +33,8 @@ _Noreturn void board_exit(int code) {
 uint32_t board_ticks(void) {
     struct timespec now;
     if (clock_gettime(CLOCK_MONOTONIC, &now) != 0) {
-        board_exit(EXIT_FAILURE); /* cannot happen by POSIX; a stopped clock would hang loops */
+        /* cannot happen by POSIX; but with a stopped clock, loops would never end */
+        board_exit(EXIT_FAILURE);
     }
     const uint64_t seconds = (uint64_t)now.tv_sec;
     const uint64_t nanoseconds = (uint64_t)now.tv_nsec;

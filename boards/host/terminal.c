@@ -16,12 +16,13 @@
 #include "boards/board.h"
 
 static int line = -1;
-static int other_end = -1; /* kept open: the line exists with or without a partner */
+/* kept open, so that the line exists with or without a program at the other end */
+static int other_end = -1;
 static const char *link_name;
 static char own_terminal[64];
 
-/* Called by exit() and by signal handlers, so it uses only functions allowed there. A link to another terminal belongs
- * to a newer program. */
+/* Called by exit() and by signal handlers, so it uses only functions allowed there. A link that leads to another
+ * terminal belongs to a newer program and stays. */
 static void remove_link(void) {
     if (link_name != NULL) {
         char to[sizeof own_terminal];
@@ -40,7 +41,7 @@ static void end_by(int number) {
     (void)raise(number);
 }
 
-/* Replaces a link from an earlier run, but not a file. */
+/* Replaces a link of an earlier run, but no other file. */
 static bool make_link(const char *terminal) {
     struct stat there;
     const char *wanted = getenv("RIG_TTY");
@@ -63,7 +64,7 @@ static bool make_link(const char *terminal) {
            signal(SIGTERM, end_by) != SIG_ERR && signal(SIGHUP, end_by) != SIG_ERR;
 }
 
-/* As a serial line: no echo, no line editing, no signals, no conversion. */
+/* Sets the terminal to behave as a serial line: no echo, no line editing, no signals, no conversion. */
 static bool make_plain(int terminal) {
     struct termios plain;
     if (tcgetattr(terminal, &plain) != 0) {

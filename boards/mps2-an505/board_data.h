@@ -4,8 +4,8 @@
 
 #define BOARD_NAME "mps2-an505"
 #define BOARD_INTERRUPTS 128
-#define BOARD_VECTOR_ROWS(X) /* no driver takes one */
-#define BOARD_SAFE_ROWS(X)   /* the rotor is simulated */
+#define BOARD_VECTOR_ROWS(X) /* no driver handles an interrupt */
+#define BOARD_SAFE_ROWS(X)   /* nothing to switch off: the rotor is simulated */
 #define BOARD_UART 0x50200000U
 #define BOARD_UART_DIVISOR 174U /* 20 MHz / 115200 */
 #define BOARD_TIMER 0x50000000U

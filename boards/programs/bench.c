@@ -2,7 +2,7 @@
  *
  * The same source runs on every board under the counting plugin and on the PC under callgrind (count_rows.sh). It only prints the intervals' meanings on the console:
  *
- *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST hold one step each, or, if METHOD ends in "-ahead",
+ *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST have one step each, or, if METHOD ends in "-ahead",
  *                                            STEPS_A_CALL steps
  *     stack NAME BYTES                       deepest stack of the program during those steps
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the processor counts them itself (board.h)
@@ -24,7 +24,7 @@
 #ifndef BENCH_SMALL
 #define BENCH_SMALL 0
 #endif
-#define STEPS_A_CALL 100U /* as mk/count/figures.awk divides by */
+#define STEPS_A_CALL 100U /* the divisor in mk/count/figures.awk */
 #define COUNTED_PAIRS 64U
 
 static unsigned intervals;

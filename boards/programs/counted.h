@@ -1,5 +1,5 @@
-/* counted.h: for programs whose instructions are counted: the marks of an interval, memory for any scene, and lines of
- * words on the console. For one file of a program. */
+/* counted.h: for programs whose instructions are counted: the functions that begin and end a counted interval, memory
+ * for any scene, and lines of words on the console. For one file of a program. */
 #ifndef BOARDS_PROGRAMS_COUNTED_H
 #define BOARDS_PROGRAMS_COUNTED_H
 
@@ -12,7 +12,8 @@ static uint64_t memory[WH_SCENE_WORDS];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* This function only returns. The operands differ so that the compiler does not merge the two functions. */
+/* These functions only return: the plugin counts between their addresses. The operands differ so that the compiler does
+ * not merge them. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
@@ -42,7 +43,7 @@ static void line_end(void) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* Prints that the intervals `first` to `last` belong to this method; `more` qualifies the method. */
+/* Prints that the intervals `first` to `last` belong to this method; `more` is appended to the method's name. */
 static inline void say_counted(const char *name, const char *method, const char *more,
                                unsigned first, unsigned last) {
     line_begin("count", name);

@@ -1,5 +1,6 @@
 /* firstlight.c: first light of a board. It runs five scenes to their end, then two seconds of the rig's control loop at
- * rest and the console's self-test. It prints one record of all on the console (core/light_fields.h, docs/firstlight.md).
+ * rest and the console's self-test. It prints all results as one record on the console (core/light_fields.h,
+ * docs/firstlight.md).
  *
  * The motor is never enabled: the image has no call of hal_motor_start() (checked by boards/check_image.sh). On real
  * hardware it prints the record again for each typed line; in an emulator it ends. */
@@ -11,7 +12,7 @@
 #include "core/text.h"
 #include "core/version.h"
 
-/* 1: the board has the rig's hardware; otherwise those fields are `none`. */
+/* 1: the board has the rig's hardware. 0: the fields of the rig are `none`. */
 #ifndef LIGHT_HARDWARE
 #define LIGHT_HARDWARE 0
 #endif
@@ -33,7 +34,7 @@ static const wh_scene *const scenes[] = {WH_LIGHT_SCENES(ADDRESS_OF)};
 #define SCENES (sizeof scenes / sizeof scenes[0])
 _Static_assert(SCENES == 5U, "five scenes");
 
-/* Scenes run one after the other, in shared memory. */
+/* The scenes run one after the other, so they can use the same memory. */
 #define MEMORY_OF(scene) uint64_t scene[scene##_MEMORY_WORDS];
 static union { WH_LIGHT_SCENES(MEMORY_OF) } scene_memory;
 
@@ -85,7 +86,7 @@ static void line_hex(uint64_t number, unsigned digits) {
     line_word("0x");
     wh_text_add_hex(&line, number, digits);
 }
-/* For the CRC a line ends with a line feed; a terminal also gets a carriage return before it. */
+/* Ends a line. The CRC has a line feed for it; the terminal gets a carriage return before the line feed. */
 static void line_end(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
@@ -156,7 +157,7 @@ static void say_stack(void) {
 /* --- the rig at rest ---------------------------------------------------------------------------------------------- */
 
 #if LIGHT_HARDWARE
-#define PERIODS 1000U /* two seconds: rest is known after 1.5 */
+#define PERIODS 1000U /* two seconds: a rotor is known to rest after 1.5 */
 
 typedef struct range {
     int32_t least;
@@ -254,7 +255,7 @@ static void say_load(void) {
     }
     line_end();
     line_begin("supply");
-    if (rest.samples > 0) { /* the same converter */
+    if (rest.samples > 0) { /* the hardware has one converter for load and supply, so it works */
         wh_text_add_char(&line, ' ');
         wh_text_add_fixed(&line, seen.inputs.supply_V, 2);
         line_word("V");
@@ -295,7 +296,7 @@ static void say_rest(void) {
     }
 }
 
-/* True if a waiting byte ends a line; noise on an open line seldom does. */
+/* True if a received byte ends a line. Noise on an open line seldom does. */
 static bool line_end_typed(void) {
     char typed[16];
     bool ended = false;

@@ -1,6 +1,6 @@
 /* fixed.c: counts single steps of one scene in fixed point, and prints the hash of its last state:
  *
- *     fixed NAME FIRST LAST hash 0x... saturated N     intervals FIRST to LAST hold one step each
+ *     fixed NAME FIRST LAST hash 0x... saturated N     intervals FIRST to LAST have one step each
  *     stack NAME BYTES                                 deepest stack of the program during those steps
  *     count NAME rk4 fixed FIRST LAST                  the intervals again, in the format of bench.c
  *
@@ -25,7 +25,8 @@ static uint64_t memory[OF(FIXED_SCENE, _MEMORY_WORDS)];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* This function only returns. The operands differ so that the compiler does not merge the two functions. */
+/* These functions only return: the plugin counts between their addresses. The operands differ so that the compiler does
+ * not merge them. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 

@@ -1,7 +1,7 @@
-/* mark.h: marks for the counting plugin, which cost no instruction.
- * WH_MARK(kind) writes the address of the instruction that follows it, and `kind` (1 to 3), into the section .wh_marks
- * of the object file. The compiler's copies, including inlined ones, each have an entry. The linker must retain the
- * section (R), although it has no references. */
+/* mark.h: marks for the counting plugin, which cost no instruction. WH_MARK(kind) writes the address of the instruction
+ * that follows it, and `kind` (1 to 3), into the section .wh_marks of the object file. If the compiler copies or
+ * inlines the code, each copy has an entry. The flag R makes the linker retain the section, although nothing refers to
+ * it. */
 #ifndef WH_MARK_H
 #define WH_MARK_H
 

@@ -1,5 +1,5 @@
-/* obey.h: passes the controller's commands to the motor, and reads stops. A part of a program, or of a test that
- * replaces one. */
+/* obey.h: passes the controller's commands to the motor, and reads the stop input. Included by the rig's programs and
+ * by tests of them. */
 #ifndef PROGRAMS_OBEY_H
 #define PROGRAMS_OBEY_H
 
@@ -9,7 +9,7 @@
 #include "hal/motor.h"
 #include "hal/stop.h"
 
-/* 0: a program that never drives; it has no call of hal_motor_start(). */
+/* 0: a program that never drives the motor; it has no call of hal_motor_start(). */
 #ifndef RIG_DRIVES
 #define RIG_DRIVES 1
 #endif
@@ -24,7 +24,7 @@ _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
                "one list of who asks for stop");
 
-/* The source of the stop, if stop_was_pressed(): after a short press only the cut remains. */
+/* The source of the stop, if stop_was_pressed(). After a short press the source is unknown: only the cut shows it. */
 static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }
@@ -41,7 +41,7 @@ static inline void obey(const wh_rig_command *command, bool *drives) {
 #if RIG_DRIVES
     if (!*drives) {
         *drives = true;
-        (void)hal_motor_start(); /* if it fails, the inputs of the next step have the reason */
+        (void)hal_motor_start(); /* if the start fails, the next step's inputs have the reason */
     }
     hal_motor_set_voltage(command->volts);
 #else

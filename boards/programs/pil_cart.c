@@ -1,6 +1,6 @@
-/* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`.
- * It has two encoders every millisecond, a light barrier in the middle of the rail, and a motor. State feedback puts
- * the poles of the linear system at -6, -6, -2 and -2 per second, by hand (docs/pil.md). The force is a sum of angle,
+/* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`. It reads two
+ * encoders every millisecond and a light barrier in the middle of the rail, and drives a motor. State feedback puts the
+ * poles of the linear system at -6, -6, -2 and -2 per second, by hand (docs/pil.md). The force is a sum of angle,
  * position and their rates, which are smoothed differences of counts. Exit status 0: the rod is upright in the middle
  * after ten seconds; 1: it is not; 2: no plant. */
 #include "boards/board.h"
@@ -10,7 +10,7 @@
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 1000U
 #define RUN_PERIODS 10000U
-#define SMOOTH 0.1f /* share of a new rate */
+#define SMOOTH 0.1f /* share of the newest rate in the smoothed rate */
 #define PERIODS_PER_S 1000.0f
 
 #define RAD_PER_COUNT (6.2831853f / 8192.0f)
@@ -20,7 +20,7 @@
 #define UPRIGHT_RAD 0.02f /* tolerance of upright */
 #define MIDDLE_M 0.03f
 
-/* N/rad, N*s/rad, N/m, N*s/m */
+/* Gains of the force, in N/rad, N*s/rad, N/m, N*s/m. */
 #define GAIN_ANGLE 20.725f
 #define GAIN_ANGLE_RATE 3.281f
 #define GAIN_PLACE 2.2026f

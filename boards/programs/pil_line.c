@@ -1,5 +1,5 @@
 /* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`.
- * The other side cannot see the program's end, and gets a message. */
+ * The other side cannot detect the end of the program, so it gets a message. */
 #include "boards/board.h"
 #include "hal/frames/rig_frames.h"
 #include "hal/link.h"
@@ -7,7 +7,7 @@
 static _Noreturn void tell_and_exit(int status) {
     uint8_t heard;
     hal_frames_end(status);
-    (void)hal_link_read(&heard, 1); /* the message was read */
+    (void)hal_link_read(&heard, 1); /* the other side has read the message */
     board_exit(status);
 }
 

@@ -1,9 +1,9 @@
-/* rig.c: the firmware of the eccentric-mass rig, the same on every board.
- * The controller of core/rig/rig.h on the hardware of hal/. Without a console it gives the orders of one test run
- * itself: `arm` as soon as the rotor rests, `start` at 330 rpm; then it reports. After a reset other than power-on, and
- * after a stop, it gives no orders. Exit status 0: done. 1: the guard tripped, stop was pressed, the processor was
- * reset, or an order or the result was refused; the report gives the reason. 2: not started, because the hardware does
- * not answer or the arithmetic is not that of the tests. */
+/* rig.c: the firmware of the eccentric-mass rig, the same on every board. The controller of core/rig/rig.h on the
+ * hardware of hal/. Without a console it gives the orders of one test run itself: `arm` as soon as the rotor rests,
+ * `start` at 330 rpm; then it reports. After a reset other than power-on, and after a stop, it gives no orders. Exit
+ * status 0: done. 1: the guard tripped, stop was pressed, the processor was reset, or an order or the result was
+ * refused; the report gives the reason. 2: not started, because the hardware does not answer or the arithmetic is not
+ * IEEE 754's. */
 #include "core/rig/rig.h"
 
 #include <stddef.h>
@@ -25,7 +25,7 @@
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
-/* 1: set-point and the fed-forward part of gravity are dialled (pil_dialled.c). */
+/* 1: the set-point and the compensated part of gravity are set by dials (pil_dialled.c). */
 #ifndef RIG_DIALLED
 #define RIG_DIALLED 0
 #endif
@@ -47,12 +47,12 @@ static float displacement_m; /* of the carriage, from the measurement */
 /* Number of off commands to the motor before the program ends. */
 #define LAST_ORDERS 10U
 
-/* The rotor must rest before `arm`: limit for one that was turning before the reset. */
+/* Limit of the wait for rest before `arm`: the rotor may have been turning before the reset. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
-/* Notes for a judge of a run in the loop (docs/pil.md). */
+/* Sends notes to the plant, for the evaluation of a run in the loop (docs/pil.md). */
 static void tell(void) {
 #if HAL_FRAMES
     const wh_measured *force = &rig.result.force;
@@ -91,10 +91,10 @@ static void put_state(uint32_t started_ticks) {
 }
 
 #if RIG_CARRIAGE || RIG_DIALLED
-/* Limit of the wait for the dials: a reading may be late or lost. */
+/* Limit of the wait for the dials' readings: one may be late or lost. */
 #define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
 
-/* Returns false if there are no readings. */
+/* Waits for the dials. Returns false if they have no readings. */
 static bool wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0;
@@ -165,10 +165,10 @@ typedef enum operator_step {
     HAS_STARTED,
     WAS_RESET,
     WAS_STOPPED,
-    STOP_SILENT /* the stop input is unknown */
+    STOP_SILENT /* the stop input has no reading */
 } operator_step;
 
-/* A stop input without a reading may still get one. That reading counts if it comes before the rig is armed. */
+/* The stop input may get its first reading late. The reading counts if it comes before the rig is armed. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;
@@ -180,7 +180,7 @@ static void look_at_stop(operator_step *at, bool rests) {
     }
 }
 
-/* Returns true when the wait is over. */
+/* One step of the operator. Returns true when the operator waits for nothing more. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);
@@ -197,7 +197,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     case HAS_ARMED:
         *at = HAS_STARTED;
         (void)wh_rig_post(&rig, WH_EVENT_START, target_radps);
-        return rig.state != WH_RIG_ARMED; /* refused */
+        return rig.state != WH_RIG_ARMED; /* refused: the operator waits no longer */
     case HAS_STARTED: break;
     case WAS_RESET:
     case WAS_STOPPED:
@@ -232,8 +232,8 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    /* Repeats the off command, because the motor may be at the end of a line that loses orders. A late controller is
-     * past `due` by then. */
+    /* Repeats the off command, because the line to the motor may lose orders. A controller that is late does not wait
+     * between them. */
     for (unsigned i = 0; i < LAST_ORDERS; i++) {
         hal_motor_off(HAL_MOTOR_COAST);
         hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
@@ -241,7 +241,7 @@ static operator_step run(const wh_rig_config *config) {
     return operator_at;
 }
 
-/* Reports a refusal before anything has moved. */
+/* Reports why nothing was started. */
 static void refuse(const char *why) {
     put("NOT STARTED: ");
     put(why);

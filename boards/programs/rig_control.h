@@ -1,5 +1,5 @@
-/* rig_control.h: the rig's controller on the hal_ functions: the control step of every program of the rig. A part of
- * such a program; an image has one. */
+/* rig_control.h: the rig's controller on the hal_ functions: the control step of every program of the rig. Included
+ * once by each such program. */
 #ifndef PROGRAMS_RIG_CONTROL_H
 #define PROGRAMS_RIG_CONTROL_H
 
@@ -57,15 +57,16 @@ _Static_assert(RIG_SAMPLES_MOST <= WH_STEP_SAMPLES, "all are seen");
 /* Static, not on the stack: it contains the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
-static wh_step_inputs seen; /* inputs of this control step, or of the last one */
+static wh_step_inputs seen; /* the inputs of the last control step */
 static bool drives;         /* obey.h */
 
-/* Reads new edges and samples into `seen`, as many as a step takes. */
+/* Reads new edges and samples into `seen`, as many as one step may process. */
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* At most one pulse per step, and one end before it: a storm must not delay the step, and time stamps stay valid. A
-     * sample that had to wait for a pulse comes first. */
+    /* At most one pulse per step, and before it the end of one: a storm of edges must not delay the step. The other
+     * edges wait, with valid time stamps. If a sample had to wait because of a pulse, the next step reads the sample
+     * first. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -95,7 +96,7 @@ static void look(void) {
     seen.inputs.stop_by = stop_was_by();
 }
 
-/* A separate function: its stack is free again when the console needs its own. */
+/* A separate function, so that its stack is free again when the console runs. */
 WH_CALLED static void control(const wh_rig_config *config) {
     look();
 #if HAL_FRAMES
@@ -115,7 +116,8 @@ WH_CALLED static void control(const wh_rig_config *config) {
     obey(&command, &drives);
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
-    hal_watchdog_kick(); /* also when tripped: a resetting watchdog would restart everything */
+    /* kicked also when tripped: a watchdog that resets would restart everything */
+    hal_watchdog_kick();
 }
 
 static const char *why_no_hardware(void) {
@@ -128,8 +130,9 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Start the hardware, and check that the arithmetic is that of the tests. The check runs in the model's file, which has
- * the flags of the whole image. Returns the reason for a failure, for wh_text_add(), with the motor off; or NULL. */
+/* Start the hardware, and check that the arithmetic is IEEE 754's. The check is compiled with the model's file, which
+ * has the compiler flags of the whole image. Returns the reason for a failure, for wh_text_add(), with the motor off;
+ * or NULL. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();

@@ -1,4 +1,5 @@
-/* rig_own.h: the rig programs' own configuration, before settings. A part of such a program; an image has one. */
+/* rig_own.h: the rig programs' own configuration, before the settings change it. Included once by each program of the
+ * rig. */
 #ifndef PROGRAMS_RIG_OWN_H
 #define PROGRAMS_RIG_OWN_H
 
@@ -19,7 +20,8 @@ extern const wh_scene rig_observed;
 #define OWN_ARITHMETIC (wh_arithmetic)
 #endif
 
-/* The standard rig with this hardware's cell and sensors. Written in place: a copy needs half a kilobyte of stack. */
+/* The standard rig with this hardware's cell and sensors. Filled in place, because a copy would need half a kilobyte of
+ * stack. */
 static void own_configuration(wh_rig_config *config) {
     *config = wh_rig_standard;
     config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,

@@ -1,4 +1,4 @@
-/* rig_report.h: the report of a run. A part of rig.c. */
+/* rig_report.h: the report of a run. Included by rig.c. */
 #ifndef PROGRAMS_RIG_REPORT_H
 #define PROGRAMS_RIG_REPORT_H
 
@@ -124,7 +124,7 @@ static inline void put_place(const char *name, const wh_swung *swung, unsigned s
     put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
 }
 
-/* The sensors' positions from the swing, if the run ended in one. */
+/* Prints the sensors' positions found from the free swing, if the run ended in one. */
 static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;

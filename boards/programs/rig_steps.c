@@ -1,7 +1,7 @@
 /* rig_steps.c: the cost of each control step of the rig's run, without the hardware's part.
  *
- * The firmware's loop (rig.c) on the virtual rig, for several runs: it takes each step's pulses and samples first, then
- * counts the controller that processes them. Interval 0 is empty. Prints on the console
+ * The firmware's loop (rig.c) on the virtual rig, for several runs. Each step reads its pulses and samples first; then
+ * the controller, which processes them, is counted. Interval 0 is empty. Prints on the console
  *
  *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and its measurement */
 #include <stddef.h>
@@ -26,15 +26,15 @@ static wh_rig rig;
 static wh_rig_config config;
 static unsigned intervals = 1;
 
-/* Faults in the middle of the record. */
+/* The faults that are planted in the middle of the record. */
 typedef struct trial {
     const char *name;
     float target_rpm;
     unsigned lose_pulses[2];
     unsigned lose_samples;
-    float noise; /* largest noise, counts, either way */
-    bool fed;    /* feeds gravity forward, although it is not needed */
-    bool swings; /* ends in a free swing, which is evaluated */
+    float noise; /* largest noise of the load, counts, in either direction */
+    bool fed;    /* gravity is compensated, although this is not needed */
+    bool swings; /* the run ends in a free swing, which is evaluated */
 } trial;
 
 static const trial trials[] = {
@@ -65,7 +65,7 @@ static void control(const trial *tried) {
     unsigned sample_count = 0;
     hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
     hal_watchdog_kick();
-    while (!pulsed && hal_slots_take(&pulse)) { /* one a step, as rig_control.h does */
+    while (!pulsed && hal_slots_take(&pulse)) { /* one pulse per step, as in rig_control.h */
         pulsed = pulse.end == HAL_SLOT_LEADING;
     }
     while (sample_count < 8U && hal_loadcell_take(&samples[sample_count])) {
@@ -95,7 +95,7 @@ static bool run(const trial *tried) {
     config.observer.scene = &rig_observed;
     config.feeds = tried->fed ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
-    config.stop_brakes = true; /* runs without a swing end soon */
+    config.stop_brakes = true; /* so that runs without a free swing end soon */
     if (hal_clock_start() != HAL_STARTED) {
         return false;
     }
@@ -103,7 +103,7 @@ static bool run(const trial *tried) {
     wh_rig_start(&config, &rig, hal_clock_ticks(), NULL);
     hal_watchdog_start(10U * CONTROL_TICKS);
     unsigned recorded = 0;
-    unsigned ordered = 0; /* `arm`, then `start` */
+    unsigned ordered = 0; /* number of orders given: `arm`, then `start` */
     bool over = false;
     for (unsigned i = 0; i < STEPS_MOST && !over; i++) {
         if (ordered == 0 && rig.guard.quiet) {
@@ -131,7 +131,7 @@ static bool run(const trial *tried) {
 
 int main(void) {
     board_start();
-    (void)memory; /* counted.h's: the virtual rig has its own */
+    (void)memory; /* counted.h's memory is unused: the virtual rig has its own */
     wh_count_begin();
     wh_count_end();
     bool all = true;

@@ -2,8 +2,8 @@
  *
  *     scene NAME steps N hash 0x0123456789abcdef ok
  *
- * The PC and every board must print the same lines. The last words report a scene that diverges, with the hash of its
- * last good state; the others still run. Fails without scenes. */
+ * The PC and every board must print the same lines. If a scene diverges, its line ends with the error instead of ok,
+ * and has the hash of its last good state; the other scenes still run. Without scenes the program fails. */
 #include "boards/programs/to_the_end.h"
 
 int main(void) { board_exit(run_all_to_the_end()); }

@@ -1,7 +1,8 @@
-/* size_fixed.c: the smallest firmware around one scene in fixed point, to measure its size: it steps (size.c is that of
- * reals).
+/* size_fixed.c: the smallest firmware around one scene in fixed point, to measure its size: it steps (size.c is the
+ * same for reals).
  *
- * Built once a scene with FIXED_SCENE as its name, and the scene's header included first. It is linked, never run. */
+ * Built once for each scene, with FIXED_SCENE as its name, and the scene's header included first. It is linked, never
+ * run. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 

@@ -1,5 +1,5 @@
-/* station.c: the rig's firmware with a console (core/station): its user gives the orders.
- * It never ends. If the model simulates the hardware (hal/virtual), the model's time follows the clock's. */
+/* station.c: the rig's firmware with a console (core/station): the user gives the orders. The program never ends. If
+ * the model simulates the hardware (hal/virtual), the model's time follows the clock's. */
 #include "core/station/station.h"
 
 #include "boards/board.h"
@@ -31,7 +31,7 @@ static void converse(void) {
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
 
-/* Reports a start that nobody requested. */
+/* Reports a reset that nobody requested. */
 static void tell_reset(void) {
     char words[200];
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
@@ -48,8 +48,8 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* Waits for a control period of the board's clock. After a long delay (a debugger, a laptop that slept) it goes on from
- * now. */
+/* Waits for a control period of the board's clock. After a long delay (a debugger, a laptop that slept) the next period
+ * begins now. */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;

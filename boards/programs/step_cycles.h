@@ -13,7 +13,7 @@
 #endif
 
 typedef struct step_cycles {
-    uint32_t nothing; /* cycles of an empty measurement */
+    uint32_t nothing; /* cycles of a measurement of no step */
     uint32_t least;
     uint32_t most;
     unsigned kept;
@@ -25,7 +25,7 @@ static inline void step_cycles_start(step_cycles *c) {
     *c = (step_cycles){.nothing = board_cycles() - before, .least = UINT32_MAX};
 }
 
-/* Does one step and counts its cycles. `keep`: the step counts for the median, too. */
+/* Does one step and counts its cycles. `keep`: the step's cycles are stored for the median. */
 static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_state *state,
                                      bool keep) {
     const uint32_t before = board_cycles();

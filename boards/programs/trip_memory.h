@@ -1,4 +1,5 @@
-/* trip_memory.h: the record of a trip through a reset (hal/reset.h): latched again at the start, written when it changes. */
+/* trip_memory.h: the record of a trip through a reset (hal/reset.h): the trip is latched again at the start, and the
+ * record is written when it changes. */
 #ifndef PROGRAMS_TRIP_MEMORY_H
 #define PROGRAMS_TRIP_MEMORY_H
 
@@ -14,7 +15,7 @@ typedef struct trip_memory {
     wh_trip_record record;
 } trip_memory;
 
-/* wh_rig_start() as the processor starts: idle, or tripped as before the reset. */
+/* wh_rig_start() with the remembered record: the rig starts idle, or tripped as before the reset. */
 static inline void trip_memory_start(trip_memory *memory, const wh_rig_config *config, wh_rig *rig,
                                      uint32_t now_ticks) {
     uint8_t bytes[HAL_REMEMBER_BYTES];

@@ -1,12 +1,12 @@
 /* worst.c: the most instructions of a step of a scene with contacts, over random states.
  *
  * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Every RUN steps its state is randomized:
- * angles anywhere, rates times a random factor of up to 2 and inputs of up to 4, either way. Positions move by up to
- * the distance of some steps, and modes are determined again. All of this runs WORST_SEEDS times, with other numbers.
- * The counter records the largest interval of a scene and seed (count_plugin.c, every=WORST_STEPS). Prints the lines of
- * bench.c on the console, and before them
+ * angles anywhere, rates times a random factor from -2 to 2, inputs times one from -4 to 4. Positions move by up to the
+ * distance of some steps, and the contacts' modes are determined again. All of this runs WORST_SEEDS times, with
+ * different random numbers. The counter records the largest interval of a scene and seed (count_plugin.c,
+ * every=WORST_STEPS). Prints the lines of bench.c on the console, and before them
  *
- *     declared NAME EVALUATIONS SIGNALS    the limit of these for one step */
+ *     declared NAME EVALUATIONS SIGNALS    declared limits of evaluations in one step (contact.h) */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 
@@ -77,7 +77,7 @@ static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
         wh_count_begin();
         const wh_status status = wh_scene_step(scene, &state);
         wh_count_end();
-        if (status != WH_OK) { /* the random state was too far out */
+        if (status != WH_OK) { /* the random state was too far outside the possible ones */
             (void)wh_scene_start(scene, &state, memory, sizeof memory);
         }
     }

@@ -6,7 +6,7 @@
 
 _Noreturn void board_fault_report(uint32_t stack_pointer);
 
-/* The report runs on a stack of its own: after an overflow the old one is unusable. mtvec requires word alignment. */
+/* The report has its own stack, because the old one is unusable after an overflow. mtvec requires word alignment. */
 __attribute__((naked, aligned(4))) void board_fault(void) {
     __asm__ volatile(".option norelax\n\t"
                      "mv a0, sp\n\t"

@@ -1,12 +1,12 @@
 /* guard.c: the protected strip below the stack, by physical memory protection (RISC-V Privileged Architecture, 3.7). A
- * locked entry without rights also applies to machine mode, until the next reset. Chips without it ignore the writes
- * and have no guard. */
+ * locked entry without rights also applies to machine mode, until the next reset. Chips without this protection ignore
+ * the writes and have no guard. */
 #include "riscv.h"
 
 void board_guard_stack(void) {
     const uint32_t locked = 0x80U;
-    const uint32_t power_of_two = 3U << 3; /* the number of ones at the address's low end gives
-                                            * the size */
+    /* the number of ones at the low end of the address gives the size */
+    const uint32_t power_of_two = 3U << 3;
     const uint32_t strip = (uint32_t)(uintptr_t)board_stack_guard;
     CSR_WRITE("pmpaddr0", strip >> 2 | (BOARD_STRIP_BYTES / 8U - 1U));
     CSR_WRITE("pmpcfg0", locked | power_of_two);

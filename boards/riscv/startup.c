@@ -6,7 +6,8 @@
 void board_entry(void);
 _Noreturn void board_reset(void);
 
-/* First in flash. The code must not be relaxed to use gp, which is never set. A plain jump would reach only 1 MB. */
+/* The first code in flash. The linker must not relax it to addresses relative to gp, which is never set. A plain jump
+ * would reach only 1 MB. */
 __attribute__((naked, used, section(".vectors"))) void board_entry(void) {
     __asm__ volatile(".option norelax\n\t"
                      "la sp, board_stack_top\n\t"

@@ -1,6 +1,6 @@
-/* convert.c: 64-bit integers to float, rounded to nearest, ties to even.
- * The compiler calls these two by their names. Its support library has them too. But if they are not written in
- * assembler there (RISC-V, Cortex-M0), they use double-precision arithmetic, which firmware here does not have. */
+/* convert.c: 64-bit integers to float, rounded to nearest, ties to even. The compiler calls these two functions by
+ * name. The versions in its support library, if not written in assembler (RISC-V, Cortex-M0), use double-precision
+ * arithmetic, which this firmware does not link. */
 #include <stdint.h>
 
 #if defined(__ARM_EABI__)

@@ -1,6 +1,6 @@
-/* link_console.c: hal/link.h over the board's console: on silicon, and without a debugger that plays files. The
- * program's prints use the same line, between frames, and cannot be taken for one: a zero byte separates them from the
- * next frame. The other side's end cannot be detected: the program then waits. */
+/* link_console.c: hal/link.h over the board's console: on real boards without a debugger. The program prints on the
+ * same line, between frames. A zero byte separates this text from the next frame, so it is never read as a frame. The
+ * end of the other side cannot be detected: the program then waits. */
 #include "hal/link.h"
 
 #include "boards/board.h"

@@ -26,15 +26,18 @@ extern uint32_t board_fault_stack_top[];
 /* Size of the strip below the stack, which is aligned to its size, as memory protection units require. */
 #define BOARD_STRIP_BYTES 256U
 
-/* Make accesses to the strip fault, if the chip can (a family's guard.c). The startup code calls it once. */
+/* Protect the strip, so that accesses to it fault, if the chip can do that (guard.c of each family). The startup code
+ * calls it once. */
 void board_guard_stack(void);
 
-/* The number of words from `low` up to `high`: two symbols of the linker script, which to C are two objects. */
+/* The number of words from `low` up to `high`: two symbols of the linker script. C considers them two objects, so
+ * pointers to them must not be subtracted. */
 static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }
 
-/* Copy initial values from flash to initialized variables and clear the others: before any C code with variables. */
+/* Copy the initial values of initialized variables from flash and clear the other variables. Call it before any C code
+ * with variables. */
 static inline void board_fill_memory(void) {
     extern uint32_t board_data_load[];
     extern uint32_t board_data_start[];

@@ -1,9 +1,9 @@
 /* remembered.c: bytes that survive a reset (hal/reset.h), in memory that is never cleared: two copies, of which the
  * older is overwritten.
  *
- * At power-on the memory has random content, or, after a short power failure, the old one: the caller that detects a
- * power-on drops it. The CRC-32 of its bytes follows a valid copy: random content passes once in 4e9. A reset in the
- * middle of writing corrupts one of the two, and the other has the earlier bytes. */
+ * At power-on the memory has random content, or, after a short power failure, the old one: the caller drops it after a
+ * power-on. A valid copy ends with the CRC-32 of its bytes: random content passes once in 4e9. A reset in the middle of
+ * writing corrupts one copy, and the other has the earlier bytes. */
 #include "remembered.h"
 
 #include <stddef.h>
@@ -13,14 +13,15 @@
 
 /* As few bytes as possible: an 8-bit processor needs 150 cycles for each in the CRC. */
 typedef struct remembered {
-    uint8_t sequence; /* the other copy's number is one more, or one less */
+    uint8_t sequence; /* the sequence numbers of the two copies differ by one */
     uint8_t count;
     uint8_t bytes[HAL_REMEMBER_BYTES];
     uint32_t crc;
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-BOARD_KEPT static uint32_t kept_state; /* separate: it is written every control step */
+/* separate from the copies, because it is written every control step */
+BOARD_KEPT static uint32_t kept_state;
 
 static uint32_t crc_of(const remembered *slot) {
     return wh_frame_crc(BOARD_KEPT_CRC_START, (const uint8_t *)slot,

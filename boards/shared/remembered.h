@@ -8,7 +8,7 @@
 /* Places a variable in memory that is never cleared or filled. */
 #define BOARD_KEPT __attribute__((section(".noinit")))
 
-/* Start value of CRCs in that memory: all zeros are then invalid. */
+/* Start value of the CRCs in that memory. With it, a memory of zeros is invalid. */
 #define BOARD_KEPT_CRC_START 0x52494721U
 
 /* A barrier: stores to that memory are neither delayed beyond this call nor moved before it. */

@@ -1,4 +1,4 @@
-/* reset_words.h: a family's record of a fault, for hal_reset_words() of reset_words.c. */
+/* reset_words.h: the record of a fault of each family, for hal_reset_words() in reset_words.c. */
 #ifndef BOARDS_SHARED_RESET_WORDS_H
 #define BOARDS_SHARED_RESET_WORDS_H
 

@@ -1,4 +1,4 @@
-/* rig_time.h: hal/clock.h's time on board_ticks(), for boards whose clock also stamps the captures. */
+/* rig_time.h: the time of hal/clock.h from board_ticks(), for boards whose clock also stamps the captures. */
 #ifndef BOARDS_SHARED_RIG_TIME_H
 #define BOARDS_SHARED_RIG_TIME_H
 

@@ -10,7 +10,7 @@ void stm32f4_brown_out_start(void) {
     reg_store(FLASH_OPTKEYR, FLASH_OPTKEY1);
     reg_store(FLASH_OPTKEYR, FLASH_OPTKEY2);
     reg_change(FLASH_OPTCR, FLASH_OPTCR_BOR_LEV,
-               FLASH_OPTCR_BOR_LEV_3); /* the other bits unchanged */
+               FLASH_OPTCR_BOR_LEV_3); /* keeps the other bits unchanged */
     reg_set(FLASH_OPTCR, FLASH_OPTCR_OPTSTRT);
     (void)stm32f4_flash_rests();
     reg_set(FLASH_OPTCR, FLASH_OPTCR_OPTLOCK);

@@ -1,13 +1,14 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
  * Timer 3 starts 32,000 conversions of the pair a second. DMA stores them, and interrupts when half of its memory is
- * full: 64 pairs, 2 ms. A sample is their mean, stamped with their middle, so that it has no delay. It is delivered
- * together with the next mean, because the correction of a mean's attenuation needs both neighbours. One count of the
- * converter is 109 mN. The error of a mean of 64 is 1.7 mN with noise of half a count; its unit is 6.8 mN.
+ * full: 64 pairs, 2 ms. A sample is their mean. Its time stamp is the middle of their times, so it has no delay. A
+ * sample is delivered when the next mean is known, because the correction of a mean's attenuation needs both neighbours
+ * (hal/averaged.h). One count of the converter is 109 mN. The error of a mean of 64 is 1.7 mN with noise of half a
+ * count; the unit of a sample is 6.8 mN.
  *
- * The amplifier's output without force is half of the reference. Near either end it is saturated. A whole sample near
- * the lower end is a broken wire, which a resistor pulls down except for the pin's leakage and the other input's charge
- * in the converter. */
+ * The amplifier's output without force is half of the reference. Near either end it is saturated. If a whole sample is
+ * near the lower end, a wire is broken: a resistor then pulls the pin down, except for its leakage and for charge of
+ * the other input in the converter. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -52,12 +53,12 @@ static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;
 static const stm32f4_ring samples = {&sample_counts, kept_samples, SAMPLES_KEPT,
                                      sizeof *kept_samples};
-static volatile uint32_t supply_sum; /* UINT32_MAX: beyond the converter's end */
+static volatile uint32_t supply_sum; /* UINT32_MAX: a conversion was at the converter's end */
 
 /* the last mean */
 static hal_load_sample last;
 static int32_t before_last; /* counts of the mean before the last one */
-static bool last_follows;   /* no mean is missing between these two */
+static bool last_follows;   /* no mean is missing between the last two */
 
 static void start_dma(void) {
     stm32f4_clock_on(RCC_PART(RCC_AHB1ENR, RCC_AHB1ENR_DMA2));
@@ -116,7 +117,7 @@ static bool follows(const hal_load_sample *before, const hal_load_sample *sample
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* Deliver the mean before `mean` as a sample. */
+/* Deliver the last mean, corrected with `mean`, which follows it, as a sample. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {
@@ -154,8 +155,8 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* DMA's position tells which half is complete, and when: a delayed interrupt takes the newest half, with that half's own
- * time stamp. */
+/* DMA's position tells which half is complete, and when: a delayed interrupt takes the newest half and computes the
+ * time stamp of that half. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

@@ -1,6 +1,6 @@
 /* clock.c: the STM32F405's clocks: 168 MHz from the board's crystal (RM0090, 7.2 and 3.5). If the crystal or the
- * phase-locked loop fails, the chip's own oscillator, 16 MHz within 1 %. Every wait is bounded, and no variable is
- * used: memory is not initialized yet. */
+ * phase-locked loop fails, the chip runs on its own oscillator, 16 MHz within 1 %. Every wait is bounded, and no
+ * variable is used: memory is not initialized yet. */
 #include "stm32f4.h"
 
 #define PLL_OUT_Hz 336000000U
@@ -13,8 +13,8 @@ _Static_assert(BOARD_CRYSTAL_HZ / BOARD_PLL_M * BOARD_PLL_N == PLL_OUT_Hz &&
 _Static_assert(BOARD_PLL_N >= 50U && BOARD_PLL_N <= 432U && BOARD_PLL_M >= 2U && BOARD_PLL_M <= 63U,
                "RM0090, 7.3.2");
 
-/* Polls of a flag, at 16 MHz and some ten cycles each. The chip's own oscillator takes 4 us, a switch a few clocks, the
- * loop 0.3 ms, a crystal some milliseconds. */
+/* Limits of waiting, as numbers of polls of a flag, which take some ten cycles each at 16 MHz. The chip's own
+ * oscillator starts in 4 us, a switch takes a few clocks, the phase-locked loop 0.3 ms, a crystal some milliseconds. */
 #define SOON 2000U
 #define PATIENTLY 40000U
 
@@ -57,7 +57,7 @@ static board_clock fall_back(void) {
     return BOARD_CLOCK_FALLBACK;
 }
 
-/* Memory that the start-up code does not fill: it is written earlier. */
+/* In memory that the start-up code does not clear, because it is written before that code runs. */
 __attribute__((section(".noinit"))) board_clock board_clock_is;
 
 static board_clock set_up(void) {
@@ -76,7 +76,8 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, SOON)) {
         return fall_back();
     }
-    /* five wait states at 168 MHz and 2.7 V (3.5.1), before the core is that fast; no prefetch: revision A has a defect */
+    /* five wait states, for 168 MHz at 2.7 V (3.5.1), set before the core runs that fast; no prefetch, because revision
+     * A has a defect */
     const uint32_t wait_states = 5U;
     reg_store(FLASH_ACR, FLASH_ACR_ICEN | FLASH_ACR_DCEN | wait_states);
     if (!stm32f4_comes(FLASH_ACR, FLASH_ACR_LATENCY, wait_states, SOON)) {
@@ -87,7 +88,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
         return fall_back();
     }
-    /* if the crystal stops: the timer's break at once, then the NMI, which is a fault (7.2.7) */
+    /* if the crystal stops, the break of the timer acts at once, then the NMI, which is a fault (7.2.7) */
     reg_set(RCC_CR, RCC_CR_CSSON);
     return BOARD_CLOCK_CRYSTAL;
 }

@@ -18,14 +18,14 @@ static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* The result of the operation in progress. */
+/* Waits for the end of the operation in progress. Returns its result. */
 static hal_settings_result ended(void) {
     return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0
                ? HAL_SETTINGS_DONE
                : HAL_SETTINGS_FAILED;
 }
 
-/* Unlock the flash for these bytes, if they exist and the flash is idle. */
+/* Unlocks the flash for these bytes, if they exist and the flash is idle. */
 static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     if (!within(slot, at, count)) {
         return HAL_SETTINGS_OUTSIDE;
@@ -39,7 +39,7 @@ static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     return HAL_SETTINGS_DONE;
 }
 
-/* The data cache may hold old data of an erased sector (3.5.2). */
+/* Empties the data cache, which may have old data of an erased sector (3.5.2). */
 static void forget_cached(void) {
     reg_clear(FLASH_ACR, FLASH_ACR_DCEN);
     reg_set(FLASH_ACR, FLASH_ACR_DCRST);

@@ -2,11 +2,12 @@
  * table 94). The enable is on a pin, and the break input takes both stop and the drive stage's fault.
  *
  * The break (active low, pulled down: a broken wire counts as pressed) clears MOE without software, and so does a
- * stopped crystal. The output then has its idle level, low. MOE cannot be set while the break is active. A core lock-up
- * does not clear it on this chip: the watchdog covers that case.
+ * stopped crystal. The output then has its idle level, low. MOE cannot be set while the break is active. A lock-up of
+ * the core does not clear MOE on this chip; the watchdog acts in that case.
  *
- * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families' manuals say that the outputs are then
- * disabled; for the F4 this is unproven, and an output could stay high. So the watchdog runs on, and resets the chip. */
+ * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families' manuals say that the outputs are
+ * then disabled; for the F4 this is unproven, and an output could stay high. So the watchdog keeps running in that
+ * case, and resets the chip. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -16,14 +17,15 @@
 #define PWM_Hz 20000U
 #define TIM1_FUNCTION 1U
 
-static uint32_t whole;        /* the compare value that is always on */
+static uint32_t whole;        /* the compare value at which the output is always on */
 static volatile bool driving; /* started and not yet off, even while stop keeps MOE clear */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); /* a debugger sets it; it survives resets */
+    /* a debugger sets this bit, and it survives resets */
+    reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
     reg_store(TIM_CR1(TIM1), 0);
@@ -53,9 +55,10 @@ static uint32_t compare_of(float volts) {
 }
 
 unsigned hal_motor_start(void) {
-    const uint32_t before = stm32f4_hold(); /* a hal_motor_off() from now on waits */
+    /* a hal_motor_off() from an interrupt waits until stm32f4_go_on() */
+    const uint32_t before = stm32f4_hold();
     if (!driving) {
-        driving = true; /* even if stop keeps MOE clear: the motor then counts as cut */
+        driving = true; /* set even if stop keeps MOE clear: the motor then counts as cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);
@@ -66,11 +69,11 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Without MOE the value has no effect, and a start begins at 0. */
+/* Sets the voltage. Without MOE it has no effect, and after a start it begins at 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* Clears the output first, by a store that is also the first one of a fault (BOARD_SAFE_ROWS). From now on any stop,
- * however short, prevents a start. */
+/* Clears the output first, by a store, which is also the first one after a fault (BOARD_SAFE_ROWS). From now on any
+ * press of stop, however short, prevents a start. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);

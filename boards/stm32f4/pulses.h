@@ -1,4 +1,4 @@
-/* pulses.h: edges of slot pulses between the interrupt and the control loop. A part of slots.c, or of its replacement. */
+/* pulses.h: edges of slot pulses between the interrupt and the control loop. Included by slots.c or slots_exti.c. */
 #ifndef BOARDS_STM32F4_PULSES_H
 #define BOARDS_STM32F4_PULSES_H
 

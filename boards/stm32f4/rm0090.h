@@ -67,7 +67,8 @@
 #define FLASH_OPTKEY1 0x08192A3BU
 #define FLASH_OPTKEY2 0x4C5D6E7FU
 #define FLASH_SR 0x40023C0CU
-#define FLASH_SR_ERRORS 0xF2U /* operation, protection, alignment, size, sequence; a one clears */
+/* operation, protection, alignment, size, sequence; writing a one clears the bit */
+#define FLASH_SR_ERRORS 0xF2U
 #define FLASH_SR_BSY (1U << 16)
 #define FLASH_CR 0x40023C10U
 #define FLASH_CR_PG (1U << 0)
@@ -204,7 +205,7 @@
 #define DBGMCU_APB2_FZ 0xE004200CU
 #define DBGMCU_APB2_FZ_TIM1 (1U << 0)
 
-/* Interrupts of the vector table that drivers handle: X(number, name). */
+/* Interrupts with a vector that a driver handles: X(number, name). */
 #define STM32F4_INTERRUPTS 82
 #define STM32F4_VECTOR_ROWS(X) \
     X(6, exti0) \

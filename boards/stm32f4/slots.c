@@ -1,7 +1,7 @@
-/* slots.c: the slot sensors on two inputs of timer 2, which stamps an edge by itself (RM0090, 18.3.5), after a filter
- * of 12 us. Channels 1 and 2, 3 and 4 are pairs, in which each channel can use both inputs (18.3.6). The input's own
- * channel takes rising edges, the other the falling ones, so that a pulse's end never overwrites its beginning. The
- * interrupt only stores the stamps. */
+/* slots.c: the slot sensors on two inputs of timer 2, which stores the time of an edge in hardware (RM0090, 18.3.5),
+ * after a filter of 12 us. Channels 1 and 2, 3 and 4 are pairs, in which each channel can use both inputs (18.3.6). The
+ * input's own channel captures rising edges, the other channel of the pair the falling ones, so that the end of a pulse
+ * never overwrites its begin. The interrupt only copies the times. */
 #include "hal/slots.h"
 
 #include "pulses.h"
@@ -73,7 +73,7 @@ void on_tim2(void) {
     }
 }
 
-/* Taking an edge makes room again. Captures left by a storm may be of any age, so they are dropped. */
+/* Taking an edge makes room again. Captures that remain from a storm may be of any age, so they are dropped. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

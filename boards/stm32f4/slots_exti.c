@@ -1,6 +1,6 @@
-/* slots_exti.c: the slot sensors as plain external interrupts (RM0090, 12.2), stamped when the interrupt is entered.
- * For pins without a timer capture, and for QEMU, which has these lines and no capture. A stamp is late by the
- * interrupt's latency, some microseconds, without a filter. Lines 0 and 1, for any BOARD_SLOT_PINS. */
+/* slots_exti.c: the slot sensors as plain external interrupts (RM0090, 12.2), for pins without a timer capture, and for
+ * QEMU, which has no capture. The time is read when the interrupt is entered, so it is late by the latency, some
+ * microseconds. There is no filter. Lines 0 and 1, for any BOARD_SLOT_PINS. */
 #include "hal/slots.h"
 
 #include "boards/board.h"

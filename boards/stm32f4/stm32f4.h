@@ -10,7 +10,8 @@
 #include "registers.h"
 #include "rm0090.h"
 
-/* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21): timers of a divided bus run at twice its clock. */
+/* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21): timers on a bus with a divided clock run at twice that
+ * clock. */
 typedef struct stm32f4_clocks {
     uint32_t timer1_Hz; /* clock of TIM1, on APB2 */
     uint32_t timers_Hz; /* clock of TIM2 and TIM3, on APB1 */
@@ -24,7 +25,7 @@ const stm32f4_clocks *stm32f4_clocks_now(void);
 /* Enable the peripheral's clock; it runs when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
 void stm32f4_clock_on(unsigned part);
 
-/* Returns true if the bits of `mask` become `wanted` within this many polls of some ten cycles each. */
+/* Returns true as soon as the bits of `mask` equal `wanted`, or false after `looks` polls of some ten cycles each. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
 /* A pin's mode and pull resistor. */
@@ -76,7 +77,7 @@ static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }
 
-/* Parts of the rig's hardware, each started by hal_clock_start() (rig_clock.c). */
+/* The starts of the parts of the rig's hardware, called by hal_clock_start() (rig_clock.c). */
 void stm32f4_motor_start(void);
 void stm32f4_reset_start(void);
 void stm32f4_slots_start(void);

@@ -21,7 +21,8 @@
 /* States of TIM1's outputs (motor.c); without MOE they have their idle level, low. */
 #define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
 
-/* The divider before the supply's input: 33 V at the converter's end. The highest intended supply is 30 V. */
+/* The divider before the supply's input: 33 V gives the converter's largest value. The highest intended supply is 30
+ * V. */
 #define BOARD_SUPPLY_FULL_mV 33000U
 #define BOARD_SUPPLY_MOST_mV 31500U
 

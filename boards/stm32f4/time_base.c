@@ -5,11 +5,12 @@
 
 void timer_start(void) {
     stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_TIM2));
-    /* sampled at a 32nd of a quarter of 84 MHz, eight equal samples: 12 us of an edge (slots.c) */
+    /* the filter samples at a 32nd of a quarter of 84 MHz and needs eight equal samples: 12 us after an edge
+     * (slots.c) */
     reg_store(TIM_CR1(TIM2), TIM_CR1_CKD_4);
     reg_store(TIM_PSC(TIM2), stm32f4_clocks_now()->timers_Hz / BOARD_TICKS_PER_S - 1U);
     reg_store(TIM_ARR(TIM2), 0xFFFFFFFFU);
-    reg_store(TIM_EGR(TIM2), TIM_EGR_UG); /* takes the divider */
+    reg_store(TIM_EGR(TIM2), TIM_EGR_UG); /* makes the divider effective */
     reg_store(TIM_SR(TIM2), 0);
     reg_store(TIM_CR1(TIM2), TIM_CR1_CKD_4 | TIM_CR1_CEN);
 }

@@ -1,5 +1,5 @@
 /* usart.c: the console on serial interface 6, 115,200 baud, 8 bits, no parity (RM0090, 30). An interrupt fills and
- * empties rings in both directions. For a fault, or before other parts are up, it polls.
+ * empties rings in both directions. After a fault, or before other parts have started, the console polls.
  *
  * The writer feeds the transmitter while it is ready; the interrupt sends the other bytes. So bytes also leave if an
  * empty transmitter raises no interrupt (QEMU 7.2). */
@@ -12,8 +12,8 @@
 #define USART6_IRQ 71U
 #define USART6_FUNCTION 8U
 
-/* Powers of two: indices wrap freely. A control step of 2 ms takes at most 23 bytes. In each step the console writes
- * only as many as there is room for: its answers wait in its own buffer. */
+/* Sizes are powers of two, so that indices wrap correctly. A control step of 2 ms takes at most 23 bytes. In each step
+ * the console writes only as many as there is room for: its answers wait in its own buffer. */
 #define IN_BYTES 128U
 #define OUT_BYTES 128U
 
@@ -21,8 +21,8 @@ static char in_bytes[IN_BYTES];
 static stm32f4_ring_counts in_counts;
 static const stm32f4_ring in = {&in_counts, in_bytes, IN_BYTES, 1};
 static char out_bytes[OUT_BYTES];
-static stm32f4_ring_counts
-    out_counts; /* bytes taken: used by the interrupt, and by code that disables it */
+/* out_counts.taken is used by the interrupt, and by code that has disabled the interrupt */
+static stm32f4_ring_counts out_counts;
 static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
 static bool lost; /* bytes were lost; used by the interrupt only */
 
@@ -47,8 +47,8 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Reading the status, then the data, clears both (30.6.1). Bytes lost by an overrun came after this one: they leave a
- * zero before the next byte, as do bytes without room. A line with a zero is not executed. */
+/* Reading the status, then the data, clears both flags (30.6.1). Bytes lost by an overrun came after this one: a zero
+ * replaces them before the next byte, and also bytes without room. A line with a zero is not executed. */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);
@@ -113,7 +113,7 @@ void uart_write(const char *bytes, unsigned count) {
     const uint32_t before = stm32f4_hold();
     for (;;) {
         char byte;
-        if (!stm32f4_ring_take(&out, &byte)) { /* earlier bytes first */
+        if (!stm32f4_ring_take(&out, &byte)) { /* bytes that were queued before go first */
             if (count-- == 0) {
                 break;
             }

@@ -18,7 +18,7 @@ static uint32_t clocks_in(uint32_t ticks) {
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;
 }
 
-/* May be called again with another time, even at the last moment of the earlier time. */
+/* May be called again with another timeout, even just before the watchdog resets the chip. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint32_t counts = clocks_in(timeout_ticks) / 4U;
     uint32_t divider = 0;
@@ -38,5 +38,5 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
 
 void hal_watchdog_kick(void) { reg_store(IWDG_KR, IWDG_KR_RELOAD); }
 
-/* This watchdog resets the chip instead. */
+/* This watchdog resets the chip instead of cutting the drive. */
 bool hal_watchdog_has_cut(void) { return false; }

@@ -7,7 +7,7 @@
  * stack ran into its variables, which these chips do not detect.
  *
  * FILE gets the log of count_plugin.c, for a program with wh_count_begin() and wh_count_end()
- * (boards/programs/counted.h), and the cycles:
+ * (boards/programs/counted.h), and, besides the instructions, the cycles:
  *
  *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both left out
  *     cycles NUMBER CYCLES                     of the same interval
@@ -120,8 +120,7 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     }
     firmware->frequency = all->hz;
     avr_load_firmware(avr, firmware);
-    uint32_t flags =
-        0; /* no copy to simavr's own console, and no sleeping while the program polls */
+    uint32_t flags = 0; /* no copy to simavr's own console, and no sleep while the program polls */
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
                             on_byte, NULL);
