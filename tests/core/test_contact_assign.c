@@ -94,24 +94,3 @@ TEST(contact_assign, what_cannot_be_held_is_blamed) {
         TEST_ASSERT_EQUAL_INT(which == 0 ? -1 : (int)to, w.fault);
     }
 }
-
-TEST(contact_assign, nothing_to_set) {
-    uint64_t seed = 311;
-    for (unsigned round = 0; round < 40; round++) {
-        wh_contact_work w;
-        wh_contact_state s;
-        const unsigned k = draw_crossing(&seed, 2, 1, 0, &w, &s);
-        const wh_contact_state before = s;
-        const int8_t side = w.mode[k];
-        values[0] = WH_R(7.0);
-        if (round % 2 == 0) {
-            bench_now.contact[k].sets = 0;
-        } else {
-            bench_now.system.sets = NULL;
-        }
-        wh_contact_assign(&bench_now.system, &w, k, NULL, &s);
-        TEST_ASSERT_TRUE(w.mode[k] == -side && w.moved == 0);
-        TEST_ASSERT_TRUE(s.angle[0] == before.angle[0] && s.real[0] == before.real[0]);
-        TEST_ASSERT_TRUE(s.real[1] == before.real[1] && s.real[2] == before.real[2]);
-    }
-}

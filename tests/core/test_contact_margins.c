@@ -201,31 +201,6 @@ TEST(contact_margins, the_first_that_is_no_number_is_told) {
     }
 }
 
-/* Calm: all margins zero or above, and no NaN. Nothing after the last contact is read. */
-TEST(contact_margins, calm_is_told) {
-    uint64_t seed = 184;
-    for (unsigned round = 0; round < ROUNDS / 2; round++) {
-        wh_contact_work w;
-        wh_margins m = {.all = WH_R(1.0)};
-        bool calm = true;
-        unsigned happened = 0;
-        draw(&seed, &w);
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-            const bool used = k < bench_now.system.contacts;
-            m.value[k] = !used                   ? WH_R(-1.0)
-                         : draw_one_in(&seed, 8) ? draw_none(&seed)
-                                                 : draw_whole(&seed, 0, 2);
-            m.value[k] = used && draw_one_in(&seed, 8) ? WH_R(-1e-9) : m.value[k];
-            calm = calm && (!used || m.value[k] >= WH_R(0.0));
-            happened |= used && m.value[k] < WH_R(0.0) ? 1U << k : 0U;
-        }
-        TEST_ASSERT_TRUE(wh_contact_calm(&bench_now.system, &m) == calm);
-        TEST_ASSERT_EQUAL_UINT(happened, wh_contact_happened(&bench_now.system, &m));
-        m.all = draw_none(&seed);
-        TEST_ASSERT_TRUE(!wh_contact_calm(&bench_now.system, &m));
-    }
-}
-
 /* The cubic with these end values and slopes (over the whole path), in Bezier's form, by de Casteljau. */
 static double cubic(double s, double from, double slope0, double to, double slope1) {
     double point[4] = {from, from + slope0 / 3.0, to - slope1 / 3.0, to};

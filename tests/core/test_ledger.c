@@ -1,66 +1,9 @@
-/* test_ledger.c: the books of energy and momentum on mechanisms with closed forms (hand.h), and of a spring of variable rate. */
+/* test_ledger.c: the books of energy and momentum: of changed inputs, of angles with their turns, and of corrections.
+ * test_contact_exact.c compares the entries of contacts with a reference. */
 #include "draw.h"
 #include "hand.h"
 
 #include "tests/suites.h"
-
-static wh_real error_of(unsigned account) {
-    wh_real level[WH_ACCOUNTS_MAX];
-    return wh_ledger_error(&hand_books, &hand_state, account, level);
-}
-
-/* A body of 1 kg falls 1 m and comes to rest: gravity gave m g h and m g t, and the stop took both. Rest begins up to g
- * (step/8)^2/8 = 2e-8 m above the stop: in energy 2e-7 J. */
-TEST(ledger, books_of_the_ball) {
-    hand_build_ball(WH_R(0.5));
-    hand_start(true);
-    hand_steps(2000);
-    const unsigned stop = wh_ledger_of_contact(&hand_books, 0);
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[0], HAND_G, 2e-7, 2e-4));
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[stop], -HAND_G, 2e-7, 2e-4));
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[1], WH_R(-2.0) * HAND_G, 1e-11, 2e-4));
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[stop + 1], WH_R(2.0) * HAND_G, 1e-9, 2e-4));
-    TEST_ASSERT_TRUE(hand_near(error_of(0), WH_R(0.0), 1e-11, 2e-4));
-    TEST_ASSERT_TRUE(hand_near(error_of(1), WH_R(0.0), 1e-11, 2e-4));
-}
-
-/* The thrown block loses 1/2 J and 1 N s, all to friction. */
-TEST(ledger, books_of_the_thrown_block) {
-    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
-    hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(2.0));
-    hand_now.start[1] = WH_R(1.0);
-    hand_start(true);
-    hand_steps(1000);
-    const unsigned friction = wh_ledger_of_contact(&hand_books, 0);
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[friction], WH_R(-0.5), 1e-12, 1.5e-5));
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[friction + 1], WH_R(-1.0), 1e-12, 1.5e-5));
-    TEST_ASSERT_TRUE(hand_near(error_of(0), WH_R(0.0), 1e-12, 1.5e-5));
-}
-
-/* The coupled impact: loss (1 - e^2) v^2 / (2 (M^-1)_00), impulse on the first coordinate. The crossing has its own entry. */
-TEST(ledger, books_of_impacts_and_settings) {
-    hand_build(2, WH_R(2.0), WH_R(1.0), WH_R(2.0));
-    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(0.4), WH_R(0.0));
-    hand_now.start[0] = WH_R(0.0015);
-    hand_now.start[2] = WH_R(-3.0);
-    hand_now.start[3] = WH_R(1.0);
-    hand_start(true);
-    hand_steps(1);
-    unsigned entry = wh_ledger_of_contact(&hand_books, 0);
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[entry], WH_R(-5.67), 1e-12, 2e-5));
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[entry + 1], WH_R(6.3), 1e-12, 5e-6));
-    TEST_ASSERT_TRUE(hand_state.ledger[entry + 2] == WH_R(0.0));
-
-    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
-    hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0), WH_R(0.1), WH_R(0.0), WH_R(0.0));
-    hand_now.contact[0].direction = 1;
-    hand_now.start[1] = WH_R(1.0);
-    hand_start(true);
-    hand_steps(150);
-    entry = wh_ledger_of_contact(&hand_books, 0);
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[entry], WH_R(-0.375), 1e-15, 1e-7));
-    TEST_ASSERT_TRUE(hand_near(hand_state.ledger[entry + 1], WH_R(-1.5), 1e-15, 2e-7));
-}
 
 TEST(ledger, books_do_not_touch_the_run) {
     uint64_t hash[2];

@@ -1,5 +1,5 @@
-/* test_locate.c: event location within a step: a body under a constant load crosses places at times known in closed form.
- * Checks the accuracy, the number of evaluations, and the order. */
+/* test_locate.c: event location within a step: a body under a constant load crosses a place at a time known in closed form.
+ * test_contact_search.c checks the search itself, test_contact_exact.c the order of several events. */
 #include "draw.h"
 #include "hand.h"
 
@@ -69,25 +69,6 @@ TEST(locate, a_crossing_is_found_where_it_is) {
     TEST_ASSERT_TRUE((double)worst <= (WH_DOUBLE ? 1e-14 : 2e-6));
 }
 
-/* The number of evaluations is a bracketing search's, far below halving, its fallback. The others are the step's own. */
-TEST(locate, a_crossing_is_found_with_few_looks) {
-    uint64_t seed = 412;
-    unsigned all = 0;
-    unsigned most = 0;
-    for (unsigned i = 0; i < CASES; i++) {
-        const path p = random_path(&seed);
-        start(p);
-        (void)add_crossing(place_at(p, STEP_S * share_of(&seed)), 0);
-        hand_start(false);
-        hand_looks = 0;
-        hand_steps(1);
-        all += hand_looks;
-        most = hand_looks > most ? hand_looks : most;
-    }
-    TEST_ASSERT_TRUE(all <= CASES * (WH_DOUBLE ? 14U : 12U));
-    TEST_ASSERT_TRUE(most <= (WH_DOUBLE ? 20U : 18U));
-}
-
 /* Flat or steep crossings do not exhaust the evaluations before the accuracy is reached. */
 TEST(locate, flat_and_steep_crossings_are_found) {
     uint64_t seed = 415;
@@ -103,78 +84,5 @@ TEST(locate, flat_and_steep_crossings_are_found) {
         hand_steps(1);
         TEST_ASSERT_TRUE(hand_state.contacts->events == 1 && hand_looks <= WH_PROBES + 8U);
         TEST_ASSERT_TRUE(WH_ABS(hand_state.contacts->log[0].at_s - t) <= WH_BRACKET * STEP_S);
-    }
-}
-
-/* Two crossings and one against its direction, declared in any order: each is located in time, the earliest first. */
-TEST(locate, crossings_of_one_step_come_in_their_order) {
-    uint64_t seed = 413;
-    for (unsigned i = 0; i < CASES; i++) {
-        const path p = random_path(&seed);
-        const int along = p.v > WH_R(0.0) ? 1 : -1;
-        const unsigned kept = draw_one_of(&seed, 3U); /* it has no effect */
-        wh_real at_s[3];
-        start(p);
-        for (unsigned k = 0; k < 3; k++) {
-            at_s[k] = STEP_S * share_of(&seed);
-            (void)add_crossing(place_at(p, at_s[k]), k == kept ? -along : k % 2U == 0 ? along : 0);
-        }
-        const unsigned one = kept == 0 ? 1 : 0;
-        const unsigned other = kept == 2 ? 1 : 2;
-        if (WH_ABS(at_s[one] - at_s[other]) < STEP_S / 64) {
-            continue;
-        }
-        const unsigned first = at_s[one] < at_s[other] ? one : other;
-        hand_start(false);
-        hand_steps(1);
-        const wh_contacts *c = hand_state.contacts;
-        TEST_ASSERT_TRUE(c->events == 2 && c->logged == 2 && c->overruns == 0);
-        TEST_ASSERT_TRUE(c->log[0].contact == first && c->log[1].contact == one + other - first);
-        for (unsigned e = 0; e < 2; e++) {
-            TEST_ASSERT_TRUE(c->log[e].mode == along);
-            TEST_ASSERT_TRUE(
-                hand_near(c->log[e].at_s / STEP_S, at_s[c->log[e].contact] / STEP_S, 1e-13, 5e-6));
-        }
-        for (unsigned k = 0; k < 3; k++) { /* all three are on the other side, event or not */
-            TEST_ASSERT_TRUE(c->mode[k] == along);
-        }
-        TEST_ASSERT_TRUE(
-            hand_near(hand_state.real[0] / STEP_S, place_at(p, STEP_S) / STEP_S, 1e-12, 5e-6));
-    }
-}
-
-/* A stop in the way of the same motion, and one beyond it: the body bounces with v + a t and is where it must be. */
-TEST(locate, a_stop_is_hit_where_it_is) {
-    uint64_t seed = 414;
-    for (unsigned i = 0; i < CASES; i++) {
-        const path p = random_path(&seed);
-        const wh_real t = STEP_S * share_of(&seed);
-        const wh_real e = share_of(&seed);
-        const wh_real side = p.v > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
-        const wh_real place = place_at(p, t);
-        start(p);
-        (void)hand_add(WH_STOP, 0, -side, WH_R(0.0), WH_R(-10.0) * WH_ABS(p.v) * STEP_S, e,
-                       WH_R(0.0));
-        (void)hand_add(WH_STOP, 0, side, WH_R(0.0), side * place, e, WH_R(0.0));
-        hand_start(false);
-        hand_steps(1);
-        const wh_real speed = p.v + p.a * t;
-        const wh_real rest = STEP_S - t;
-        const wh_real end = place + rest * (WH_R(0.5) * p.a * rest - e * speed);
-        const wh_event event = hand_state.contacts->log[0];
-        const bool pressed =
-            p.a * side < WH_R(0.0); /* later it may return within the step, or rest */
-        TEST_ASSERT_TRUE(event.contact == 1 && hand_state.contacts->mode[0] == WH_FREE);
-        TEST_ASSERT_TRUE(hand_near(event.at_s / STEP_S, t / STEP_S, 1e-13, 5e-6));
-        if (!pressed) {
-            TEST_ASSERT_TRUE(hand_state.contacts->events == 1 && event.mode == WH_FREE);
-            TEST_ASSERT_TRUE(hand_near(event.impulse / WH_ABS(speed), WH_R(1.0) + e, 1e-12, 1e-5));
-            TEST_ASSERT_TRUE(hand_near(hand_state.real[0] / STEP_S, end / STEP_S, 1e-12, 1e-5));
-            TEST_ASSERT_TRUE(
-                hand_near(hand_state.real[1] / speed, p.a * rest / speed - e, 1e-12, 1e-5));
-        } else {
-            TEST_ASSERT_TRUE(side * (hand_state.real[0] - place) >=
-                             -STEP_S * (WH_DOUBLE ? WH_R(1e-13) : WH_R(1e-5)));
-        }
     }
 }
