@@ -451,24 +451,3 @@ TEST(lockin, level_arms_turn_evenly) {
                                  (float)wh_turn_angle_at(&angle, (wh_real)i / WH_R(8.0)));
     }
 }
-
-TEST(lockin, polar_all_around) {
-    for (int degrees = -179; degrees <= 179; degrees++) {
-        const wh_real angle = (wh_real)degrees * DEG;
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
-        wh_real radius;
-        wh_real found;
-        wh_polar(WH_R(42.0) * cosine, WH_R(42.0) * sine, &radius, &found);
-        TEST_ASSERT_FLOAT_WITHIN(3e-5f, 42.0f, (float)radius);
-        TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)angle, (float)found);
-    }
-    wh_real radius;
-    wh_real angle;
-    wh_polar(WH_R(-1.0), WH_R(0.0), &radius, &angle);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)PI, (float)angle);
-    wh_polar(WH_R(0.0), WH_R(0.0), &radius, &angle);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)radius);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)angle);
-}

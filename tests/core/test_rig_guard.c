@@ -194,14 +194,6 @@ TEST(rig_guard, rest_is_remembered) {
     TEST_ASSERT_TRUE(guard.quiet);
 }
 
-TEST(rig_guard, the_supplys_range) {
-    const wh_guard_config *config = &wh_rig_standard.guard;
-    TEST_ASSERT_TRUE(wh_guard_supply(config, WH_R(12.0)) && wh_guard_supply(config, WH_R(36.0)));
-    TEST_ASSERT_FALSE(wh_guard_supply(config, WH_R(10.0)));
-    TEST_ASSERT_FALSE(wh_guard_supply(config, WH_R(38.0)));
-    TEST_ASSERT_FALSE(wh_guard_supply(config, (wh_real)__builtin_nanf("")));
-}
-
 /* Load samples that swing by `swing_N` about 50 N, a slot pulse with every 20th, at 330 rpm. */
 static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
     const wh_guard_config *config = &wh_rig_standard.guard;

@@ -1,4 +1,4 @@
-/* test_rig_law.c: the rig's speed drive against an independent copy of its law, and a gap's speed. */
+/* test_rig_law.c: the rig's speed drive against an independent copy of its law, and the time without pulses. */
 #include <stddef.h>
 
 #include "core/rig/datasheet.h"
@@ -6,24 +6,6 @@
 
 #include "tests/scattered.h"
 #include "tests/suites.h"
-
-#define TURN_TICKS 181818U /* 330 rpm */
-
-/* After two lost pulses in a row an interval gives no speed. The turn's speed stays until a new one is known. */
-TEST(rig_law, a_gap_has_no_speed_of_its_own) {
-    wh_speed speed;
-    wh_speed_start(&speed, wh_rig_standard.impossible_radps);
-    uint32_t ticks = 500;
-    for (unsigned i = 0; i < 8; i++, ticks += TURN_TICKS) {
-        wh_speed_pulse(&speed, 0, ticks);
-        wh_speed_pulse(&speed, 1, ticks + TURN_TICKS / 4U);
-    }
-    const wh_real before = speed.turn_radps;
-    TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, ticks + TURN_TICKS));
-    TEST_ASSERT_EQUAL_UINT32(1, speed.restarts);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)speed.interval_radps);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)before, (float)speed.turn_radps);
-}
 
 /* Silence counts from the last pulse on either side of the timer's wrap. A stamp later than the step's own time is ignored. */
 TEST(rig_law, silence_goes_on_over_the_wrap) {

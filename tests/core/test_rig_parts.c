@@ -57,6 +57,13 @@ TEST(rig_parts, polar_of_every_size) {
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, (float)(radius / size));
         TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)angle, (float)found);
     }
+    for (unsigned i = 0; i < 2U; i++) { /* the origin, and the angle of half a turn */
+        wh_real radius;
+        wh_real angle;
+        wh_polar(-(wh_real)i, WH_R(0.0), &radius, &angle);
+        TEST_ASSERT_TRUE(radius == (wh_real)i);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.0f : 3.14159265f, (float)angle);
+    }
 }
 
 /* wh_turn_angle_split() returns how far the mark was from the shape before its correction, whichever parameter it corrects. */

@@ -372,34 +372,6 @@ TEST(rig_result, the_mount_decides_what_is_expected) {
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 31.61f, (float)measured.expected_N);
 }
 
-static bool same_text(const char *x, const char *y) {
-    while (*x != 0 && *x == *y) {
-        x++;
-        y++;
-    }
-    return *x == *y;
-}
-
-TEST(rig_result, every_reason_has_words_of_its_own) {
-    for (int i = 0; i <= (int)WH_WHYS; i++) {
-        for (int k = 0; k < i; k++) {
-            TEST_ASSERT_FALSE(same_text(wh_why_text((wh_why)i), wh_why_text((wh_why)k)));
-        }
-    }
-    for (int i = 0; i <= (int)WH_TURN_FAULTS; i++) {
-        for (int k = 0; k < i; k++) {
-            TEST_ASSERT_FALSE(
-                same_text(wh_turn_text((wh_turn_fault)i), wh_turn_text((wh_turn_fault)k)));
-        }
-    }
-    for (int i = 0; i <= (int)WH_REFUSED + 1; i++) {
-        for (int k = 0; k < i; k++) {
-            TEST_ASSERT_FALSE(
-                same_text(wh_quality_text((wh_quality)i), wh_quality_text((wh_quality)k)));
-        }
-    }
-}
-
 /* --- the tare --------------------------------------------------------------------------------------- */
 
 /* A tare of 250 samples: white noise, mains hum, and motion. */

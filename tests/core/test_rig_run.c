@@ -260,24 +260,6 @@ TEST(rig_run, ramp_down_never_speeds_up) {
     }
 }
 
-TEST(rig_run, a_refused_target_never_moves_the_motor) {
-    static const wh_real targets_rpm[] = {WH_R(0.0), WH_R(120.0), WH_R(400.0)};
-    for (unsigned i = 0; i < 3; i++) {
-        even_start(&even);
-        even_rest(&even);
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, targets_rpm[i] * EVEN_RPM) ==
-                         WH_REFUSED_TARGET);
-        for (unsigned step = 0; step < 1000U; step++) {
-            even_step(&even);
-            TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
-            TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.command.volts);
-        }
-        check_trip(WH_TRIP_NONE);
-        TEST_ASSERT_TRUE(even.rig.state == WH_RIG_ARMED); /* a better one may come */
-    }
-}
-
 /* --- before the motor --------------------------------------------------------------------------- */
 
 TEST(rig_run, a_rotor_that_does_not_start_trips) {

@@ -89,6 +89,10 @@ static const char *life_text(int number) { return wh_rig_state_text((wh_rig_stat
 static const char *phase_text(int number) { return wh_phase_text((wh_rig_phase)number); }
 static const char *event_text(int number) { return wh_rig_event_text((wh_rig_event)number); }
 static const char *refusal_text(int number) { return wh_refusal_text((wh_refusal)number); }
+static const char *why_text(int number) { return wh_why_text((wh_why)number); }
+static const char *turn_text(int number) { return wh_turn_text((wh_turn_fault)number); }
+static const char *quality_text(int number) { return wh_quality_text((wh_quality)number); }
+static const char *swing_text(int number) { return wh_swing_text((wh_swing_why)number); }
 
 /* Number 1 is not a trip. */
 static const char *trip_text(int number) {
@@ -109,6 +113,10 @@ TEST(rig_steps, every_state_and_reason_has_words_of_its_own) {
     check_words(phase_text, (int)WH_PHASES);
     check_words(event_text, (int)WH_EVENTS);
     check_words(refusal_text, (int)WH_REFUSALS);
+    check_words(why_text, (int)WH_WHYS);
+    check_words(turn_text, (int)WH_TURN_FAULTS);
+    check_words(quality_text, (int)WH_REFUSED + 1);
+    check_words(swing_text, (int)WH_SWING_WHYS);
     check_words(trip_text, (int)WH_TRIP_UNBRAKED);
 }
 

@@ -245,12 +245,6 @@ TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
     TEST_ASSERT_TRUE(works > 0);
 }
 
-TEST(rig_swing, words) {
-    for (int i = 0; i <= (int)WH_SWING_WHYS; i++) {
-        TEST_ASSERT_TRUE(wh_swing_text((wh_swing_why)i)[0] != '\0');
-    }
-}
-
 /* --- the rig ----------------------------------------------------------------------------------------------- */
 
 static even_rig even;
@@ -352,33 +346,4 @@ TEST(rig_swing, steps_back_undo_steps) {
     }
     TEST_ASSERT_FLOAT_WITHIN(2e-2f, 0.0f, (float)rotor.q_rad);
     TEST_ASSERT_FLOAT_WITHIN(2e-2f, -11.0f, (float)rotor.rate_radps);
-}
-
-/* Error-free measurements give the unknowns and variances below the guess's. */
-TEST(rig_swing, the_regression_finds_what_was_measured) {
-    wh_normal normal;
-    wh_real truth[WH_NORMAL_UNKNOWNS];
-    const wh_real guess[WH_NORMAL_UNKNOWNS] = {WH_R(0.0)};
-    seed = 5;
-    wh_normal_start(&normal, guess);
-    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
-        truth[i] = draw_broken(&seed, -2, 2);
-    }
-    for (unsigned k = 0; k < 30U; k++) {
-        wh_real row[WH_NORMAL_UNKNOWNS];
-        wh_real sum = WH_R(0.0);
-        for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
-            row[i] = draw_broken(&seed, -1, 1);
-            sum += row[i] * truth[i];
-        }
-        wh_normal_add(&normal, row, sum, WH_R(1e4));
-    }
-    wh_normal_factor(&normal);
-    wh_normal_solve(&normal);
-    for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)truth[i], (float)normal.right[i]);
-        const wh_real deviation = wh_normal_deviation(&normal, i);
-        /* of 30 rows of variance 1/3: 0.01/sqrt(10) */
-        TEST_ASSERT_TRUE(deviation > WH_R(0.002) && deviation < WH_R(0.008));
-    }
 }

@@ -287,13 +287,6 @@ TEST(scenes, a_second_run_gives_the_same_bits) {
     }
 }
 
-TEST(scenes, time_of_a_scene_ends_at_its_end) {
-    start(&epicyclic_from_rest);
-    step_to(&epicyclic_from_rest, epicyclic_from_rest.steps);
-    const wh_real time_s = wh_scene_time_s(&epicyclic_from_rest, &state);
-    TEST_ASSERT_TRUE(WH_ABS(time_s - WH_R(9.0)) <= roundings(WH_R(9.0)));
-}
-
 /* Invalid motor inputs must not spoil a generated scene either. */
 TEST(scenes, a_refused_step_keeps_the_state) {
     const wh_scene *scene = &thomson_a;
