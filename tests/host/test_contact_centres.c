@@ -181,19 +181,6 @@ static outcome run(const machine *c, const engine_kind *kind, double h, double u
     return o;
 }
 
-/* The case that revealed this class of errors. */
-TEST(contact_centres, the_cam_goes_on) {
-    const machine c = {CAM, 0.1, 1.0, 0.1, 100.0, 1.0, 0.0, 0.0, 1.0, 10.0};
-    long double s[2];
-    TEST_ASSERT_TRUE(reference(&c, 2.0L, s));
-    expect_between("reference, rad", 21.695899399, 21.695899401, (double)s[0]);
-    const outcome d = run(&c, &engine_double, 1e-3, 2.0, s);
-    expect_between("double, rad off", 0.0, 1e-6, d.off_rad);
-    expect_between("double, J left over", 0.0, 1e-8, d.left_J);
-    const outcome f = run(&c, &engine_float, 1e-3, 2.0, s);
-    expect_between("float, rad off", 0.0, 1e-2, f.off_rad);
-}
-
 /* Machines at rest, started exactly at a dead centre and driven; slow passages, fast ones. */
 static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     machine c = {.kind = kind};

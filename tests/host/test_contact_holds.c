@@ -433,22 +433,6 @@ static const stepping *each_number(int i) {
 
 /* --- the weaker contact -------------------------------------------------------------------------------- */
 
-/* The push exceeds both friction limits. But only 4.905 N reach the plank through the block's friction, less than the plank's
- * limit of 5.886 N. */
-TEST(contact_load, the_weaker_friction_protects_the_other) {
-    for (int i = 0; each_number(i) != NULL; i++) {
-        motion m;
-        motion_open(&m, "plank_stays", *each_number(i));
-        motion_to(&m, 1.0);
-        TEST_ASSERT_TRUE(motion_value(&m, "x") == 0.0 && motion_value(&m, "x'") == 0.0);
-        /* closed form: (P/m - mk g) t^2/2; a thousand round-offs of a sum */
-        const double bound = each_number(i)->kind == &engine_float ? 1e-4 : 1e-12;
-        expect_between("u over the closed form, less 1", -bound, bound,
-                       motion_value(&m, "u") / (0.5 * (10.0 / 2.0 - 0.2 * G)) - 1.0);
-        motion_close(&m);
-    }
-}
-
 /* Three contacts on two coordinates: the forces are not unique. No split of the load may move bodies that the contacts
  * can hold together. */
 TEST(contact_load, leaning_blocks_rest_exactly) {
@@ -466,35 +450,6 @@ TEST(contact_load, leaning_blocks_rest_exactly) {
         TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
         /* apart by the blocks' width, within its sum's round-off */
         expect_between("y - x - w", -1e-7, 1e-7, y - x - 0.1);
-        motion_close(&m);
-    }
-}
-
-/* Each friction holds 3.687 N, the load is 6.710 N: the frictions can hold it only together. */
-TEST(contact_load, frictions_add_up_through_a_hold) {
-    static const char text[] =
-        "mechanism coupled\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n"
-        "parameter g = 9.81 [m/s^2]\nparameter mu = 0.4\nparameter a = 20 [deg]\n"
-        "T = m*(x'^2 + y'^2)/2\nV = -m*g*sin(a)*(x + y)\n"
-        "hold y - x while y > -1 [m]\n"
-        "friction x static mu kinetic 0.75*mu normal m*g*cos(a)\n"
-        "friction y static mu kinetic 0.75*mu normal m*g*cos(a)\n"
-        "scene s {\n  start x = 0, y = 10 [cm]\n  step 1 [ms]\n  until 10 [s]\n}\n";
-    for (int i = 0; each_number(i) != NULL; i++) {
-        motion m;
-        stepping how = *each_number(i);
-        motion_open_text(&m, text, how);
-        motion_to(&m, 10.0);
-        TEST_ASSERT_TRUE(motion_value(&m, "x") == 0.0);
-        TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m));
-        motion_close(&m);
-        how.set = "mu=0.36"; /* 6.637 N together, kinetic 4.978 N: it slides */
-        motion_open_text(&m, text, how);
-        motion_to(&m, 10.0);
-        const double slope = G * (sin(acos(-1.0) / 9.0) - 0.75 * 0.36 * cos(acos(-1.0) / 9.0));
-        const double bound = how.kind == &engine_float ? 6e-4 : 1e-11;
-        expect_between("x over the closed form, less 1", -bound, bound,
-                       motion_value(&m, "x") / (50.0 * slope) - 1.0);
         motion_close(&m);
     }
 }
@@ -535,27 +490,6 @@ TEST(contact_load, a_ball_comes_to_rest_in_a_groove) {
         run_groove(GROOVES[i], "e=0.5", &engine_double);
         run_groove(GROOVES[i], "e=0.5", &engine_float);
     }
-}
-
-TEST(contact_load, plastic_impacts_without_a_force) {
-    static const char text[] =
-        "mechanism carts\ncoordinate a [m]\ncoordinate b [m]\ncoordinate c [m]\n"
-        "parameter m = 1 [kg]\nparameter w = 0.1 [m]\n"
-        "T = m*(a'^2 + 2*b'^2 + 3*c'^2)/2\n"
-        "stop b - a >= w restitution 0\nstop c - b >= w restitution 0\n"
-        "scene s {\n  start a = 0, b = 0.4 [m], c = 0.8 [m], a' = 1 [m/s]\n"
-        "  step 1 [ms]\n  until 10 [s]\n}\n";
-    motion m;
-    motion_open_text(&m, text, IN_DOUBLE);
-    motion_to(&m, 10.0);
-    TEST_ASSERT_EQUAL_UINT64(2, contacts_events(&m));
-    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
-    expect_between("gap of a and b", -1e-12, 1e-12,
-                   motion_value(&m, "b") - motion_value(&m, "a") - 0.1);
-    expect_between("gap of b and c", -1e-12, 1e-12,
-                   motion_value(&m, "c") - motion_value(&m, "b") - 0.1);
-    expect_between("c' times 6, less 1", -1e-14, 1e-14, 6.0 * motion_value(&m, "c'") - 1.0);
-    motion_close(&m);
 }
 
 /* --- disturbances of resting contacts --------------------------------------------------------------------- */

@@ -58,43 +58,6 @@ static void expect(double wanted, const expr *e) {
     TEST_ASSERT_TRUE(fabs(value(e) - wanted) <= 1e-15);
 }
 
-static void test_a_stop_is_the_distance_left(void) {
-    const mechanism *m = parse(BASE "stop gap >= 25 [cm] restitution e/2\n"
-                                    "effect wall { stop 2*x <= 3 [m] + y restitution 0 }\n");
-    TEST_ASSERT_EQUAL_INT(2, m->contact_count);
-    place_at(1.0, 0.5, 0.0, 0.0, 0.0, 0.0);
-    const contact_statement *own = &m->contacts[0];
-    TEST_ASSERT_EQUAL_INT(CONTACT_STOP, own->kind);
-    TEST_ASSERT_EQUAL_INT(-1, own->effect);
-    TEST_ASSERT_EQUAL_INT(14, own->at.line);
-    TEST_ASSERT_TRUE(dim_fits(own->value->dim, dim_of(1, 0, 0, 0, 0)));
-    TEST_ASSERT_FALSE(dim_fits(own->value->dim, dim_none()));
-    expect(1.0 - 0.5 - 0.25, own->value);
-    expect(0.25, own->restitution);
-    const contact_statement *wall = &m->contacts[1];
-    TEST_ASSERT_EQUAL_INT(0, wall->effect);
-    expect(3.0 + 0.5 - 2.0, wall->value); /* `<=`: right - left */
-    TEST_ASSERT_TRUE(wall->coordinate == NULL && wall->condition == NULL && wall->sets == NULL);
-}
-
-static void test_friction_takes_a_force_or_a_torque(void) {
-    const mechanism *m =
-        parse(BASE "friction x static 2*mu kinetic mu normal m*9.81 [m/s^2]*abs(cos(phi))\n"
-                   "friction phi static 0.2 kinetic 0.1 normal 7 [N*mm]\n");
-    place_at(0.0, 0.0, 3.0, 0.0, 0.0, 0.0);
-    const contact_statement *slide = &m->contacts[0];
-    TEST_ASSERT_EQUAL_INT(CONTACT_FRICTION, slide->kind);
-    TEST_ASSERT_EQUAL_PTR(m->coordinates[0], slide->coordinate);
-    TEST_ASSERT_NULL(slide->value);
-    expect(0.6, slide->static_friction);
-    expect(0.3, slide->kinetic_friction);
-    expect(2.0 * 9.81 * fabs(cos(3.0)), slide->normal);
-    const contact_statement *turn = &m->contacts[1];
-    TEST_ASSERT_EQUAL_PTR(m->coordinates[2], turn->coordinate);
-    expect(0.007, turn->normal);
-    TEST_ASSERT_TRUE(dim_fits(turn->normal->dim, dim_energy()));
-}
-
 typedef bool truth(double x, double y, double phi, double vx);
 
 static bool one(double x, double y, double phi, double vx) {
@@ -188,71 +151,6 @@ static void test_deep_parentheses_are_bounded_and_quick(void) {
     free(text);
 }
 
-static void test_a_crossing_and_what_it_sets(void) {
-    const mechanism *m = parse(BASE "when x' crosses 2*y' rising { set x' = -e*x', y = x\n"
-                                    "  set phi' = push/3 [N*s] }\n"
-                                    "when gap crosses 1 [m] falling\n{\nset phi = 90 [deg],\n"
-                                    " x = 2 [cm];\n}\n"
-                                    "when phi crosses 0 { set phi = 1 }\n");
-    TEST_ASSERT_EQUAL_INT(3, m->contact_count);
-    place_at(1.0, 0.25, 0.5, 3.0, 1.25, 0.0);
-    const contact_statement *kick = &m->contacts[0];
-    TEST_ASSERT_EQUAL_INT(CONTACT_WHEN, kick->kind);
-    TEST_ASSERT_EQUAL_INT(1, kick->direction);
-    expect(3.0 - 2.5, kick->value);
-    TEST_ASSERT_EQUAL_INT(3, kick->set_count);
-    TEST_ASSERT_EQUAL_PTR(m->coordinates[0], kick->sets[0].symbol);
-    TEST_ASSERT_EQUAL_INT(1, kick->sets[0].primes);
-    expect(-1.5, kick->sets[0].value);
-    TEST_ASSERT_EQUAL_PTR(m->coordinates[1], kick->sets[1].symbol);
-    TEST_ASSERT_EQUAL_INT(0, kick->sets[1].primes);
-    expect(1.0, kick->sets[1].value);
-    TEST_ASSERT_EQUAL_PTR(m->coordinates[2], kick->sets[2].symbol);
-    TEST_ASSERT_EQUAL_INT(1, kick->sets[2].primes);
-    expect(1.0, kick->sets[2].value);
-    const contact_statement *jump = &m->contacts[1];
-    TEST_ASSERT_EQUAL_INT(-1, jump->direction);
-    expect(1.0 - 0.25 - 1.0, jump->value);
-    TEST_ASSERT_EQUAL_INT(2, jump->set_count);
-    expect(1.57079632679489662, jump->sets[0].value);
-    expect(0.02, jump->sets[1].value);
-    TEST_ASSERT_EQUAL_INT(0, m->contacts[2].direction);
-}
-
-static void test_a_scene_has_crossings_of_its_own(void) {
-    const mechanism *m =
-        parse(BASE "effect kick { parameter v = 2 [m/s]; when x crosses 0 { set x' = v } }\n"
-                   "scene a { when x crosses y rising { set y' = v }\n"
-                   "  when phi crosses 1 { set phi = 0 }; until 1 [s] }\nscene b { with kick }\n");
-    TEST_ASSERT_EQUAL_INT(1, m->contact_count);
-    const scene *a = parsed->scenes[0];
-    TEST_ASSERT_EQUAL_INT(2, a->when_count);
-    TEST_ASSERT_EQUAL_INT(0, parsed->scenes[1]->when_count);
-    place_at(1.0, 0.25, 0.5, 0.0, 0.0, 0.0);
-    expect(0.75, a->whens[0].value);
-    expect(2.0, a->whens[0].sets[0].value);
-    TEST_ASSERT_EQUAL_INT(CONTACT_WHEN, a->whens[1].kind);
-    TEST_ASSERT_EQUAL_INT(-1, a->whens[1].effect);
-    expect(-0.5, a->whens[1].value);
-}
-
-static void test_noise(void) {
-    const mechanism *m = parse(BASE "noise x_mm deviation 2 [mm]\n"
-                                    "effect hum { parameter s = 0.1 [deg]\n"
-                                    "  noise angle deviation 2*s seed 4294967295 }\n"
-                                    "effect still { noise angle deviation 0 seed 0 }\n");
-    TEST_ASSERT_EQUAL_INT(3, m->noise_count);
-    TEST_ASSERT_EQUAL_PTR(m->outputs[0], m->noises[0].output);
-    TEST_ASSERT_EQUAL_UINT32(1, m->noises[0].seed);
-    TEST_ASSERT_EQUAL_INT(-1, m->noises[0].effect);
-    expect(0.002, m->noises[0].deviation);
-    TEST_ASSERT_EQUAL_PTR(m->outputs[1], m->noises[1].output);
-    TEST_ASSERT_EQUAL_UINT32(4294967295U, m->noises[1].seed);
-    TEST_ASSERT_EQUAL_INT(0, m->noises[1].effect);
-    expect(0.2 * 3.14159265358979324 / 180.0, m->noises[1].deviation);
-    TEST_ASSERT_EQUAL_UINT32(0, m->noises[2].seed);
-}
-
 static void test_words_of_the_statements_may_be_names(void) {
     const mechanism *m = parse(
         "mechanism m\ncoordinate static [m]\ncoordinate and [m]\nparameter restitution = 0.25\n"
@@ -279,13 +177,8 @@ static void test_words_of_the_statements_may_be_names(void) {
 }
 
 SUITE(contact_lang) {
-    RUN_TEST(test_a_stop_is_the_distance_left);
-    RUN_TEST(test_friction_takes_a_force_or_a_torque);
     RUN_TEST(test_conditions_are_true_where_they_should);
     RUN_TEST(test_deep_parentheses_are_bounded_and_quick);
-    RUN_TEST(test_a_crossing_and_what_it_sets);
-    RUN_TEST(test_a_scene_has_crossings_of_its_own);
-    RUN_TEST(test_noise);
     RUN_TEST(test_words_of_the_statements_may_be_names);
     drop();
 }

@@ -69,25 +69,6 @@ static void test_effects_bring_their_events(void) {
     TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[2]));
 }
 
-static void test_numbers_of_a_run_must_be_in_range(void) {
-    const char *bouncy[] = {"e=1.01"};
-    const char *rough[] = {"slip=0.31"};
-    const char *negative[] = {"s=-1e-9"};
-    parse(BASE "effect wall { stop x >= 0 restitution e }\n"
-               "effect rub { parameter slip = 0.1\n"
-               "  friction x static mu kinetic slip normal 1 [N] }\n"
-               "effect grain { parameter s = 0 [m]\n  noise x_mm deviation s }\n"
-               "scene s { with wall, rub, grain }\nscene none_of_them { until 1 [s] }\n");
-    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
-    refuse(0, &(overrides){.sets = bouncy, .set_count = 1},
-           "x.whirl:14:39: error: a restitution is from 0 to 1, and this is 1.01");
-    refuse(0, &(overrides){.sets = rough, .set_count = 1},
-           "x.whirl:16:32: error: kinetic friction 0.31 is above static friction 0.3");
-    refuse(0, &(overrides){.sets = negative, .set_count = 1},
-           "x.whirl:18:24: error: a standard deviation must not be negative");
-    TEST_ASSERT_NOT_NULL(instance_of(1, &(overrides){.sets = bouncy, .set_count = 1}));
-}
-
 /* Inputs count with their initial value: declared, the scene's, or the command line's. */
 static void test_inputs_must_be_in_range_at_the_start(void) {
     const char *good[] = {"e_in=1"};
@@ -119,41 +100,6 @@ static void test_inputs_must_be_in_range_at_the_start(void) {
     TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* depends on the motion: known at impact */
 }
 
-static void test_what_two_effects_must_not_give_together(void) {
-    const char *both[] = {"rub", "rail"};
-    parse(BASE "effect rub { friction x static mu kinetic mu normal 1 [N] }\n"
-               "effect rail { friction x static mu kinetic mu normal 2 [N] }\n"
-               "effect motor { input level = 1 [m]; let half = level/2; parameter p = 1 [m] }\n"
-               "scene s { when x crosses p { set x = half } }\n");
-    TEST_ASSERT_NOT_NULL(instance_of(-1, &(overrides){.with = both, .with_count = 1}));
-    refuse(-1, &(overrides){.with = both, .with_count = 2},
-           "x.whirl:15:15: error: friction on 'x' was already given in line 14");
-    refuse(0, NULL,
-           "x.whirl:17:38: error: 'half' belongs to the effect 'motor', which is not selected");
-    const char *motor[] = {"motor"};
-    TEST_ASSERT_NOT_NULL(instance_of(0, &(overrides){.with = motor, .with_count = 1}));
-}
-
-/* Only active contacts count toward the bound. */
-static void test_how_many_events_one_run_takes(void) {
-    char text[4000] = BASE;
-    for (int i = 0; i < 2 * CONTACTS_MAX; i++) {
-        char line[80];
-        snprintf(line, sizeof line, "%sstop x >= -%d [m] restitution 0\n",
-                 i == 0              ? "effect a {\n"
-                 : i == CONTACTS_MAX ? "}\neffect b {\n"
-                                     : "",
-                 i + 1);
-        strcat(text, line);
-    }
-    strcat(text,
-           "}\nscene one { with a }\nscene more { with b; when x crosses 0 { set x = 0 } }\n");
-    const mechanism *m = parse(text);
-    TEST_ASSERT_EQUAL_INT(2 * CONTACTS_MAX, m->contact_count);
-    TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
-    refuse(1, NULL, "more than 16 stops, frictions, holds and whens in one run");
-}
-
 static void test_how_many_values_one_run_sets(void) {
     char text[12000] = BASE;
     for (int i = 0; i < 42; i++) { /* with x, y and phi: 45 coordinates, 90 values each time */
@@ -182,10 +128,7 @@ SUITE(contact_run) {
     RUN_TEST(test_the_ledger_is_called_for_like_an_effect);
     RUN_TEST(test_noise_comes_with_its_effect);
     RUN_TEST(test_effects_bring_their_events);
-    RUN_TEST(test_numbers_of_a_run_must_be_in_range);
     RUN_TEST(test_inputs_must_be_in_range_at_the_start);
-    RUN_TEST(test_what_two_effects_must_not_give_together);
-    RUN_TEST(test_how_many_events_one_run_takes);
     RUN_TEST(test_how_many_values_one_run_sets);
     drop();
 }

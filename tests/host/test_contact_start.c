@@ -227,32 +227,6 @@ TEST(contact_together, the_order_of_the_file_does_not_matter) {
     TEST_ASSERT_TRUE(over <= runs / 5);
 }
 
-/* No stop, friction or hold ever adds energy, except in a step with too many events. */
-TEST(contact_together, no_contact_gives_energy) {
-    const long runs = wanted_runs((long)few_or_all(usual_or(15, 5), 130));
-    double worst = 0.0;
-    for (long i = 0; i < 2 * runs; i++) {
-        char text[4000];
-        motion m;
-        double total[256] = {0.0};
-        double left[STATES] = {0.0};
-        const tangle of = {1U + (uint64_t)(i / 2), 0, i % 2 == 0, 1e-3, 0.3};
-        const double energy_J = tangled_text(&of, text, sizeof text);
-        motion_open_text(&m, text, IN_DOUBLE);
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, contacts_steps(&m)));
-        m.kind->ledger(m.run, total, left);
-        for (int k = 0; k < m.image->forced; k++) {
-            const double gave_J = total[m.image->ledger.smooth + k * (1 + m.image->coordinates)];
-            const double gave =
-                contacts_overruns(&m) == 0 ? (gave_J - fabs(left[0])) / energy_J : 0.0;
-            worst = fmax(worst, gave);
-        }
-        motion_close(&m);
-    }
-    printf("seeds 1 to %ld: a contact gave at most %.1e of the energy\n", runs, worst);
-    TEST_ASSERT_TRUE(worst <= 1e-11);
-}
-
 /* Equal balls in a row, 10 cm each, touching (gap 0) or nearly so; `speed` of each, m/s. */
 static void open_cradle(motion *m, double restitution, const double *speed, stepping how) {
     char text[2000];
@@ -310,44 +284,6 @@ TEST(contact_together, newtons_cradle) {
         open_cradle(&m, cases[i].restitution, cases[i].before, IN_FLOAT);
         expect_speeds(&m, cases[i].after, 1e-6);
         motion_close(&m);
-    }
-}
-
-/* A ball falls into the corner of two planes at 30 degrees to either side of x = 0 and touches both at once. Each
- * normal speed returns times its own restitution: (n1, n2) v+ = -(e1 n1, e2 n2) v-. */
-static void corner(double e1, double e2, bool swapped, stepping how, double bound) {
-    static const char left[] = "stop x/2 + y*sqrt(3)/2 >= 0 [m] restitution %.17g\n";
-    static const char right[] = "stop y*sqrt(3)/2 - x/2 >= 0 [m] restitution %.17g\n";
-    char one[100];
-    char two[100];
-    char text[1000];
-    motion m;
-    snprintf(one, sizeof one, left, e1);
-    snprintf(two, sizeof two, right, e2);
-    snprintf(text, sizeof text,
-             "mechanism corner\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
-             "V = 0 [J]\n%s%sscene s {\n  start x = 0, y = 1 [m], y' = -1 [m/s]\n"
-             "  step 1 [ms]\n  until 2 [s]\n}\n",
-             swapped ? two : one, swapped ? one : two);
-    motion_open_text(&m, text, how);
-    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1010));
-    /* n1 = (1/2, s), n2 = (-1/2, s), s = sqrt(3)/2; n v- = -s */
-    const double s = sqrt(3.0) / 2.0;
-    const double x_rate = s * (e1 - e2);
-    const double y_rate = (e1 + e2) / 2.0;
-    printf("  e = %g and %g: x' = %.15g, y' = %.15g\n", e1, e2, motion_value(&m, "x'"),
-           motion_value(&m, "y'"));
-    TEST_ASSERT_TRUE(fabs(motion_value(&m, "x'") - x_rate) <= bound);
-    TEST_ASSERT_TRUE(fabs(motion_value(&m, "y'") - y_rate) <= bound);
-    motion_close(&m);
-}
-
-TEST(contact_together, a_corner_is_hit_at_once) {
-    for (int i = 0; i < 2; i++) {
-        corner(0.5, 0.5, i != 0, IN_DOUBLE, 1e-12);
-        corner(0.25, 0.75, i != 0, IN_DOUBLE, 1e-12);
-        corner(1.0, 1.0, i != 0, IN_FLOAT, 1e-6);
-        corner(1.0, 0.0, i != 0, IN_DOUBLE, 1e-12);
     }
 }
 
