@@ -225,32 +225,6 @@ static double pieces_value(const piece *pieces, int count, double at[VARIABLES])
     return sum;
 }
 
-TEST(pieces, squares_of_sines_come_back) {
-    algebra *a = algebra_new();
-    const poly *u = poly_symbol(a, &variables[0], 0);
-    const poly *v = poly_symbol(a, &variables[1], 0);
-    const poly *one = poly_number(a, 1.0);
-    const poly *flat =
-        poly_mul(a, poly_mul(a, v, v), poly_sub(a, one, poly_cos(a, poly_scale(a, u, 2.0))));
-    piece pieces[8];
-    TEST_ASSERT_EQUAL_INT(1, pieces_of(a, flat, pieces));
-    TEST_ASSERT_TRUE(pieces[0].sines == 2 && pieces[0].cosines == 0 && pieces[0].angle == u);
-    TEST_ASSERT_TRUE(pieces[0].coefficient == 2.0);
-    const poly *tall = poly_scale(a, poly_add(a, one, poly_cos(a, poly_scale(a, u, 4.0))), -3.0);
-    TEST_ASSERT_EQUAL_INT(1, pieces_of(a, tall, pieces));
-    TEST_ASSERT_TRUE(pieces[0].sines == 0 && pieces[0].cosines == 2);
-    TEST_ASSERT_TRUE(pieces[0].coefficient == -6.0 && pieces[0].angle == poly_scale(a, u, 2.0));
-    /* other factors, sizes, or an odd multiple: nothing to restore */
-    TEST_ASSERT_EQUAL_INT(2,
-                          pieces_of(a, poly_sub(a, v, poly_cos(a, poly_scale(a, u, 2.0))), pieces));
-    TEST_ASSERT_EQUAL_INT(
-        2, pieces_of(a, poly_sub(a, one, poly_cos(a, poly_scale(a, u, 3.0))), pieces));
-    TEST_ASSERT_EQUAL_INT(
-        2,
-        pieces_of(a, poly_sub(a, poly_number(a, 1.5), poly_cos(a, poly_scale(a, u, 2.0))), pieces));
-    algebra_free(a);
-}
-
 /* sin(w)^(2p) cos(w)^(2q) and its slope, for w = 2u - v, and times 0.3 v. Each is one piece if the slope is one
  * product, else two. */
 TEST(pieces, even_powers_come_back) {

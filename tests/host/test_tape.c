@@ -352,163 +352,14 @@ TEST(tape_entered, what_turns_a_phase) {
     }
 }
 
-TEST(tape_entered, functions_of_constants) {
-    die = dice_of("functions of constants", 4133);
-    list = op_list_new(ANGLES, 1);
-    for (int i = 0; i < 200; i++) {
-        const double x = dice_between(&die, 0.0, 6.0) * (i % 2 == 0 ? 1.0 : -1.0);
-        const struct {
-            op_code code;
-            double value;
-        } rows[] = {{OP_SIN, sin(x)},
-                    {OP_COS, cos(x)},
-                    {OP_SQRT, sqrt(fabs(x))},
-                    {OP_ABS, fabs(x)},
-                    {OP_SIGN, x > 0.0 ? 1.0 : -1.0}};
-        for (unsigned k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-            const double from = rows[k].code == OP_SQRT ? fabs(x) : x;
-            double is = 0.0;
-            const int made = op_list_unary(list, rows[k].code, op_list_constant(list, from));
-            TEST_ASSERT_TRUE(op_list_is_constant(list, made, &is));
-            TEST_ASSERT_DOUBLE_WITHIN(1e-15, rows[k].value, is);
-        }
-    }
-    op_list_free(list);
-}
-
 SUITE(tape_entered) { die = dice_of("tape_entered", 4170); }
 
 /* === tape freed =============================================================================== */
-/* Parts of op_list_scale() (host/image/op_list_scale.h). The effect of rounded constants on results has a closed
- * form. Lists have known freedoms, and scaled by them they compute the same. */
+/* Parts of op_list_scale() (host/image/op_list_scale.h): lists have known freedoms, and scaled by them they compute
+ * the same. */
 
 /* A short decimal from 0.1 to 10 that float does not hold. */
 static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
-
-/* --- effect of rounded constants ------------------------------------------------------------------------------ */
-
-enum { RESULTS_MOST = 5, READ = 1, UNREAD_SHARE = 64 };
-
-/* Each result is a constant times a leaf, so its relative error is the constant's. A result not read again counts a
- * 64th. */
-TEST(tape_freed, a_constants_error_is_the_results) {
-    for (unsigned c = 0; c < dice_cases(200); c++) {
-        const int angles = (int)dice_one_of(&die, 3);
-        const int results = 1 + (int)dice_one_of(&die, RESULTS_MOST);
-        op_list *t = op_list_new(angles, results);
-        double squares = 0.0;
-        double entries = 0.0;
-        bool read[RESULTS_MOST] = {false};
-        double off[RESULTS_MOST];
-        for (int i = 0; i < results; i++) {
-            const double number = decimal();
-            const int k = (int)dice_one_of(&die, RESULTS_MOST + 1);
-            const double one[2] = {k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0};
-            int leaf = -1;
-            int reads = -1;
-            switch (dice_one_of(&die, angles == 2 ? 4 : 3)) {
-            case 0: /* a result whose rate is used counts as read */
-                leaf = op_list_leaf(t, OP_RATE, k);
-                reads = k;
-                break;
-            case 1:
-                leaf = op_list_leaf(t, OP_LINEAR, k);
-                reads = angles + k;
-                break;
-            case 2: leaf = op_list_leaf(t, OP_INPUT, k); break;
-            case 3:
-                leaf = op_list_unary(t, OP_COS, op_list_phase(t, one, 0.25, -1));
-                reads = k == 0 ? 0 : 1;
-                break;
-            }
-            t->result[i] = op_list_mul(t, op_list_constant(t, number), leaf);
-            off[i] = fabs((double)(float)number / number - 1.0);
-            if (reads >= 0 && reads < results) {
-                read[reads] = true;
-            }
-        }
-        const bool *is_read = read;
-        for (int i = 0; i < results; i++) {
-            /* three sizes of rates: a rate at rest has no error */
-            const op *o = &t->ops[t->result[i]];
-            const bool of_rate =
-                o->code == OP_RATE || (o->code == OP_MUL && t->ops[o->b].code == OP_RATE);
-            const double weight = is_read[i] ? 1.0 : 1.0 / UNREAD_SHARE;
-            squares += (of_rate ? 2.0 : 3.0) * (weight * off[i]) * (weight * off[i]);
-            entries += (of_rate ? 2.0 : 3.0) * weight * weight;
-        }
-        const double wanted = sqrt(squares / entries);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * wanted + 1e-13, wanted, op_list_bias(t, t));
-        op_list_free(t);
-    }
-}
-
-/* Every operation, at a value of one with an inexact constant: the result has the same relative error. */
-static int made_of(op_list *t, int x, unsigned what) {
-    const int two = op_list_constant(t, 2.0);
-    switch (what) {
-    case 0: return op_list_unary(t, OP_ABS, x);
-    case 1: return op_list_unary(t, OP_SQRT, op_list_mul(t, x, x));
-    case 2:
-        return op_list_sub(t, op_list_mul(t, op_list_constant(t, 3.0), x), op_list_mul(t, two, x));
-    case 3: return op_list_div(t, op_list_mul(t, x, x), x);
-    case 4: return op_list_call(t, FN_MIN, x, op_list_mul(t, two, x));
-    case 5: return op_list_call(t, FN_MAX, x, op_list_mul(t, op_list_constant(t, 0.5), x));
-    case 6: return op_list_call(t, FN_LOG, op_list_call(t, FN_EXP, x, -1), -1);
-    case 7: return op_list_mul(t, x, op_list_unary(t, OP_SIGN, x));
-    case 8: return op_list_unary(t, OP_NEG, op_list_unary(t, OP_NEG, x));
-    case 9:
-        return op_list_add(t, op_list_mul(t, op_list_constant(t, 0.25), x),
-                           op_list_mul(t, op_list_constant(t, 0.75), x));
-    case 10: return op_list_call(t, FN_ATAN, op_list_call(t, FN_TAN, x, -1), -1);
-    }
-    /* exponents that a float has */
-    return op_list_pow(t, op_list_pow(t, x, op_list_constant(t, 0.125)), op_list_constant(t, 8.0));
-}
-
-TEST(tape_freed, errors_go_through_operations) {
-    for (unsigned what = 0; what < 12; what++) {
-        for (int tries = 0; tries < 10; tries++) {
-            const double number =
-                /* multiplied by an input from 1 to 3, the error is at most 3 times as large */
-                decimal() / 10.0;
-            const double off = fabs((double)(float)number / number - 1.0);
-            op_list *t = op_list_new(0, 1);
-            const int x =
-                op_list_mul(t, op_list_constant(t, number), op_list_leaf(t, OP_INPUT, tries));
-            t->result[0] =
-                made_of(t, what == 10 ? op_list_mul(t, op_list_constant(t, 0.5), x) : x, what);
-            const double bias = op_list_bias(t, t);
-            /* the number times three and times two, each rounded by half a unit, count once */
-            TEST_ASSERT_TRUE(bias <= 5.0 * 0x1p-24 && bias >= 0.0);
-            if (what != 2 && what != 9 && what != 4 && what != 5) {
-                const double wanted =
-                    what == 10 ? fabs((double)(float)(0.5 * number) / (0.5 * number) - 1.0) : off;
-                TEST_ASSERT_DOUBLE_WITHIN(1e-4 * wanted + 1e-13, wanted, bias);
-            }
-            op_list_free(t);
-        }
-    }
-}
-
-/* A sine of radians has the error of its angle times its slope. */
-TEST(tape_freed, errors_go_through_phases) {
-    for (int tries = 0; tries < 40; tries++) {
-        const double offset = dice_between(&die, 0.1, 1.4);
-        const double rad = decimal() / 10.0;
-        const double off = (double)(float)rad - rad;
-        const double angle = offset + rad;
-        const bool is_sine = tries % 2 == 0;
-        const double value = is_sine ? sin(angle) : cos(angle);
-        const double slope = is_sine ? cos(angle) : -sin(angle);
-        op_list *t = op_list_new(0, 1);
-        const int phase = op_list_phase(t, NULL, offset, op_list_constant(t, rad));
-        t->result[0] = op_list_unary(t, is_sine ? OP_SIN : OP_COS, phase);
-        const double wanted = fabs(slope * off / value);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * wanted + 1e-13, wanted, op_list_bias(t, t));
-        op_list_free(t);
-    }
-}
 
 /* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
 
@@ -582,40 +433,6 @@ static int without_raw(const op_list_freedoms *f) {
         count += !multiplies_raw(f, k);
     }
     return count;
-}
-
-/* If numerators and denominators are free, each quotient has one freedom; a root of it has half. */
-TEST(tape_freed, a_quotient_has_one_freedom) {
-    for (unsigned c = 0; c < dice_cases(60); c++) {
-        const int quotients = 1 + (int)dice_one_of(&die, 4);
-        op_list *t = op_list_new(0, quotients);
-        int above[4];
-        int below[4];
-        double power[4];
-        for (int k = 0; k < quotients; k++) {
-            const bool by_root = dice_one_of(&die, 3) == 0;
-            above[k] = free_sum(t, 3 * k);
-            below[k] = free_sum(t, 3 * k + 1);
-            power[k] = by_root ? 0.5 : 1.0;
-            t->result[k] =
-                op_list_div(t, above[k], by_root ? op_list_unary(t, OP_SQRT, below[k]) : below[k]);
-        }
-        op_list_freedoms f = op_list_freedoms_of(t);
-        TEST_ASSERT_EQUAL_INT(3 * t->count, f.length);
-        TEST_ASSERT_EQUAL_INT(quotients, without_raw(&f));
-        for (int k = 0; k < quotients; k++) {
-            bool found = false;
-            for (int i = 0; i < f.count; i++) {
-                const double *e = f.exponent + i * f.length;
-                found = found || e[above[k]] != 0.0;
-                TEST_ASSERT_DOUBLE_WITHIN(1e-9, e[above[k]], power[k] * e[below[k]]);
-            }
-            TEST_ASSERT_TRUE(found);
-        }
-        expect_free(t, &f, true);
-        op_list_freedoms_free(&f);
-        op_list_free(t);
-    }
 }
 
 /* Leaves without constants in the sums must be multiplied: up to two are accepted, three are not. */
@@ -766,7 +583,7 @@ SUITE(tape_freed) { die = dice_of("tape_freed", 4190); }
 
 /* === tape gauged ============================================================================== */
 /* Gauges that op_list_scale() must find (host/image/op_list_scale.h). The lists have a factor that makes all
- * constants exact: products of small primes, and constants that vanish. */
+ * constants exact: products of small primes. */
 
 /* A sum of two products of leaves with integers below 120 times `unit`. */
 static int sum_of(op_list *t, int which, double unit) {
@@ -850,35 +667,6 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
-/* A common irrational factor of all constants: without it they are integers. */
-TEST(tape_gauged, constants_vanish) {
-    for (int tries = 0; tries < 20; tries++) {
-        const double unit = dice_between(&die, 0.1, 10.0);
-        op_list *t = op_list_new(0, 1);
-        const int x = op_list_leaf(t, OP_LINEAR, 0);
-        const int y = op_list_leaf(t, OP_RATE, 1);
-        const int times_x = op_list_mul(t, op_list_constant(t, unit), op_list_mul(t, x, x));
-        const double a =
-            61.0 + 2.0 * dice_one_of(&die, 29); /* no float of 24 bits has these ratios by chance */
-        const double b = 151.0 + 2.0 * dice_one_of(&die, 29);
-        const int times_y = op_list_mul(t, op_list_constant(t, a * unit), op_list_mul(t, y, y));
-        const int third = op_list_mul(t, op_list_constant(t, b * unit), op_list_mul(t, x, y));
-        t->result[0] =
-            op_list_div(t, op_list_add(t, times_x, times_y), op_list_add(t, third, times_x));
-        op_list_prune(t);
-        const int operations = op_list_operations(t);
-        double before;
-        double after;
-        results_of(t, &before);
-        op_list_scale(&t, 0);
-        results_of(t, &after);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, before, after);
-        TEST_ASSERT_TRUE(op_list_operations(t) <= operations);
-        TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-13);
-        op_list_free(t);
-    }
-}
-
 /* Lists of up to 250 operations, with constants and leaves, are searched. */
 TEST(tape_gauged, long_lists_are_left_alone) {
     for (int over = 0; over < 2; over++) {
@@ -898,18 +686,6 @@ TEST(tape_gauged, long_lists_are_left_alone) {
         TEST_ASSERT_EQUAL(over == 1, hash == op_list_hash(longer));
         op_list_free(longer);
     }
-}
-
-/* A better list may cost one operation more, and one for every forty. */
-TEST(tape_gauged, what_a_better_list_may_cost) {
-    op_list *t = op_list_new(0, 1);
-    int sum = op_list_leaf(t, OP_INPUT, 0);
-    for (int operations = 0; operations < 200; operations++) {
-        TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t));
-        TEST_ASSERT_EQUAL_INT((int)(1.0 + floor(operations / 40.0)), op_list_scaling_price(t));
-        sum = op_list_unary(t, OP_ABS, sum);
-    }
-    op_list_free(t);
 }
 
 SUITE(tape_gauged) { die = dice_of("tape_gauged", 4200); }

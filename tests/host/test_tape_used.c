@@ -317,47 +317,4 @@ TEST(tape_used, other_lists_are_left_alone) {
     }
 }
 
-TEST(tape_used, lists_are_given_back) {
-    const long blocks = blocks_in_use();
-    for (int size = 1; size < 600; size *= 2) {
-        op_list *t = op_list_new(2, 3);
-        const double multiple[] = {0.5, 2.0};
-        const int turns[] = {1, -2};
-        int sum = op_list_unary(t, OP_SIN, op_list_phase(t, multiple, 0.1, -1));
-        op_list_tables_new(t, 2, 3, 2);
-        sum = op_list_add(t, sum, op_list_look_up(t, op_list_cell(t, turns), 1));
-        for (int i = 0; i < size; i++) {
-            sum = op_list_add(t, op_list_mul(t, sum, sum), op_list_leaf(t, OP_LINEAR, i));
-        }
-        for (int i = 0; i < 3; i++) {
-            t->result[i] = sum - i;
-        }
-        enter_pair(t, 0, 0);
-        op_list_share_sums(t);
-        op_list_order(t);
-        TEST_ASSERT_TRUE(op_list_carried(t) >= 0 && op_list_not_finite(t) < 0);
-        op_list_free(t);
-    }
-    op_list_free(NULL);
-    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
-}
-
-/* An image frees its own lists, but not the lists that it shares with another image. */
-TEST(tape_used, images_are_given_back) {
-    const long blocks = blocks_in_use();
-    image_free(NULL);
-    struct arena *one = arena_new();
-    image *first = arena_alloc(one, sizeof *first);
-    *first = (image){.memory = one, .list = {[IMAGE_STEP] = op_list_new(0, 1)}};
-    struct arena *other = arena_new();
-    image *again = arena_alloc(other, sizeof *again);
-    *again = (image){
-        .memory = other,
-        .base = first,
-        .list = {[IMAGE_STEP] = first->list[IMAGE_STEP], [IMAGE_BOOKS] = op_list_new(0, 1)}};
-    image_free(again);
-    image_free(first);
-    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
-}
-
 SUITE(tape_used) { die = dice_of("tape_used", 4180); }
