@@ -15,39 +15,6 @@ static double told(const char *summary, const char *words) {
     return strtod(at + strlen(words), NULL);
 }
 
-/* A ball that falls from h and bounces once with restitution e loses m g h (1 - e^2). The summary assigns that to the
- * contact and the residual to the numerical error. `with ledger` must not change a bit. */
-TEST(account, what_contacts_took_is_told_apart) {
-    dice d = dice_of("bounces", 4004);
-    for (unsigned i = 0; i < dice_cases(10); i++) {
-        const double e = dice_between(&d, 0.2, 0.95);
-        const double height = dice_between(&d, 0.5, 2.0);
-        const double fall_s = sqrt(2.0 * height / 9.81);
-        char text[400];
-        said what;
-        snprintf(text, sizeof text,
-                 "mechanism ball\ncoordinate z [m]\nT = 2 [kg]*z'^2/2\nV = 2 [kg]*9.81 [m/s^2]*z\n"
-                 "stop z >= 0 restitution %.9f\nscene s { start z = %.9f [m]\nuntil %.4f [s] }\n",
-                 e, height, fall_s * (1.0 + e));
-        const char *words[] = {model_keep(text), NULL, NULL, NULL};
-        command_say(command_run, words, &what);
-        TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
-        const double took = -told(what.out, "impacts, friction, holds and settings");
-        const double lost = 2.0 * 9.81 * height * (1.0 - e * e);
-        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-8 * lost, lost, took, text);
-        TEST_ASSERT_TRUE_MESSAGE(fabs(told(what.out, "\n  residual")) < 1e-9 * lost, what.out);
-        const char *hash = strstr(what.out, "state hash");
-        TEST_ASSERT_NOT_NULL(hash);
-        char kept[40];
-        snprintf(kept, sizeof kept, "%.37s", hash);
-        words[1] = "--with";
-        words[2] = "ledger";
-        command_say(command_run, words, &what);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, kept), what.out);
-    }
-    model_drop();
-}
-
 /* Impacts of other coordinates, or in the middle of a step, leave two entries unchanged: the energy from a constant force, P
  * (z - h), and the loss of an evenly damped slide. Each printed entry has a closed form; with the contacts' part, the entries
  * sum to the change. Integration between step ends only would miss part of the step with the impact. */
@@ -115,79 +82,6 @@ static double of_energies(const motion *m, const account_book *book, const char 
     }
     TEST_FAIL_MESSAGE("no such entry");
     return 0.0;
-}
-
-/* L = th'^2/2 + k th^2 th' moves freely: th = w t. The entry of dL/dth = 2 k th th' grows as k (w t)^2. */
-TEST(ledger_turns, a_free_wheel) {
-    static const char text[] = "mechanism wheel\ncoordinate th [rad]\nparameter k = 3 [N*m*s]\n"
-                               "T = 1 [kg*m^2]*th'^2/2 + k*th^2*th'\n"
-                               "scene s { start th = 0.5, th' = 7 [rad/s]\nuntil 3 [s] }\n";
-    motion m;
-    motion_open_text(&m, text, booked);
-    TEST_ASSERT_EQUAL_INT(1, m.image->angles); /* it is a turn angle */
-    TEST_ASSERT_TRUE(m.image->ledger.turned);
-    motion_to(&m, 3.0);
-    const account_book book = read_book(&m);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 3.0 * (21.5 * 21.5 - 0.25), of_energies(&m, &book, "th"));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, book.left_over[0]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 0.0, book.left_over[1]);
-    motion_close(&m);
-    motion_open_text(&m, text, booked_float); /* over three turns, whose phase is an integer */
-    motion_to(&m, 3.0);
-    const account_book coarse = read_book(&m);
-    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1386.0, of_energies(&m, &coarse, "th"));
-    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, coarse.left_over[1]);
-    motion_close(&m);
-}
-
-/* Two wheels with gyroscopic coupling, L = (a'^2 + b'^2)/2 + B a b'. Their rates rotate with B: a' = v cos(B t), b' =
- * -v sin(B t). p_b = b' + B a is constant; p_a = a' changes by dL/da = B b'. */
-TEST(ledger_turns, gyroscopic_coupling) {
-    static const char text[] =
-        "mechanism wheels\ncoordinate a [rad]\ncoordinate b [rad]\nparameter B = 2 [N*m*s]\n"
-        "T = 1 [kg*m^2]*(a'^2 + b'^2)/2 + B*a*b'\n"
-        "scene s { start a' = 5 [rad/s]\nuntil 4 [s] }\n";
-    motion m;
-    motion_open_text(&m, text, booked);
-    motion_to(&m, 1.0);
-    const account_book book = read_book(&m);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5.0 * cos(2.0), motion_value(&m, "a'"));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -5.0 * sin(2.0), motion_value(&m, "b'"));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5.0 * cos(2.0) - 5.0, of_energies(&m, &book, "a"));
-    for (int account = 0; account < 3; account++) {
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over[account]);
-    }
-    motion_close(&m);
-}
-
-/* A charge in a uniform field, in polar coordinates and a gauge that depends on its angle: A = B r^2/2 dphi + d(c
- * phi^2)/2. It moves on a circle with angular frequency B/m; h = m v^2/2. */
-TEST(ledger_turns, a_charge_in_a_uniform_field) {
-    static const char text[] =
-        "mechanism charge\ncoordinate r [m]\ncoordinate phi [rad]\nparameter m = 2 [kg]\n"
-        "parameter B = 3 [kg/s]\nparameter c = 0.7 [N*m*s]\nT = m*(r'^2 + r^2*phi'^2)/2\n"
-        "V = -B*r^2*phi'/2 - c*phi*phi'\n"
-        "scene s { start r = 2 [m], r' = 0.3 [m/s], phi' = 0.4 [rad/s]\nuntil 2 [s] }\n";
-    double left[2] = {0};
-    for (int k = 0; k < 2; k++) {
-        stepping how = booked;
-        motion m;
-        how.step_s = 0.04 / (1 << k);
-        motion_open_text(&m, text, how);
-        motion_to(&m, 2.0);
-        const account_book book = read_book(&m);
-        const double phi = motion_value(&m, "phi");
-        /* only the gauge changes p_phi: the entry is that of c phi phi' */
-        TEST_ASSERT_DOUBLE_WITHIN(2e-6 / (1 << (4 * k)), 0.7 * phi, of_energies(&m, &book, "phi"));
-        left[k] =
-            fmax(fabs(book.left_over[0]), fmax(fabs(book.left_over[1]), fabs(book.left_over[2])));
-        motion_close(&m);
-    }
-    char line[100];
-    snprintf(line, sizeof line, "left over %.2e, then %.2e: order %.2f", left[0], left[1],
-             log2(left[0] / left[1]));
-    printf("  %s\n", line);
-    TEST_ASSERT_TRUE_MESSAGE(left[1] < 1e-6 && log2(left[0] / left[1]) > 3.7, line);
 }
 
 /* A function of the angles a and b, and its rate by hand. */

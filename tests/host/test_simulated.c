@@ -137,87 +137,6 @@ TEST(simulated, rows) {
     end();
 }
 
-/* Free bodies, some integrated and some following from their momenta, each in its unit. */
-TEST(simulated, rows_of_what_follows_from_its_momentum) {
-    static const double of_si[] = {1e3, 1.0, 1e2};
-    begin();
-    for (unsigned set = 1; set < 8; set++) {
-        char text[600];
-        char conserve[40] = "";
-        double start[3];
-        double speed[3];
-        double number = 0.0;
-        for (int i = 0; i < 3; i++) {
-            start[i] = dice_between(&die, -1.0, 1.0);
-            speed[i] = dice_between(&die, -1.0, 1.0);
-            if ((set >> i & 1U) != 0) {
-                snprintf(conserve + strlen(conserve), sizeof conserve - strlen(conserve), "%sq%d",
-                         conserve[0] != '\0' ? ", " : "conserve ", i);
-            }
-        }
-        snprintf(
-            text, sizeof text,
-            "mechanism m\ncoordinate q0 [mm]\ncoordinate q1 [m]\ncoordinate x [m]\n"
-            "coordinate q2 [cm]\nT = 1 [kg]*(q0'^2 + 2*q1'^2 + 3*q2'^2 + x'^2)/2\n"
-            "V = 1 [N/m]*x^2/2\nscene s { %s; start q0 = %.17g [m], q0' = %.17g [m/s], q1 = "
-            "%.17g [m], q1' = %.17g [m/s], q2 = %.17g [m], q2' = %.17g [m/s], x = 1 [m]; step 1 "
-            "[ms]; until 1 [s] }\n",
-            conserve, start[0], speed[0], start[1], speed[1], start[2], speed[2]);
-        derived d = scene_of(text);
-        const simulation_settings s = {
-            .kind = &engine_double, .every = 1000, .csv = path_of("r.csv"), .quiet = true};
-        TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
-        const char *at = said_exactly(
-            read_file(path_of("r.csv")),
-            "time,q0 [mm],q1,x,q2 [cm],der(q0) [mm/s],der(q1),der(x),der(q2) [cm/s]\r\n");
-        for (int row = 0; row < 2; row++) {
-            at = said_number(at, &number);
-            TEST_ASSERT_TRUE(number == row);
-            for (int column = 0; column < 8; column++) {
-                const bool rate = column >= 4;
-                const int i = column % 4 == 3 ? 2 : column % 4; /* x is the third */
-                const double wanted = rate ? speed[i] : start[i] + speed[i] * row;
-                at = said_number(said_exactly(at, ","), &number);
-                if (column % 4 != 2) {
-                    TEST_ASSERT_TRUE_MESSAGE(fabs(number - of_si[i] * wanted) < 1e-9, text);
-                }
-            }
-            at = said_exactly(at, "\r\n");
-        }
-        derived_free(&d);
-    }
-    end();
-}
-
-/* The summary goes to standard error, the records to a discarded file. */
-static const char *summary_of(const image *im) {
-    const simulation_settings s = {.kind = &engine_double, .every = 1, .csv = "-"};
-    fflush(stdout);
-    const int kept = dup(1);
-    TEST_ASSERT_TRUE(freopen("/dev/null", "w", stdout) != NULL);
-    const char *told = simulated(im, &s, SIMULATION_DONE);
-    fflush(stdout);
-    (void)dup2(kept, 1);
-    close(kept);
-    return told;
-}
-
-TEST(simulated, summary_repeats) {
-    static char first[TEXT];
-    begin();
-    for (unsigned c = 0; c < dice_cases(usual_or(12, 6)); c++) {
-        char text[500];
-        snprintf(text, sizeof text, steady, dice_between(&die, -1.0, 1.0),
-                 dice_between(&die, -1.0, 1.0), dice_between(&die, -9.0, 9.0));
-        derived d = scene_of(text);
-        snprintf(first, sizeof first, "%s", summary_of(d.image));
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(first, "\nstate hash "), first);
-        TEST_ASSERT_EQUAL_STRING(first, summary_of(d.image));
-        derived_free(&d);
-    }
-    end();
-}
-
 /* An interrupt is checked before each step. The rows end with the step before it. */
 TEST(simulated, interrupted) {
     char text[500];
@@ -382,26 +301,6 @@ TEST(simulated, diverged) {
         TEST_ASSERT_EQUAL_INT(2 + (int)lround(1e3 * when_s), lines_in(rows));
         derived_free(&d);
     }
-    end();
-}
-
-/* A spring by Runge-Kutta 4 with h w = 0.8 loses about 0.4 % of its energy a step. */
-TEST(simulated, strict) {
-    begin();
-    derived d = scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2/2\n"
-                         "scene s { start x = 1 [m]; step 800 [ms]; until 32 [s] }\n");
-    const double kept = pow(1.0 - pow(0.8, 6) / 72.0 + pow(0.8, 8) / 576.0, 40.0);
-    const double strict[] = {STRICT_OFF, 1.3 * (1.0 - kept), 0.7 * (1.0 - kept), STRICT_FINDINGS};
-    for (int c = 0; c < 4; c++) {
-        const simulation_settings s = {
-            .kind = &engine_double, .every = 1, .quiet = true, .strict = strict[c]};
-        const char *told = simulated(d.image, &s, SIMULATION_DONE);
-        TEST_ASSERT_EQUAL(c >= 2, (fails & FINDING_BIT(FINDING_ENERGY)) != 0);
-        TEST_ASSERT_EQUAL(c == 0, fails == 0);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, c == 2 ? "error" : "warning"), told);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "its residual is "), told);
-    }
-    derived_free(&d);
     end();
 }
 

@@ -311,36 +311,6 @@ TEST(warnings, passing_a_pole_is_told) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-TEST(warnings, swings_of_a_system_are_told) {
-    dice d = dice_of("systems", 14003);
-    const unsigned cases = dice_cases(few_or_all(usual_or(20, 15), 60));
-    for (unsigned i = 0; i < cases; i++) {
-        const double w = pow(10.0, dice_between(&d, -1.0, 3.0));
-        const double hw = pow(10.0, dice_between(&d, -2.0, 0.44));
-        const double steps = 200.0;
-        const double lost = steps * pow(hw, 6.0) / 72.0; /* of the energy, if small */
-        char text[500];
-        said what;
-        snprintf(text, sizeof text,
-                 "mechanism s\nstate a [m]\nstate b [m/s]\nequation a' = b\n"
-                 "equation b' = -%.12g [1/s^2]*a\n"
-                 "scene s { start a = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
-                 w * w, hw / w, hw / w * steps);
-        run(model_keep(text), "rk4", NULL, i % 2 == 0, &what);
-        if (lost > 0.02) {
-            named_cure is;
-            TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "[accuracy]") != NULL, text);
-            TEST_ASSERT_TRUE_MESSAGE(named_with_step(what.err, &is), what.err);
-            TEST_ASSERT_TRUE(pow(w * said_step_s(is.step), 5.0) * hw * steps / 72.0 < 2e-2);
-            run(model_keep(text), "rk4", is.step, i % 2 == 0, &what);
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
-        } else if (lost < 1e-3) {
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
-        }
-    }
-    model_drop();
-}
-
 /* The ball rests after eight of about 25000 bounces, with a warning. The remedy removes the warning. */
 static void expect_ball_between(said *what, const char **words) {
     named_cure is;
