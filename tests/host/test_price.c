@@ -68,22 +68,6 @@ TEST(price, polynomials_take_two_operations_a_power) {
     }
 }
 
-/* A power takes few products by squaring: binary digits plus ones of the exponent, less two. */
-TEST(price, powers_take_few_products) {
-    for (int exponent = 2; exponent <= 64; exponent++) {
-        int products = -2;
-        for (int rest = exponent; rest > 0; rest /= 2) {
-            products += 1 + rest % 2;
-        }
-        char what[40];
-        snprintf(what, sizeof what, "x0^%d", exponent);
-        expect(price_of("%s", what), products, 0, what);
-        expect(price_of("1/%s", what), products + 1, 0, what);
-        snprintf(what, sizeof what, "x0^(%d/2)", 2 * exponent + 1);
-        expect(price_of("%s", what), 2 * exponent > 62 ? 1 : 60, 0, what);
-    }
-}
-
 TEST(price, equal_coefficients_are_taken_out) {
     uint64_t seed = 17;
     for (int count = 2; count <= 7; count++) {

@@ -107,34 +107,6 @@ TEST(price_front, substeps_rise_as_they_are_told) {
     TEST_ASSERT_EQUAL_UINT64(0, table_substeps(&(table_wish){.periods = 1}, &row));
 }
 
-static cost_figure drawn_figure(dice *d) {
-    return (cost_figure){.basis = (cost_basis)dice_one_of(d, COST_BASES),
-                         .value = dice_between(d, 1.0, 900.0),
-                         .least = dice_between(d, 0.1, 1.0),
-                         .most = dice_between(d, 900.0, 9000.0)};
-}
-
-TEST(price_front, prices_are_cycles_where_somebody_counts_them) {
-    dice d = dice_of("price_front prices", 2);
-    for (int n = 0; n < 2000; n++) {
-        const cost c = {.instructions = drawn_figure(&d), .cycles = drawn_figure(&d)};
-        const double step_s = dice_between(&d, 1e-4, 1.0);
-        bool known = dice_one_of(&d, 2) == 1;
-        const table_price p = table_price_of(&c, step_s, &known);
-        const bool no_cycles = c.cycles.basis == COST_NOT_KNOWN || c.cycles.basis == COST_RANGE;
-        const cost_figure *f = no_cycles ? &c.instructions : &c.cycles;
-        TEST_ASSERT_EQUAL_INT(no_cycles ? PRICE_INSTRUCTIONS : PRICE_CYCLES, p.unit);
-        TEST_ASSERT_EQUAL_INT(f->basis, p.basis);
-        TEST_ASSERT_EQUAL_INT(f->basis != COST_NOT_KNOWN && f->basis != COST_RANGE, known);
-        TEST_ASSERT_TRUE(fabs(p.value * step_s / f->value - 1.0) < 1e-12);
-        TEST_ASSERT_TRUE(fabs(p.least * step_s / f->least - 1.0) < 1e-12);
-        TEST_ASSERT_TRUE(fabs(p.most * step_s / f->most - 1.0) < 1e-12);
-    }
-    TEST_ASSERT_EQUAL_STRING("cycles", table_unit_words[PRICE_CYCLES]);
-    TEST_ASSERT_EQUAL_STRING("instructions", table_unit_words[PRICE_INSTRUCTIONS]);
-    TEST_ASSERT_EQUAL_STRING("evaluations", table_unit_words[PRICE_EVALUATIONS]);
-}
-
 /* === price measured =========================================================================== */
 /* Counted prices (host/study/price_table.h) and choices by them (choice.h), in a made-up source tree (made_up_tree.h). */
 
@@ -194,11 +166,6 @@ static const char *const balls[] = {BALL("1"), BALL("2"), BALL("0.5")};
 static const whole_ratio spacing = {1, 50};
 static const table_words words = {"a.whirl:s", " --set m=3", false, 0.0};
 
-static void expect_known(double value, cost_basis basis, const cost_figure *f) {
-    TEST_ASSERT_EQUAL_INT(basis, f->basis);
-    TEST_ASSERT_TRUE(f->value == value && f->least == value && f->most == value);
-}
-
 static table table_of(table_row row[2], const setting *s, deviation_pace pace, int point) {
     for (int i = 0; i < 2; i++) {
         row[i] = (table_row){.setting = *s, .pace = {pace.steps * ((uint64_t)i + 1), pace.records}};
@@ -207,84 +174,6 @@ static table table_of(table_row row[2], const setting *s, deviation_pace pace, i
         row[i].price.value = i;
     }
     return (table){.row = row, .count = 2, .why = ""};
-}
-
-TEST(price_measured, steps_are_counted_and_kept) {
-    dice d = dice_of("price_measured steps", 21);
-    priced p;
-    priced_open(&p, springs, 2);
-    TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
-    tree_enter();
-    const setting rk4 = priced_setting(WH_RK4, &engine_float);
-    const setting heun = priced_setting(WH_HEUN, &engine_double);
-    const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
-    char line[300];
-    table_row row[2];
-    for (int n = 0; n < 3; n++) {
-        const setting *s = n == 0 ? &rk4 : n == 1 ? &heun : &in_fixed;
-        const deviation_pace pace = {n == 2 ? 4 : (uint64_t)n + 1, 1};
-        double v[7];
-        for (int i = 0; i < 7; i++) {
-            v[i] = 1 + dice_one_of(&d, 9000);
-        }
-        snprintf(line, sizeof line,
-                 "a line before\nabc,gcc,\"-a, -b\",mps2-an386,s,float,rk4,%.0f,%.0f,%.1f,%.0f,"
-                 "estimated,%.0f,%.0f,%.0f\r\n",
-                 v[0], v[1], v[2] + 0.5, v[3], v[4], v[5], v[6]);
-        tree_keep(n == 1 ? "row0" : "row1", line);
-        tree_keep(n == 1 ? "row1" : "row0", "nothing\n");
-        table made = table_of(row, s, pace, n == 1 ? 0 : 1);
-        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
-        static const char *const asked[] = {
-            "mps2-an386 float a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.02\n",
-            "mps2-an386 double a.whirl:s --set m=3 --set place=0 --method heun --step 0.01\n",
-            ("mps2-an386 fixed a.whirl:s --set m=3 --set place=1 --method rk4 --step 0.005 "
-             "--until 0.4\n")};
-        TEST_ASSERT_EQUAL_STRING(asked[n], tree_taken("asked"));
-        /* a price that varies with the step applies to this step only */
-        const bool varies = s->number == &engine_fixed;
-        int counted = 0;
-        for (int i = 0; i < 2; i++) {
-            const table_row *r = &made.row[i];
-            const cost *c = &r->cost;
-            const double each_s = ratio_times(1, trial_step(&p.trial, r->pace));
-            counted += r->counted;
-            TEST_ASSERT_TRUE(!(r->run.steps > 0.0));
-            expect_known(44, COST_EXACT, &c->state_bytes);
-            if (r->counted) {
-                expect_known(v[0], COST_MEASURED, &c->instructions);
-                expect_known(v[1], COST_MEASURED, &c->instructions_worst);
-                expect_known(v[2] + 0.5, COST_ESTIMATED, &c->cycles);
-                expect_known(v[3], COST_ESTIMATED, &c->cycles_worst);
-                expect_known(v[4], COST_MEASURED, &c->flash_bytes);
-                expect_known(v[5], COST_MEASURED, &c->ram_bytes);
-                expect_known(v[6], COST_MEASURED, &c->stack_bytes);
-                TEST_ASSERT_TRUE(fabs(r->price.value * each_s / c->cycles.value - 1.0) < 1e-12);
-            }
-        }
-        TEST_ASSERT_EQUAL_INT(varies ? 1 : 2, counted);
-    }
-    /* a missing tool or refused rows leave the table as it is */
-    static const struct {
-        const char *status;
-        const char *row;
-        measured_end end;
-    } rows[] = {
-        {"2\n", "", MEASURED_MISSING},
-        {"1\n", "a,g,\"f\",mps2-an386,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_COUNTED},
-        {"0\n", "no row\n", MEASURED_COUNTED},
-        {"0\n", "a,g,\"f\",mps2-an385,s,float,rk4,1,1,1,1,estimated,1,1,1\n", MEASURED_COUNTED}};
-    for (int i = 0; i < 4; i++) {
-        table made = table_of(row, &heun, (deviation_pace){1, 1}, 0);
-        tree_keep("status", rows[i].status);
-        tree_keep("row0", rows[i].row);
-        TEST_ASSERT_EQUAL_INT(rows[i].end, measured_count(&p.trial, &made, 0, &words));
-        TEST_ASSERT_EQUAL_INT(i > 0 ? 0 : 2, made.count);
-        TEST_ASSERT_EQUAL_INT(i > 0, made.unpriced);
-        TEST_ASSERT_EQUAL_STRING(i > 0 ? "it cannot be built, linked or run there" : "", made.why);
-    }
-    tree_leave();
-    priced_close(&p);
 }
 
 /* --- whole runs ------------------------------------------------------------------------------------------*/
@@ -536,100 +425,6 @@ static const char *const spring =
     "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"
     "V = 16 [N/m]*x^2/2\nscene s { start x = 250 [mm]; step 10 [ms]; until 1 [s] }\n";
 
-static derived decay_of(double rate, double start) {
-    char text[300];
-    snprintf(text, sizeof text,
-             "mechanism m\nstate y\nequation y' + %.17g [1/s]*y = 0 [1/s]\n"
-             "scene s { start y = %.17g; step 1 [ms]; until 1 [s] }\n",
-             rate, start);
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
-    return d;
-}
-
-/* --- the extrapolation -----------------------------------------------------------------------------------*/
-
-/* A decay after one second is within the tolerance, with any number of columns. A finer tolerance gives a smaller
- * error at a higher cost. */
-TEST(price_motion, decays_end_where_they_should) {
-    dice d = dice_of("price_motion", 91);
-    for (unsigned n = 0; n < dice_cases(few_or_all(12, 300)); n++) {
-        const double rate = number_scaled(1.0, (int)dice_one_of(&d, 5) - 1);
-        derived of = decay_of(rate, 3.0);
-        double before = 0.0;
-        for (int columns = 3; columns <= 6; columns += 3) {
-            for (int digits = 6; digits <= 15; digits += 3) {
-                const double tolerance = pow(10.0, -digits);
-                extrapolation *e =
-                    extrapolation_new(of.image, (extrapolation_setting){columns, tolerance}, 1e9);
-                TEST_ASSERT_TRUE(extrapolation_state(e)[0] == 3.0L);
-                TEST_ASSERT_TRUE(extrapolation_operations(e) == 0.0);
-                TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.375L));
-                TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.625L));
-                const long double want = 3.0L * expl(-(long double)rate);
-                const double off = (double)fabsl(extrapolation_state(e)[0] - want);
-                TEST_ASSERT_TRUE(off <= 30.0 * tolerance);
-                const double took = extrapolation_operations(e);
-                TEST_ASSERT_TRUE(digits == 6 || took >= before);
-                /* a step takes 1 + 1 + 3 + 5 + ... evaluations; two spans take at least two steps */
-                const double each = of.image->list[IMAGE_STEP]->count * (1.0 + columns * columns);
-                TEST_ASSERT_TRUE(took >= 2.0 * each &&
-                                 fabs(took / each - floor(took / each + 0.5)) < 1e-9);
-                /* a step's length changes by the power of the order less one */
-                const double finer = pow(tolerance, -1.0 / (2.0 * columns - 1.0));
-                TEST_ASSERT_TRUE(took <= each * (4.0 + 0.25 * (0.3 + rate) * finer));
-                before = took;
-                extrapolation_free(e);
-            }
-        }
-        derived_free(&of);
-    }
-}
-
-/* One step of y' = -y is a rational function of the step. Each further rule makes two more terms of its power series correct. */
-TEST(price_motion, a_step_is_of_twice_its_columns_order) {
-    for (int columns = 2; columns <= 5; columns++) {
-        double off[2];
-        for (int half = 0; half < 2; half++) {
-            derived of = decay_of(1.0, 1.0);
-            /* a tolerance that any step meets: one step */
-            extrapolation *e =
-                extrapolation_new(of.image, (extrapolation_setting){columns, 1e3}, 1e9);
-            const long double h = half ? 0.5L : 1.0L;
-            TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, h));
-            off[half] = (double)fabsl(extrapolation_state(e)[0] - expl(-h));
-            extrapolation_free(e);
-            derived_free(&of);
-        }
-        const double order = log2(off[0] / off[1]) - 1.0;
-        TEST_ASSERT_TRUE(fabs(order - 2.0 * columns) < 0.6);
-    }
-}
-
-/* y' = y^2 from 1 ends at 1 s: no step is small enough there. The number of evaluations is limited too. */
-TEST(price_motion, poles_and_limits_end_it) {
-    derived d = derived_scene("mechanism m\nstate y\nequation y' - 1 [1/s]*y^2 = 0 [1/s]\n"
-                              "scene s { start y = 1; step 1 [ms]; until 3 [s] }\n",
-                              "s");
-    derived_expect(&d, "a pole");
-    extrapolation *e = extrapolation_new(d.image, (extrapolation_setting){4, 1e-12}, 1e9);
-    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.5L));
-    TEST_ASSERT_TRUE(fabsl(extrapolation_state(e)[0] - 2.0L) < 1e-10L);
-    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, extrapolation_go(e, 0.25L));
-    TEST_ASSERT_TRUE(fabsl(extrapolation_state(e)[0] - 4.0L) < 1e-9L);
-    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_SMALL, extrapolation_go(e, 0.5L));
-    const double took = extrapolation_operations(e);
-    extrapolation_free(e);
-    e = extrapolation_new(d.image, (extrapolation_setting){4, 1e-12}, took / 50.0);
-    TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_LONG, extrapolation_go(e, 0.999L));
-    TEST_ASSERT_TRUE(extrapolation_operations(e) > took / 50.0);
-    const double each = d.image->list[IMAGE_STEP]->count * 17.0;
-    TEST_ASSERT_TRUE(extrapolation_operations(e) <= took / 50.0 + each);
-    extrapolation_free(e);
-    extrapolation_free(NULL);
-    derived_free(&d);
-}
-
 /* --- fine steps ------------------------------------------------------------------------------------------*/
 
 /* The fine step is a sixteenth of the scene's, rounded to an even count, unless that needs too many operations. */
@@ -659,31 +454,6 @@ TEST(price_motion, fine_steps_are_as_fine_as_they_may) {
     derived_free(&of);
 }
 
-TEST(price_motion, fine_steps_are_a_cosine) {
-    derived of = derived_scene(spring, "s");
-    derived_expect(&of, spring);
-    const reference_wish w = {
-        .image = of.image, .spacing = {1, 20}, .records = 20, .operations = 1e8};
-    of.image->settings.method = WH_EULER; /* which fine steps do not use */
-    records *shape = records_open(NULL, of.image, &engine_double);
-    long double row[21 * 4];
-    TEST_ASSERT_EQUAL_INT(4, shape->columns);
-    TEST_ASSERT_EQUAL_INT(20, fine_steps_run(&w, shape, 100, row));
-    for (int i = 0; i <= 20; i++) {
-        const double t = i / 20.0;
-        const long double *r = &row[(size_t)i * 4];
-        TEST_ASSERT_TRUE(fabs((double)r[0] - t) < 1e-15);
-        TEST_ASSERT_TRUE(fabs((double)r[1] - 250.0 * cos(4.0 * t)) < 1e-8);
-        TEST_ASSERT_TRUE(fabs((double)r[2] + 1000.0 * sin(4.0 * t)) < 4e-8);
-        TEST_ASSERT_TRUE(fabs((double)r[3] - 500.0 * cos(4.0 * t)) < 2e-8);
-    }
-    interrupted = 1;
-    TEST_ASSERT_EQUAL_INT(0, fine_steps_run(&w, shape, 100, row));
-    interrupted = 0;
-    records_close(shape);
-    derived_free(&of);
-}
-
 /* --- the reference, and runs against it ------------------------------------------------------------------*/
 
 static reference *reference_of(const image *im, int count) {
@@ -692,42 +462,6 @@ static reference *reference_of(const image *im, int count) {
     TEST_ASSERT_EQUAL_INT(REFERENCE_EXTRAPOLATED, r->kind);
     TEST_ASSERT_EQUAL_INT(count, r->records);
     return r;
-}
-
-TEST(price_motion, references_are_cut_and_their_columns_found) {
-    derived of = derived_scene(spring, "s");
-    derived_expect(&of, spring);
-    reference *r = reference_of(of.image, 20);
-    bool noisy = true;
-    TEST_ASSERT_EQUAL_INT(1, reference_find(r, "x", &noisy));
-    TEST_ASSERT_FALSE(noisy);
-    TEST_ASSERT_EQUAL_INT(2, reference_find(r, "x'", &noisy));
-    TEST_ASSERT_EQUAL_INT(3, reference_find(r, "twice", &noisy));
-    TEST_ASSERT_EQUAL_INT(-1, reference_find(r, "x'y", &noisy));
-    TEST_ASSERT_EQUAL_INT(-1, reference_find(r, "twic", &noisy));
-    TEST_ASSERT_TRUE(r->column[1].counts && r->column[2].counts && !r->column[3].counts);
-    for (int i = 0; i <= 20; i++) {
-        const long double t = (long double)i / 20.0L;
-        const long double *row = r->row + (size_t)i * (size_t)r->columns;
-        TEST_ASSERT_TRUE(fabsl(row[1] - 250.0L * cosl(4.0L * t)) < 1e-11L);
-        TEST_ASSERT_TRUE(fabsl(row[2] + 1000.0L * sinl(4.0L * t)) < 4e-11L);
-        TEST_ASSERT_TRUE(fabsl(row[3] - 500.0L * cosl(4.0L * t)) < 2e-11L);
-    }
-    /* the largest rate is at a quarter turn, 0.39 s: after the fifth record */
-    TEST_ASSERT_TRUE(fabsl(r->column[2].largest - 1000.0L * sinl(1.6L)) < 1e-9L);
-    r->column[1].off = r->column[1].largest / 8.0L;
-    r->column[2].off = r->column[2].largest / 4.0L;
-    r->column[3].off = r->column[3].largest / 2.0L;
-    TEST_ASSERT_TRUE(fabs(reference_agreement(r) - 0.25) < 1e-15);
-    reference_cut(r, 25);
-    TEST_ASSERT_EQUAL_INT(20, r->records);
-    reference_cut(r, 5);
-    TEST_ASSERT_EQUAL_INT(5, r->records);
-    TEST_ASSERT_TRUE(fabsl(r->column[2].largest - 1000.0L * sinl(1.0L)) < 1e-9L);
-    reference_cut(r, 0); /* no rate has moved yet */
-    TEST_ASSERT_TRUE(r->column[1].counts && !r->column[2].counts);
-    reference_free(r);
-    derived_free(&of);
 }
 
 TEST(price_motion, deviations_are_the_largest_of_all_records) {

@@ -107,56 +107,6 @@ TEST(price_settings, words_and_options_say_the_setting_and_no_more) {
     }
 }
 
-/* --- which are a scene's own ---------------------------------------------------------------------------*/
-
-typedef struct owning {
-    const char *text;
-    bool turns; /* has an angle for rotated sines */
-    bool second;
-    bool rates; /* accelerations depend on rates */
-} owning;
-
-TEST(price_settings, a_setting_is_its_own_where_it_is_taken) {
-    static const owning rows[] = {
-        {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
-         "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n",
-         false, true, false},
-        {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
-         "F = 0.5 [N*s/m]*x'^2/2\nscene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n",
-         false, true, true},
-        {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = -8 [J]*cos(a)\n"
-         "scene s { start a = 1 [rad]; step 1 [ms]; until 1 [s] }\n",
-         true, true, false},
-        {"mechanism m\nstate y\nequation y' + 4 [1/s]*y = 1 [1/s]\n"
-         "scene s { start y = 3; step 1 [ms]; until 1 [s] }\n",
-         false, false, true}};
-    for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
-        const owning *row = &rows[n];
-        derived d = derived_scene(row->text, "s");
-        derived_expect(&d, row->text);
-        int own = 0;
-        for (int i = 0; i < setting_count(); i++) {
-            const setting s = setting_at(i);
-            const int takes = wh_methods[s.image.method].takes;
-            const bool taken = takes == WH_ANY_SYSTEM ||
-                               (row->second && (takes == WH_SECOND_ORDER_ONLY || !row->rates));
-            /* leapfrog has no stage at the start, and the plain method looks sines up: there are no pairs to rotate */
-            const bool turns =
-                row->turns && s.image.method != WH_LEAPFROG && s.image.method != WH_RK4_PLAIN;
-            const bool expected = taken && (turns || s.image.angles == ANGLES_TURNED);
-            char options[SETTING_TEXT];
-            image as = *d.image;
-            as.settings = s.image;
-            /* the scene decides, not this image's setting */
-            TEST_ASSERT_EQUAL_INT_MESSAGE(expected, setting_is_own(&s, &as),
-                                          setting_options(&s, true, options));
-            own += expected;
-        }
-        TEST_ASSERT_TRUE(own > 0 && own < setting_count());
-        derived_free(&d);
-    }
-}
-
 /* === price states ============================================================================= */
 /* Rows of the reference (host/study/reference_run.h) and of fine steps; the columns and horizon of a reference, and
  * their report. Compared with records of a run, closed forms and a loop over the rows. */
@@ -370,6 +320,10 @@ TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
             TEST_ASSERT_TRUE(r->limit == (row->kind == REFERENCE_FINE_STEPS ? 1e-6
                                           : LONG_IS_LONGER                  ? 1e-12
                                                                             : 1e-9));
+            expect_columns(r);
+            reference_cut(r, r->records + 1); /* leaves them all */
+            expect_columns(r);
+            reference_cut(r, r->records / 2);
             expect_columns(r);
             reference_free(r);
         }

@@ -226,91 +226,6 @@ static void test_rows_are_right(void) {
     TEST_ASSERT_TRUE(m.compared > cases && m.unsaid * 5 <= cases);
 }
 
-static const char *field(const char *line, int at, char text[80]) {
-    for (; at > 0 && line != NULL; at--) {
-        line = strchr(line, ',');
-        line = line != NULL ? line + 1 : NULL;
-    }
-    snprintf(text, 80, "%.*s", line != NULL ? (int)strcspn(line, ",\r\n") : 0, line);
-    return text;
-}
-
-enum {
-    COLUMN_ERROR = 1,
-    COLUMN_PRICE = 6,
-    COLUMN_STEP = 11,
-    COLUMN_METHOD = 12,
-    COLUMN_NUMBER = 13,
-    COLUMN_ANGLES = 14,
-    COLUMN_MATRIX = 15,
-    COLUMN_TABLES = 16,
-    COLUMN_FLASH = 17
-};
-
-/* With the same setting and step, `whirl price` prints the same error and cost. */
-static unsigned check_price(const rated *r, const told *t, FILE *in) {
-    static char line[2000];
-    char text[80];
-    char number[40];
-    unsigned found = 0;
-    snprintf(number, sizeof number, "%s%s", r->number, r->compensated ? " compensated" : "");
-    while (fgets(line, sizeof line, in) != NULL) {
-        const bool same = strcmp(field(line, COLUMN_METHOD, text), r->method) == 0 &&
-                          strcmp(field(line, COLUMN_NUMBER, text), number) == 0 &&
-                          strcmp(field(line, COLUMN_ANGLES, text), "turned") == 0 &&
-                          strcmp(field(line, COLUMN_MATRIX, text), "none") == 0 &&
-                          strcmp(field(line, COLUMN_TABLES, text), "none") == 0;
-        for (int i = 0; i < ROWS && same; i++) {
-            const told_row *row = &t->row[i];
-            if (fabs(strtod(field(line, COLUMN_STEP, text), NULL) - row->step_s) >
-                1e-6 * row->step_s) {
-                continue;
-            }
-            found++;
-            const double price = strtod(field(line, COLUMN_PRICE, text), NULL);
-            TEST_ASSERT_DOUBLE_WITHIN(0.005001 * price, price, row->cycles); /* of three digits */
-            TEST_ASSERT_EQUAL_DOUBLE(nearbyint(strtod(field(line, COLUMN_FLASH, text), NULL)),
-                                     row->flash);
-            const double error = strtod(field(line, COLUMN_ERROR, text), NULL);
-            const double ratio = strtod(row->error, NULL) / error;
-            const double most = strcmp(r->number, "float") == 0 ? 1.5 : 1.2;
-            const bool rounding = error < 1e-11;
-            TEST_ASSERT_TRUE_MESSAGE(rounding || (ratio < most && ratio > 1.0 / most), line);
-        }
-    }
-    return found;
-}
-
-static void test_rows_are_those_of_price(void) {
-    static const char prices[] = "build/tests/rated.csv";
-    static said what;
-    dice d = dice_of("rated beside price", 46);
-    const unsigned cases = dice_cases(10);
-    unsigned found = 0;
-    for (unsigned i = 0; i < cases; i++) {
-        rated r;
-        told t;
-        char until[40];
-        do {
-            rated_draw(&d, &r);
-            run(&r, (const char *const[]){NULL}, &what);
-        } while (!read_rows(what.out, r.number, &t));
-        snprintf(until, sizeof until, "%.9g", t.until_s);
-        const char *const words[] = {model_keep(r.text), "--horizon", until,  "--effort", "1e7",
-                                     "--quiet",          "--csv",     prices, NULL};
-        command_say(command_price, words, &what);
-        model_drop();
-        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
-        FILE *in = fopen(prices, "rb");
-        TEST_ASSERT_NOT_NULL(in);
-        found += check_price(&r, &t, in);
-        fclose(in);
-        (void)remove(prices);
-    }
-    printf("  %u scenes: %u rows are also in the table of price\n", cases, found);
-    TEST_ASSERT_TRUE(found >= cases);
-}
-
 /* Value of the first coordinate at the end of every step. */
 static double coordinate_error(const rated *r, double step_s, double until_s) {
     const int records = (int)(until_s / step_s * (1.0 + 1e-9));
@@ -422,28 +337,9 @@ static void test_a_run_without_rows_says_why(void) {
 #undef RUN
 }
 
-static void test_the_same_run_says_the_same(void) {
-    static said first;
-    static said second;
-    static said quiet;
-    const char *const words[] = {"epicyclic_from_rest", "--until", "1s", NULL};
-    command_say(command_run, words, &first);
-    command_say(command_run, words, &second);
-    command_say(command_run,
-                (const char *const[]){"epicyclic_from_rest", "--until", "1s", "--quiet", NULL},
-                &quiet);
-    TEST_ASSERT_NOT_NULL(strstr(first.out, "\naccuracy and cost  in float"));
-    TEST_ASSERT_EQUAL_STRING(first.out, second.out);
-    TEST_ASSERT_EQUAL_STRING("", quiet.out);
-}
-
 SUITE(rated) {
     RUN_TEST(test_rows_are_right);
-    if (few_or_all(0, 1) > 0) { /* tables take seconds each */
-        RUN_TEST(test_rows_are_those_of_price);
-    }
     RUN_TEST(test_error_chooses_the_largest_step);
     RUN_TEST(test_a_run_without_rows_says_why);
-    RUN_TEST(test_the_same_run_says_the_same);
     (void)remove(RECORDS_FILE);
 }
