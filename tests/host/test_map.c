@@ -180,32 +180,6 @@ TEST(map, springs_of_all_methods) {
     TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
 }
 
-/* x' = -a x, without an energy. */
-TEST(map, decays_of_all_methods) {
-    dice d = dice_of("map decays", 1422);
-    const unsigned cases = dice_cases(few_or_all(4, 32));
-    tally sum = {0};
-    for (unsigned k = 0; k < cases; k++) {
-        const int which = (int[]){0, 1, 3, 4}[k % 4];
-        const double rate = pow(10.0, dice_between(&d, -2.0, 4.0));
-        const double z = longest(rows[which].order, -1.0);
-        double limit_s[PLACES];
-        char text[400];
-        char across[100];
-        for (int i = 0; i < PLACES; i++) {
-            limit_s[i] = z / rate / (1.0 + 0.1 * i);
-        }
-        snprintf(text, sizeof text,
-                 "mechanism decay\nstate x [m]\nparameter s = 1\nequation x' = -%.17g [1/s]*s*x\n"
-                 "scene s { start x = 1 [m]; step %.17g [s]; until %.17g [s] }\n",
-                 rate, z / rate, 1000.0 * z / rate);
-        snprintf(across, sizeof across, "s=1..1.2:%d", PLACES);
-        hold_drawn(&d, text, rows[which].method, across, limit_s, 1e-3, &sum);
-    }
-    printf("  %u decays: %u within, %u beyond\n", cases, sum.within, sum.beyond);
-    TEST_ASSERT_TRUE(sum.within > cases * 20 && sum.beyond > cases * 20);
-}
-
 static const char spring_text[] =
     "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nparameter m = 1 [kg]\n"
     "T = m*x'^2/2\nV = k*x^2/2\nscene s { start x = 1 [m]; step 1 [s]; until 200 [s] }\n";

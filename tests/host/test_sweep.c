@@ -37,22 +37,6 @@ static void close_sample(void) {
 
 static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, heard); }
 
-TEST(sweep, last_axis_runs_fastest) {
-    open_sample();
-    TEST_ASSERT_TRUE(over("m=1..3:3"));
-    TEST_ASSERT_TRUE(over("theta'=10..20:2"));
-    TEST_ASSERT_TRUE(points.points == 6);
-    const double wanted[6][2] = {{1, 10}, {1, 20}, {2, 10}, {2, 20}, {3, 10}, {3, 20}};
-    for (uint64_t i = 0; i < 6; i++) {
-        double value[2];
-        grid_values(&points, i, value);
-        TEST_ASSERT_TRUE(value[0] == wanted[i][0] && value[1] == wanted[i][1]);
-    }
-    TEST_ASSERT_TRUE(grid_varies_parameters(&points));
-    TEST_ASSERT_EQUAL_STRING("start(theta')", points.axes[1].column);
-    close_sample();
-}
-
 /* A grid has at most 1e12 points. An axis that would exceed that is not added. */
 TEST(sweep, grids_have_an_end) {
     static const char *const axes[][3] = {{"m=1..2:1000000", "r=1..2:1000000", "M=1..2:2"},
@@ -71,23 +55,6 @@ TEST(sweep, grids_have_an_end) {
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": more than 1e+12 points\n"), told);
         TEST_ASSERT_EQUAL_UINT64(before, points.points);
         TEST_ASSERT_EQUAL_INT(2, points.count);
-        close_sample();
-    }
-}
-
-/* An axis has at most twelve digits of points. */
-TEST(sweep, counts_have_an_end) {
-    static const char *const counts[] = {"0",  "1000000000000", "99999999999999999999",
-                                         "-3", "1e3",           ""};
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        char text[60];
-        snprintf(text, sizeof text, "m=1..2:%s", counts[i]);
-        open_sample();
-        errors_catch();
-        const bool taken = over(text);
-        const char *told = errors_caught();
-        TEST_ASSERT_FALSE_MESSAGE(taken, text);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a whole number from 1 to 999999999999,"), told);
         close_sample();
     }
 }
@@ -121,24 +88,6 @@ TEST(sweep, units_and_exact_ends) {
         TEST_ASSERT_TRUE_MESSAGE(fabs(value[2] - cases[i].to) <= most, cases[i].text);
         close_sample();
     }
-}
-
-TEST(sweep, shards_tile_the_grid) {
-    open_sample();
-    TEST_ASSERT_TRUE(over("m=1..3:7"));
-    TEST_ASSERT_TRUE(over("r=1..3:11"));
-    for (uint64_t n = 1; n <= 100; n++) {
-        uint64_t next = 0;
-        for (uint64_t k = 1; k <= n; k++) {
-            uint64_t first;
-            uint64_t end;
-            grid_shard(&points, k, n, &first, &end);
-            TEST_ASSERT_TRUE(first == next && end >= first && end - first <= 77 / n + 1);
-            next = end;
-        }
-        TEST_ASSERT_TRUE(next == 77);
-    }
-    close_sample();
 }
 
 TEST(sweep, numbers_come_back) {
@@ -192,15 +141,6 @@ TEST(sweep, series_without_a_value) {
         TEST_ASSERT_TRUE(isnan(gauge_result(&g, 1e-3, DBL_EPSILON)));
         gauge_end(&g);
     }
-}
-
-TEST(sweep, mean_is_over_time) {
-    gauge g = gauge_start(MEASURE_MEAN); /* 0, 1, 4: trapezoids 0.5 and 2.5 over two steps */
-    gauge_enter(&g, 0.0);
-    gauge_enter(&g, 1.0);
-    gauge_enter(&g, 4.0);
-    TEST_ASSERT_TRUE(gauge_result(&g, 1e-3, DBL_EPSILON) == 1.5);
-    gauge_end(&g);
 }
 
 TEST(sweep, measures_are_read) {
