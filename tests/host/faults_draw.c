@@ -146,7 +146,7 @@ typedef struct drawing {
 } drawing;
 
 /* Uniform in [0, 1). The hash alone is almost linear in the run's number: runs that share one draw would share all.
- * Stafford's thirteenth mix breaks that (test_pil.c checks it). */
+ * Stafford's thirteenth mix breaks that. */
 static double draw(drawing *d) {
     uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
     bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);

@@ -203,56 +203,6 @@ TEST(faults, no_lies) {
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
 }
 
-/* The mean speed of a turn counts, not the swing within it. */
-TEST(faults, speeds) {
-    made_up m = honest;
-    m.swing_J = 0.0;
-    for (int over = -15; over <= 15; over += 10) {
-        const double rpm = 400.0 + over;
-        m.rpm = rpm;
-        m.off_s = 99.0;
-        const verdict v = judged(&m);
-        TEST_ASSERT_TRUE(fabs(v.turn_rpm - rpm) < 0.1 && fabs(v.peak_rpm - rpm) < 0.1);
-        TEST_ASSERT_TRUE(v.overspeed == (rpm > 400.0) && v.runs_on == (rpm > 400.0));
-        m.drives = true;
-        TEST_ASSERT_FALSE(judged(&m).overspeed);
-        m.drives = false;
-        m.off_s = 2.0; /* commanded off is enough if the drive obeys */
-        TEST_ASSERT_FALSE(judged(&m).runs_on);
-    }
-    m = honest;
-    m.rpm = 410.0; /* fastest at the bottom */
-    m.swing_J = 60.0;
-    const verdict v = judged(&m);
-    TEST_ASSERT_TRUE(v.turn_rpm < 400.0 && v.peak_rpm > 409.0 && !v.overspeed);
-}
-
-TEST(faults, runaways) {
-    made_up m = honest;
-    m.runs_away = true;
-    m.fault = "runaway@2";
-    m.off_s = 2.25;
-    verdict v = judged(&m);
-    TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.25) < 2.1e-3 && v.happened);
-    TEST_ASSERT_TRUE(fabs(v.began_rpm - 330.0) < 0.1 * 330.0);
-    m.off_s = 99.0;
-    v = judged(&m);
-    TEST_ASSERT_TRUE(v.lasting && v.off_s < 0.0 && !v.runs_on);
-    m.on_s = 2.4; /* from its enable on */
-    m.off_s = 2.55;
-    v = judged(&m);
-    TEST_ASSERT_TRUE(v.lasting && fabs(v.off_s - 0.15) < 2.1e-3);
-    m.on_s = 0.0;
-    m.off_s = 99.0;
-    m.rpm = 420.0; /* such a drive is on at any duty */
-    TEST_ASSERT_TRUE(judged(&m).runs_on);
-    m.fault = "runaway@2+0.3";
-    TEST_ASSERT_FALSE(judged(&m).lasting);
-    m.fault = "runaway@9";
-    v = judged(&m);
-    TEST_ASSERT_FALSE(v.lasting || v.happened);
-}
-
 /* The motor must not drive, but turns show a drive: enable off and a trip within a second. */
 TEST(faults, off_is_off) {
     static const int states[] = {0, 1, 4, 9, 15}; /* idle, armed, tripped, tare, coast */
@@ -338,26 +288,6 @@ TEST(faults, resets) {
         v = judged(&m);
         TEST_ASSERT_TRUE(!v.forgets && v.latched);
     }
-}
-
-/* A watchdog that cuts reports a delay; without any delay it is the controller's fault. */
-TEST(faults, cuts) {
-    for (int i = 0; i < 4; i++) {
-        made_up m = honest;
-        m.cut = i % 2 == 1;
-        m.delays = i >= 2;
-        TEST_ASSERT_TRUE(judged(&m).cut == (i == 1));
-    }
-}
-
-TEST(faults, hangs) {
-    made_up m = honest;
-    m.end = LOCKSTEP_FAILED;
-    TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
-    m.end = LOCKSTEP_LET_GO; /* it is still running, and the motor is off */
-    TEST_ASSERT_EQUAL_INT(OUTCOME_GOOD, judged(&m).outcome);
-    m.off_s = 99.0;
-    TEST_ASSERT_EQUAL_INT(OUTCOME_HANG, judged(&m).outcome);
 }
 
 /* === lockstep ================================================================================= */

@@ -91,45 +91,6 @@ static void print_row(double rpm, const rig_noise *noise) {
     }
 }
 
-/* The core's float model, with the tare, over the whole range of states. */
-TEST(lockin_truth, the_plant_is_the_model) {
-    static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
-    wh_state state;
-    TEST_ASSERT_TRUE(wh_scene_start(&rig_fixed, &state, memory, sizeof memory) == WH_OK);
-    const rig_plant *p = &rig_plant_nominal;
-    for (unsigned i = 0; i < 36; i++) {
-        const double theta = 0.35 * i;
-        const double w = 10.0 + i;
-        const double duty = (i % 7U) / 7.0;
-        state.angle[0] = wh_angle_from_rad((wh_real)theta);
-        state.real[0] = (wh_real)w;
-        state.input[0] = (wh_real)duty;
-        wh_real output[8];
-        rig_fixed.observe(&rig_fixed, &state, output);
-        const double turned = (1.5 * duty - (p->line_Nms + p->drag_Nms) * w -
-                               p->unbalance_kgm * p->gravity_mps2 * sin(theta)) /
-                              p->inertia_kgm2;
-        const double force = p->unbalance_kgm * (w * w * cos(theta) + turned * sin(theta));
-        TEST_ASSERT_DOUBLE_WITHIN(2e-4, p->tare_N + force, (double)output[0]);
-    }
-}
-
-/* At any mean speed, a rotor on a fixed mount in a periodic motion has its force in line with the masses. The force is
- * S <w^2>: S is the unbalance, <w^2> the mean squared speed over time. Proof: integrate F cos and F sin over the angle
- * by parts. Let E be the speed's relative swing and W its mean: to second order <w^2> = W^2 (1 + 3/2 E^2). */
-TEST(lockin_truth, the_truth_is_what_theory_says) {
-    static const double rpm[] = {170.0, 330.0};
-    for (unsigned i = 0; i < 2; i++) {
-        rig_orbit_find(&rig_plant_nominal, rpm[i], LEAD_RAD, &orbit);
-        const double mean = rpm[i] * 2.0 * 3.14159265358979323846 / 60.0;
-        const double wanted =
-            rig_plant_nominal.unbalance_kgm * mean * mean * (1.0 + 1.5 * orbit.swing * orbit.swing);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, orbit.phase_rad);
-        TEST_ASSERT_DOUBLE_WITHIN(4e-3 * orbit.swing * wanted, wanted, orbit.amplitude_N);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 60.0 / rpm[i], orbit.turn_s);
-    }
-}
-
 /* A measurement marked good is right within its interval plus 1 %. */
 static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     wh_measured measured;
