@@ -251,34 +251,9 @@ TEST(aliasing, rippling_normals) {
     }
 }
 
-/* Blocks shaken beyond the friction limit, with whole periods per step. */
-TEST(aliasing, blocks_with_friction) {
-    static const named_cure none;
-    dice d = dice_of("aliasing, friction", 20261128);
-    const unsigned cases = dice_cases(usual_or(6, 3));
-    for (unsigned i = 0; i < cases; i++) {
-        const double frequency_Hz = round_of(&d, 1.0, 3.0);
-        const unsigned periods = 1U + dice_one_of(&d, 6);
-        const bool still = i % 3 == 2; /* resolved */
-        const double step_s = (still ? 0.02 : (double)periods) / frequency_Hz;
-        char text[700];
-        said what;
-        snprintf(text, sizeof text,
-                 "mechanism block\ncoordinate x [m]\ncoordinate t [s]\n"
-                 "T = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\nQ(x) = %.17g [N]*sin(2*pi*%.17g [Hz]*t)\n"
-                 "friction x static 0.5 kinetic 0.5 normal 1 [N]\nscene s { start t' = 1\n"
-                 "step %.17g [s]\nuntil %.17g [s] }\n",
-                 dice_between(&d, 1.0, 4.0), frequency_Hz, step_s, 200.0 * step_s);
-        run_with(text, &none, false, &what);
-        TEST_ASSERT_TRUE_MESSAGE(still ? !told(&what) : !trusted(&what), text);
-    }
-}
-
 /* === pulse trains ============================================================================= */
 /* Forces that act for a small part of their period, in a simple ratio to the step: they are off at every stage and
- * nothing moves. Forces with a whole and a half number of turns per step: stages at quarters of a step see half a turn,
- * also with half the step. References are closed forms. Errors are reported or not trusted; resolved pulses cause no
- * warning. */
+ * nothing moves. References are closed forms. Errors are reported or not trusted; resolved pulses cause no warning. */
 
 static const char *const methods[] = {"rk4", "rk4", "rk38", "nystroem5", "heun"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
@@ -379,42 +354,4 @@ TEST(pulse_trains, pulses_that_steps_resolve) {
            cases, right, silent);
     TEST_ASSERT_TRUE(silent > cases / 2);
     TEST_ASSERT_EQUAL_UINT(cases, right);
-}
-
-/* A body on a spring starts from rest under a force that turns k + 1/2 or k times per step. */
-TEST(pulse_trains, turns_and_a_half) {
-    static const char *const all[] = {"nystroem5", "nystroem5", "nystroem5", "rk4",
-                                      "rk38",      "nystroem4", "heun"};
-    dice d = dice_of("turns and a half", 6307);
-    const unsigned cases = dice_cases(few_or_all(usual_or(14, 7), 400));
-    unsigned wrong = 0;
-    for (unsigned i = 0; i < cases; i++) {
-        char text[600];
-        const double turns = 0.5 * (1.0 + dice_one_of(&d, 60));
-        const double near = dice_one_of(&d, 3) == 0 ? pow(10.0, dice_between(&d, -6.0, -3.0)) : 0.0;
-        const double force_radps = 2.0 * 3.14159265358979324 * (turns + near) / 0.05;
-        const double spring = pow(10.0, dice_between(&d, -1.0, 1.5));
-        const double phase = dice_between(&d, 0.0, 6.28);
-        const double end_s = 0.05 * (30.0 + dice_one_of(&d, 300));
-        snprintf(text, sizeof text,
-                 "mechanism half\ncoordinate x [m]\ncoordinate t [s]\n"
-                 "T = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\nV = %.17g [N/m]*x^2/2\n"
-                 "Q(x) = 1 [N]*sin(%.17g [Hz]*t + %.17g)\n"
-                 "scene s { start t' = 1\nstep 50 [ms]\nuntil %.17g [s] }\n",
-                 spring, force_radps, phase, end_s);
-        const verdict_of v = ask(text, "  x ", all[i % 7], "double");
-        const double own_radps = sqrt(spring);
-        const double forced_m = 1.0 / (spring - force_radps * force_radps);
-        const double swing_m = forced_m * force_radps * cos(phase) / own_radps;
-        const double right =
-            forced_m * (sin(force_radps * end_s + phase) - sin(phase) * cos(own_radps * end_s)) -
-            swing_m * sin(own_radps * end_s);
-        const double range = fabs(swing_m) + fabs(forced_m);
-        const bool is_off = !(fabs(v.value - right) < 0.1 * range);
-        TEST_ASSERT_FALSE_MESSAGE(is_off && !v.warned && v.trusted, text);
-        wrong += is_off ? 1U : 0U;
-    }
-    model_drop();
-    printf("  %u forces of whole and half turns a step: %u wrong, none silent\n", cases, wrong);
-    TEST_ASSERT_TRUE(wrong > cases / 2);
 }

@@ -1,50 +1,11 @@
 /* test_near_zero.c: precision of small differences, also in float: powers of sums and of sines are not expanded into
  * large terms that cancel. */
-#include "host/algebra/poly.h"
 #include "host/cli/commands.h"
 
 #include "command.h"
 #include "motion.h"
 
 /* === near zero ================================================================================ */
-
-static bool is_power_of_difference(const poly *p, double number, double exponent) {
-    return p->count == 1 && p->terms[0].coefficient == number && p->terms[0].mono->count == 1 &&
-           p->terms[0].mono->factors[0].atom->kind == ATOM_GROUP &&
-           p->terms[0].mono->factors[0].exponent == exponent;
-}
-
-static const poly *replace_by_number(void *context, algebra *a, const symbol *sym, int primes) {
-    (void)primes;
-    return sym->index == 1 ? poly_number(a, *(const double *)context) : NULL;
-}
-
-TEST(near_zero, slopes_of_kept_powers_stay_powers) {
-    algebra *a = algebra_new();
-    static const symbol u = {.kind = SYM_COORDINATE, .name = "u", .text = "", .index = 0};
-    static const symbol v = {.kind = SYM_COORDINATE, .name = "v", .text = "", .index = 1};
-    const poly *first = poly_symbol(a, &u, 0); /* leads the order, and so the difference */
-    const poly *apart = poly_sub(a, first, poly_symbol(a, &v, 0));
-    const poly *energy = poly_pow(a, apart, 4.0);
-    const poly *force = poly_derivative(a, energy, &u, 0);
-    const poly *stiffness = poly_derivative(a, force, &u, 0);
-    TEST_ASSERT_TRUE(is_power_of_difference(energy, 1.0, 4.0));
-    TEST_ASSERT_TRUE(is_power_of_difference(force, 4.0, 3.0));
-    TEST_ASSERT_TRUE(is_power_of_difference(stiffness, 12.0, 2.0));
-    TEST_ASSERT_TRUE(poly_derivative(a, stiffness, &u, 0) == poly_scale(a, apart, 24.0));
-    TEST_ASSERT_TRUE(poly_is_zero(poly_add(a, force, poly_derivative(a, energy, &v, 0))));
-    /* replaces v by a number: the power is neither expanded nor scaled */
-    double value = 1e-30;
-    for (int i = 0; i < 2; i++) {
-        const poly *folded =
-            poly_substitute(a, i == 0 ? force : stiffness, replace_by_number, &value);
-        TEST_ASSERT_TRUE(is_power_of_difference(folded, i == 0 ? 4.0 : 12.0, i == 0 ? 3.0 : 2.0));
-    }
-    value = 0.0;
-    TEST_ASSERT_TRUE(poly_substitute(a, energy, replace_by_number, &value) ==
-                     poly_pow(a, first, 4.0));
-    algebra_free(a);
-}
 
 /* Number of roundings in an evaluation, half a unit each: of constants, the distance, powers and the sum of the factors. */
 #define ROUNDINGS 16.0

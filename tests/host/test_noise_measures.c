@@ -175,27 +175,3 @@ TEST(noise_measures, measures_have_the_noise_of_the_records) {
         diags_free(errors);
     }
 }
-
-TEST(noise_measures, all_outputs_have_the_bits_of_the_records) {
-    uint64_t seed = 4711;
-    for (int i = 0; i < 10; i++) {
-        const made_up m = make_up(&seed);
-        diags *errors = diags_new();
-        whirl_model *parsed = model_parse("noise.whirl", m.text, strlen(m.text), errors);
-        TEST_ASSERT_NOT_NULL_MESSAGE(parsed, m.text);
-        measures *taken = measures_new(parsed->mechanisms[0], NULL, 0, errors);
-        TEST_ASSERT_NOT_NULL(taken);
-        TEST_ASSERT_EQUAL_INT(4 + OUTPUTS, taken->count); /* th, x and their rates first */
-        double *recorded = record(parsed->mechanisms[0], parsed->scenes[0], &engine_float);
-        double *measured = record(&taken->mechanism, parsed->scenes[0], &engine_float);
-        for (int step = 0; step <= STEPS; step++) {
-            TEST_ASSERT_EQUAL_MEMORY(recorded + step * OUTPUTS, measured + step * (4 + OUTPUTS) + 4,
-                                     OUTPUTS * sizeof *recorded);
-        }
-        free(recorded);
-        free(measured);
-        measures_free(taken);
-        model_free(parsed);
-        diags_free(errors);
-    }
-}

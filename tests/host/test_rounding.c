@@ -114,80 +114,6 @@ TEST(rounding, no_step_is_too_small_for_compensated_sums) {
     }
 }
 
-/* First time at which a position of thomson_a has an error of 1e-3 (rad or m). The reference is double with steps of
- * 0.125 ms, whose error is 1e-9 at 8 s (test_trajectory.c). */
-static double good_until_s(stepping how) {
-    static const char *const names[] = {"theta1", "theta2", "X"};
-    motion fine;
-    motion m;
-    double apart = 0.0;
-    double time_s = 0.0;
-    motion_open(&fine, "thomson_a", IN_DOUBLE_STEP(0.125e-3));
-    motion_open(&m, "thomson_a", how);
-    for (unsigned i = 1; i <= 10000 && apart < 1e-3; i++) {
-        time_s = 1e-3 * i;
-        motion_to(&fine, time_s);
-        motion_to(&m, time_s);
-        for (unsigned k = 0; k < 3; k++) {
-            const double e = motion_value(&m, names[k]) - motion_value(&fine, names[k]);
-            apart = fmax(apart, fabs(e));
-        }
-    }
-    motion_close(&fine);
-    motion_close(&m);
-    return time_s;
-}
-
-/* The motion amplifies an initial change 6e3-fold by 5 s, 2e4-fold by 9 s and 1e9-fold by 10 s. An error of 200 U in
- * all reaches 1e-3 at about 5 s, one of U or less after 9 s. The 1e-11 of double's step cannot reach 10 s either. */
-TEST(rounding, how_long_a_chaotic_trajectory_is_good) {
-    expect_within("S8 good to 1e-3 until, s: float, 1 ms", 4.0, 8.5,
-                  good_until_s(IN_FLOAT_STEP(1e-3)));
-    expect_within("S8 good to 1e-3 until, s: float compensated", 8.5, 9.6,
-                  good_until_s(IN_FLOAT_COMPENSATED_STEP(1e-3)));
-    expect_within("S8 good to 1e-3 until, s: double, 1 ms", 9.2, 9.8,
-                  good_until_s(IN_DOUBLE_STEP(1e-3)));
-}
-
-/* RMS over eight torques of float's extra error in theta and theta' at 5 s, compared with double at the same step. */
-static double rms_of_float(double step_s, bool compensated) {
-    enum { RUNS = 8 };
-    double sum = 0.0;
-    for (unsigned i = 0; i < RUNS; i++) {
-        char torque[32];
-        motion reference;
-        motion m;
-        snprintf(torque, sizeof torque, "M=%g", 1.51 + 0.125 * i);
-        stepping how = {.kind = &engine_double, .method = WH_RK4, .step_s = step_s, .set = torque};
-        motion_open(&reference, "epicyclic_from_rest", how);
-        motion_to(&reference, 5.0);
-        how.kind = &engine_float;
-        how.compensated = compensated;
-        motion_open(&m, "epicyclic_from_rest", how);
-        motion_to(&m, 5.0);
-        const double e = motion_value(&m, "theta") - motion_value(&reference, "theta");
-        const double e_ = motion_value(&m, "theta'") - motion_value(&reference, "theta'");
-        sum += fmax(e * e, e_ * e_);
-        motion_close(&reference);
-        motion_close(&m);
-    }
-    return sqrt(sum / RUNS);
-}
-
-/* With 64 times as many steps a random walk goes 8 times as far. */
-TEST(rounding, small_steps_cost_plain_sums_precision_only) {
-    const double coarse = rms_of_float(4e-3, false);
-    const double fine = rms_of_float(62.5e-6, false);
-    const double coarse_compensated = rms_of_float(4e-3, true);
-    const double fine_compensated = rms_of_float(62.5e-6, true);
-    printf("  S6 at 5 s, rms of 8: 4 ms %.3g, compensated %.3g; 62.5 us %.3g, compensated %.3g\n",
-           coarse, coarse_compensated, fine, fine_compensated);
-    expect_within("S6 plain: error with 64 times as many steps", 8.0 / 2.0, 8.0 * 2.0,
-                  fine / coarse);
-    expect_within("S6 compensated: error with 64 times as many steps", 0.5, 1.5,
-                  fine_compensated / coarse_compensated);
-}
-
 TEST(rounding, a_million_steps) {
     stepping how = IN_FLOAT;
     how.step_s = 9e-6;
@@ -286,35 +212,6 @@ TEST(rounding, motion_after_a_million_turns_is_the_same) {
     TEST_ASSERT_TRUE(motion_value(&m, "theta") > 80.0);
     motion_close(&m);
     motion_close(&turned);
-}
-
-/* Growth of an initial change of 1e-9 rad. Printed: 6e3 by 5 s, 2e4 by 9 s, 1e9 by 10 s. */
-TEST(rounding, thomson_is_chaotic) {
-    static const char *const names[] = {"theta1", "theta2", "X", "theta1'", "theta2'", "X'"};
-    static const struct {
-        double time_s;
-        double growth;
-    } printed[] = {{5.0, 6e3}, {9.0, 2e4}, {10.0, 1e9}};
-    stepping how = IN_DOUBLE_STEP(0.25e-3);
-    motion m;
-    motion changed;
-    motion_open(&m, "thomson_a", how);
-    how.start = "theta1=1e-9";
-    motion_open(&changed, "thomson_a", how);
-    for (unsigned k = 0; k < 3; k++) {
-        double apart = 0.0;
-        motion_to(&m, printed[k].time_s);
-        motion_to(&changed, printed[k].time_s);
-        for (unsigned i = 0; i < 6; i++) {
-            apart =
-                fmax(apart, fabs(motion_value(&m, names[i]) - motion_value(&changed, names[i])));
-        }
-        printf("  at %g s:", printed[k].time_s);
-        expect_within("S8 growth of a change of 1e-9 rad", printed[k].growth / 2.0,
-                      printed[k].growth * 2.0, apart / 1e-9);
-    }
-    motion_close(&m);
-    motion_close(&changed);
 }
 
 /* === energy kept ============================================================================== */

@@ -108,23 +108,6 @@ static zonotope *drawn_zonotope(int n, int most, unsigned maps) {
     return z;
 }
 
-TEST(zonotope, new) {
-    for (int n = 1; n <= SIZE; n++) {
-        for (int most = 0; most <= MOST; most++) {
-            zonotope *z = zonotope_new(n, most);
-            enclosure box[SIZE] = {{0.0, 0.0}};
-            TEST_ASSERT_EQUAL_INT(most < 4 * n ? 4 * n : most, z->most);
-            TEST_ASSERT_TRUE(z->n == n && z->count == 0);
-            zonotope_box(z, box);
-            for (int i = 0; i < n; i++) {
-                TEST_ASSERT_TRUE(enclosure_is_zero(box[i]));
-            }
-            zonotope_free(z);
-        }
-    }
-    zonotope_free(NULL);
-}
-
 /* The image always contains the exact one, however often it is reduced. Without a reduction the excess is round-off.
  * With one it is at most that of a box over its contents: the shortest generators, each up to sqrt(n) as long. */
 TEST(zonotope, mapped) {
@@ -187,53 +170,6 @@ TEST(zonotope, mapped) {
         zonotope_free(z);
     }
     TEST_ASSERT_TRUE(reductions > 50);
-}
-
-TEST(zonotope, longest_are_kept) {
-    for (unsigned c = 0; c < dice_cases(usual_or(60, 20)); c++) {
-        const int n = 2 + (int)dice_one_of(&die, SIZE - 1);
-        zonotope *z = zonotope_new(n, MOST);
-        const enclosure zero[SIZE] = {{0.0, 0.0}};
-        enclosure map[SIZE * SIZE] = {{0.0, 0.0}};
-        double sum[MOST] = {0.0};
-        z->drift[0] = 1.0;
-        z->count = z->most;
-        for (int k = 0; k < z->count; k++) {
-            sum[k] = 0.0;
-            for (int i = 0; i < n; i++) {
-                const int sixteenths = (int)dice_one_of(&die, 321) - 160;
-                z->generator[k * n + i] = 0.0625 * sixteenths;
-                sum[k] += fabs(z->generator[k * n + i]);
-            }
-        }
-        for (int i = 0; i < n * n; i++) { /* doubled: only rounding of no size */
-            map[i] = enclosure_of(i % (n + 1) == 0 ? 2.0 : 0.0);
-        }
-        const exact_set before = copy_of(z);
-        zonotope_map(z, map, zero);
-        TEST_ASSERT_TRUE(fabs(z->drift[0] - 2.0) < 1e-12);
-        bool found[MOST] = {false};
-        for (int k = 0; k < MOST / 2; k++) {
-            double now = 0.0;
-            int which = -1;
-            for (int l = 0; l < before.count && which < 0; l++) {
-                bool same = !found[l];
-                for (int i = 0; i < n; i++) {
-                    same = same && fabsl((long double)z->generator[k * n + i] -
-                                         2.0L * before.generator[l][i]) < 1e-12L;
-                }
-                which = same ? l : -1;
-            }
-            TEST_ASSERT_TRUE_MESSAGE(which >= 0, "one that was not there");
-            found[which] = true;
-            now = sum[which];
-            for (int l = 0; l < before.count; l++) {
-                TEST_ASSERT_TRUE_MESSAGE(found[l] || sum[l] <= now, "a longer one is gone");
-            }
-        }
-        TEST_ASSERT_TRUE(z->count >= MOST / 2 + n && z->count <= MOST / 2 + 2 * n);
-        zonotope_free(z);
-    }
 }
 
 TEST(zonotope, box) {
