@@ -17,8 +17,7 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS \
-    8U /* the last conversions measure the supply; only SUPPLY_TICKS of them are used */
+#define SUPPLY_TICKS 8U /* the last conversions of the supply: only these are used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");

@@ -5,7 +5,7 @@ bench bench_now;
 
 /* --- drawing ------------------------------------------------------------------------------------------------ */
 
-/* Is the evaluation at the expected place? */
+/* Checks that the evaluation is at the expected state. */
 static void look_at(const void *model, const wh_phase *phase, const wh_real *linear,
                     const wh_real *rate, const wh_real *input) {
     const wh_contact_point *at = bench_now.at;
@@ -73,7 +73,7 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
     }
 }
 
-/* Account 0 makes the first line's place the energy of each contact; account 1 + i is ten times the rate i. */
+/* The account's levels: account 0 is the position of the first coordinate; account 1 + i is ten times the rate i. */
 static void bench_levels(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *level) {
     (void)model;
@@ -104,7 +104,7 @@ void bench_build(uint64_t *seed, unsigned coordinates, unsigned angles) {
             }
         }
     }
-    for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* unused as yet */
+    for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* not in use yet */
         bench_now.contact[k].pin = -1;
         bench_now.first[k] = BENCH_SENTINEL;
         bench_now.second[k] = BENCH_SENTINEL;
@@ -152,7 +152,8 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
     bench_now.contact[k] = (wh_contact){.kind = (uint8_t)kind, .pin = (int16_t)pin};
     bench_now.first[k] = draw_whole(seed, 1, 4);
     bench_now.second[k] = bench_now.first[k] - WH_R(0.5);
-    bench_now.bias[k] = pin >= 0 ? WH_R(0.0) : draw_whole(seed, -3, 3); /* its path is straight */
+    /* a pinned contact has a straight path */
+    bench_now.bias[k] = pin >= 0 ? WH_R(0.0) : draw_whole(seed, -3, 3);
     bench_now.signal[2 * k] = draw_whole(seed, -4, 4);
     bench_now.signal[2 * k + 1] = draw_whole(seed, -4, 4);
     if (kind != WH_WHEN) {
@@ -160,7 +161,8 @@ unsigned bench_add(uint64_t *seed, wh_contact_kind kind, int pin) {
         of->kinds = (uint8_t)(of->kinds | WH_KIND_BIT(kind));
         of->pinned = (uint8_t)(of->pinned + (pin >= 0));
     }
-    for (unsigned l = k + 1; l < BENCH_CONTACTS; l++) { /* as if it were one of these */
+    for (unsigned l = k + 1; l < BENCH_CONTACTS; l++) {
+        /* the contact gets the row of another contact */
         bench_now.contact[l] = bench_now.contact[k];
     }
     return k;
@@ -296,7 +298,7 @@ unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at) 
         for (unsigned i = 0; i < n; i++) {
             row[i] = (double)bench_now.row[member[p]][i];
         }
-        for (unsigned r = 0; r < rank; r++) { /* cross-multiplied: no round-off */
+        for (unsigned r = 0; r < rank; r++) { /* without division, so without round-off */
             const double mine = row[lead[r]];
             for (unsigned i = 0; i < n; i++) {
                 row[i] = row[i] * kept[r][lead[r]] - mine * kept[r][i];

@@ -18,18 +18,18 @@ static inline wh_real draw_whole(uint64_t *seed, int least, int most) {
     return (wh_real)(least + (int)(draw_bits(seed) % (uint64_t)(most - least + 1)));
 }
 
-/* Any other number: two never coincide by chance. */
+/* A random number that is not whole: two never coincide by chance. */
 static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
     return draw_whole(seed, least * 1024, most * 1024 - 1) / 1024 +
            draw_whole(seed, 1, 1023) / WH_R(1048576.0);
 }
 
-/* One of `count`, from zero; zero if `count` is zero. */
+/* A random index below `count`; zero if `count` is zero. */
 static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
     return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;
 }
 
-/* An emulated board takes an eighth of the cases, because all take its emulator minutes. This machine takes all. */
+/* An emulated board takes an eighth of the cases, because all of them would take minutes. A PC takes all. */
 enum { DRAW_PART = __STDC_HOSTED__ ? 1 : 8 };
 static inline unsigned draw_cases(unsigned all) { return all / DRAW_PART; }
 

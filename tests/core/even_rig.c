@@ -1,4 +1,4 @@
-/* even_rig.c: the rig's controller on a made-up rotor that turns evenly. */
+/* even_rig.c: the rig's controller on an imitated rotor with constant speed within each turn. */
 #include "even_rig.h"
 
 #include "draw.h"
@@ -16,7 +16,8 @@ wh_rig_config even_config(void) {
                                            .raw_max = INT32_C(32767)};
     config.measure.result.amplitude_floor = WH_R(1e-4); /* calibrated */
     config.measure.result.phase_floor_rad = WH_R(0.01) / WH_RIG_DEG_PER_RAD;
-    config.measure.rotor.gravity_mps2 = WH_R(0.0); /* the made-up rotor turns evenly */
+    /* the imitated rotor has a constant speed within a turn */
+    config.measure.rotor.gravity_mps2 = WH_R(0.0);
     wh_rig_slots(&config, WH_R(0.0));
     return config;
 }
@@ -42,7 +43,7 @@ static uint32_t ticks_of_turn(wh_real speed_radps) {
     return (uint32_t)(WH_RIG_TWO_PI / speed_radps * (wh_real)WH_RIG_TICKS_PER_S + WH_R(0.5));
 }
 
-/* The turn that begins now has the set-point's speed. */
+/* Sets the speed of the turn that begins now to the set-point. */
 static void lead(even_rig *even) {
     const wh_run *run = &even->rig.run;
     const wh_real open_rpm = even->hand_rpm > WH_R(0.0) ? even->hand_rpm : EVEN_BEGIN_RPM;

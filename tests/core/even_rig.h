@@ -1,8 +1,9 @@
-/* even_rig.h: the rig's controller on a made-up rotor that turns evenly, for the suites of its run and its life.
+/* even_rig.h: the rig's controller on an imitated rotor whose speed is constant within each turn, for the suites of the
+ * run and of the life cycle.
  *
- * The rotor stands still for the first tenth of a second of spin-up, then turns at EVEN_BEGIN_RPM until the loop is closed.
- * After that it follows the loop's set-point, at any voltage, each turn evenly, and stops with the motor. Its load is
- * EVEN_LOAD_N cos(theta), so the right answer is known. */
+ * The rotor stands still for the first tenth of a second of spin-up, then turns at EVEN_BEGIN_RPM until the loop is
+ * closed. After that each turn has the speed of the loop's set-point, whatever the voltage. The rotor stops when the
+ * motor goes off. Its load is EVEN_LOAD_N cos(theta), so the right answer is known. */
 #ifndef TESTS_CORE_EVEN_RIG_H
 #define TESTS_CORE_EVEN_RIG_H
 
@@ -19,19 +20,21 @@
 #define EVEN_ALWAYS (~0U)
 #define EVEN_NEVER WH_PHASES
 
-/* Failures, from `after_ticks` into the phase `in` on. */
+/* The failures of a run. They begin `after_ticks` after the begin of the phase `in`. */
 typedef struct even_failure {
     wh_rig_phase in; /* EVEN_NEVER: no failure */
     uint32_t after_ticks;
-    unsigned lose[WH_SPEED_SENSORS]; /* pulses */
+    unsigned lose[WH_SPEED_SENSORS]; /* number of pulses that are lost, of each sensor */
     unsigned lose_samples;
-    bool swapped; /* the sensors, from the start */
-    bool jams;    /* the rotor, permanently */
-    int shows;    /* the cell shows a square wave of this many counts instead of the load */
-    int creeps;   /* drift, counts per second */
-    wh_load_status status;       /* of all samples */
-    bool adds[WH_SPEED_SENSORS]; /* one false pulse */
-    /* permanent: marks are late by up to this many ticks (uniform); the speed swings by hunts_rpm at hunts_Hz and drifts */
+    bool swapped; /* the sensors are swapped, from the start */
+    bool jams;    /* the rotor jams, permanently */
+    /* amplitude of a square wave that the cell shows instead of the load, counts; 0: none */
+    int shows;
+    int creeps;                  /* drift, counts per second */
+    wh_load_status status;       /* status of all samples */
+    bool adds[WH_SPEED_SENSORS]; /* one false pulse, of each sensor */
+    /* permanent: pulses are late by up to this many ticks (uniform); the speed oscillates by hunts_rpm at hunts_Hz and
+     * drifts */
     uint32_t jitter_ticks;
     wh_real hunts_rpm;
     wh_real hunts_Hz;
@@ -41,18 +44,18 @@ typedef struct even_failure {
 typedef struct even_rig {
     wh_rig rig;
     wh_rig_config config;
-    wh_rig_inputs inputs; /* of the next step, which advances now_ticks */
+    wh_rig_inputs inputs; /* inputs of the next step, which advances now_ticks */
     wh_rig_command command;
     even_failure fails;
-    bool failing;         /* it began */
+    bool failing;         /* the failure has begun */
     wh_rig_phase phase;   /* at the last step, */
     uint32_t phase_ticks; /* the start time of that step */
     bool turns;
-    wh_real hand_rpm; /* not 0: a hand turns it, against any motor */
+    wh_real hand_rpm; /* if not 0, a hand turns the rotor at this speed, against any motor */
     uint32_t turn_ticks;
-    uint32_t from_ticks;   /* the rotor's angle is 0: a turn begins */
-    unsigned due_sensor;   /* the next pulse, */
-    uint32_t late_ticks;   /* and its delay */
+    uint32_t from_ticks;   /* time at which the rotor's angle was 0: the begin of the turn */
+    unsigned due_sensor;   /* sensor of the next pulse */
+    uint32_t late_ticks;   /* delay of the next pulse */
     uint32_t settle_ticks; /* start of settling */
     uint64_t seed;
 } even_rig;
@@ -67,10 +70,10 @@ void even_steps(even_rig *even, unsigned steps);
 /* Posts an order, steps, and returns the answer. */
 wh_refusal even_order(even_rig *even, wh_rig_event event, wh_real value);
 
-/* A hand turns the rotor from now on, or (0) lets it go, which stops it. */
+/* From now on a hand turns the rotor; 0: the hand lets go, and the rotor stops. */
 void even_turn_by_hand(even_rig *even, wh_real rpm);
 
-/* Until rest is known, so that `arm` is allowed. */
+/* Steps until the controller knows that the rotor is at rest, so that `arm` is allowed. */
 void even_rest(even_rig *even);
 
 /* Runs from even_start() until `arm` is done, or until the tare of a run. */
@@ -82,7 +85,7 @@ bool even_is_over(const even_rig *even);
 /* Steps until a phase begins, or the rig is done. */
 void even_go_on_until(even_rig *even, wh_rig_phase phase);
 
-/* Runs from even_start() to this phase of a run to 330 rpm. WH_PHASE_OFF is reached by `stop`. */
+/* Runs from even_start() to this phase of a run to 330 rpm. For WH_PHASE_OFF the order is `stop`. */
 void even_reach(even_rig *even, wh_rig_phase phase);
 
 /* A whole run; checks that the motor is off at the end. */

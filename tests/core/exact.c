@@ -26,7 +26,7 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     const unsigned opens = exact_solve(e, &p, e->v, lambda);
     for (unsigned k = 0; k < exact_forced(); k++) {
         if (exact_in(p.members, k)) {
-            /* neither pushed nor opened: rest is undecided */
+            /* the stop is neither pushed nor opened: whether it rests depends on round-off */
             e->vague = e->vague || (!exact_in(set | beside | opens, k) && exact_is(k, WH_STOP) &&
                                     exact_size_of(lambda[k]) <= EXACT_ZERO);
             impulse[k] += lambda[k];
@@ -69,7 +69,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     unsigned leaving = 0;
     unsigned gone = 0;
     exact_accelerate(e, a, force);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* in touch only */
+    for (unsigned k = 0; k < exact_forced(); k++) { /* only contacts that touch */
         if (exact_in(resting, k) && hand_now.law[k].first > 0 && exact_sign(e, force[k]) <= 0) {
             e->mode[k] = WH_FREE;
         }
@@ -108,7 +108,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
         gone |= open && rests(e, k, exact_along(k, e->v), a) ? 1U << k : 0U;
     }
     exact_give(e, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* all holds together, without limit */
+    if ((gone | leaving) != 0) { /* with all holds together, without limits */
         exact_problem p = {exact_those(e, WH_STOP, WH_ACTIVE) | exact_those(e, WH_HOLD, WH_ACTIVE),
                            {0.0},
                            {0.0},
@@ -133,8 +133,8 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     return hits;
 }
 
-/* Moves bodies back from the free stops that they passed, by the least move. Returns these stops and the stops that push, as
- * bits. */
+/* Moves bodies back from the free stops that they passed, by the smallest move in the mass metric. Returns these stops
+ * and the stops that push, as bits. */
 static unsigned push_out(exact *e) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -199,7 +199,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
     e->energy[k] += exact_kinetic(e) - exact_kinetic(&was) + exact_stored(e) - exact_stored(&was);
     const int side = exact_sign(e, exact_gap(e, k));
-    if (hand_now.places && side != 0) { /* a rate does not move it */
+    if (hand_now.places && side != 0) { /* if a rate is assigned, the contact does not move */
         e->mode[k] = side;
     } else {
         e->stands |= 1U << k;
@@ -220,7 +220,8 @@ static void assign(exact *e, unsigned k, double *impulse) {
         exact_give(e, passed, WH_FREE);
         for (unsigned l = exact_forced(); l < hand_now.system.contacts; l++) {
             const int there = exact_in(e->stands, l) ? exact_sign(e, exact_gap(e, l)) : 0;
-            e->mode[l] = there != 0 ? there : e->mode[l]; /* it was moved off its crossing */
+            /* the assignment moved it off the crossing */
+            e->mode[l] = there != 0 ? there : e->mode[l];
             e->stands &= there != 0 ? ~(1U << l) : ~0U;
         }
     }
@@ -286,7 +287,7 @@ static unsigned happen(exact *e, unsigned events, double *impulse) {
         }
     }
     exact_give_way(e);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* exactly */
+    for (unsigned k = 0; k < exact_forced(); k++) { /* at the same moment, exactly */
         const int pin = hand_now.contact[k].pin;
         if (pin >= 0 && exact_in(exact_holding(e), k) && exact_size_of(e->v[pin]) <= EXACT_ZERO) {
             e->v[pin] = 0.0;
@@ -317,10 +318,10 @@ void exact_start(exact *e) {
     }
     const unsigned holds = still & exact_those(e, WH_HOLD, WH_FREE);
     exact_give(e, still & ~holds, WH_ACTIVE);
-    if (still != 0) { /* settled before any hit */
+    if (still != 0) { /* the contact came to rest before any impact */
         (void)happen(e, holds, impulse);
         exact_put_back(e, exact_those(e, WH_FRICTION, WH_STUCK),
-                       HAND_CONTACTS); /* no hold keeps it there */
+                       HAND_CONTACTS); /* no hold fixes the coordinate there */
     }
     const unsigned events = happen(e, moving, impulse);
     note(e, events, 0.0, impulse);
@@ -335,9 +336,9 @@ static double falls(exact *e, double g, double r, double a, double left) {
     const int begins = exact_sign(e, g);
     e->vague = e->vague || (begins == 0 && exact_size_of(r) < EXACT_ZERO &&
                             exact_size_of(a) < EXACT_ZERO && exact_holding(e) != 0);
-    e->vague = e->vague || (below == 0 && begins > 0); /* just at the step's end */
+    e->vague = e->vague || (below == 0 && begins > 0); /* the event is exactly at the step's end */
     if (below >= 0) {
-        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that the step's end does not show */
+        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that cannot be seen at the step's end */
             e->vague = e->vague || exact_sign(e, g - 0.5 * r * r / a) < 0;
         }
         return left;
@@ -345,7 +346,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     if (begins == 0 && (r < 0.0 || (exact_sign(e, r) == 0 && a < 0.0))) {
         return 0.0;
     }
-    if (begins < 0) { /* beyond: no event on its way out */
+    if (begins < 0) { /* already beyond the stop: leaving is no event */
         if (exact_sign(e, r) <= 0) {
             e->vague = e->vague || (exact_sign(e, r) == 0 && exact_sign(e, a) == 0);
             return exact_sign(e, r) < 0 || a < 0.0 ? 0.0 : left;
@@ -360,7 +361,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     if (exact_size_of(a) < 1e-9) {
         return -g / r;
     }
-    if (begins == 0) { /* up and down again */
+    if (begins == 0) { /* up, and down again within the step */
         return -2.0 * r / a;
     }
     const double root = (double)WH_SQRT((wh_real)(r * r - 2.0 * a * g));
@@ -406,7 +407,7 @@ static void move(exact *e, const double *a, const double *force, double span) {
 void exact_step(exact *e) {
     double left = STEP_S;
     unsigned rounds = 0;
-    if (hand_state.steps > 1) { /* the first step reports the run's start */
+    if (hand_state.steps > 1) { /* the first step reports the contacts at the run's start */
         e->logged = 0;
     }
     while ((left > 0.0 || e->next != 0) && !e->vague) {
@@ -431,7 +432,7 @@ void exact_step(exact *e) {
         if (events != 0) {
             double impulse[HAND_CONTACTS];
             const double at_s = STEP_S - left;
-            for (unsigned k = 0; k < exact_forced(); k++) { /* it has just reached zero */
+            for (unsigned k = 0; k < exact_forced(); k++) { /* the rate has just reached zero */
                 const int pin = hand_now.contact[k].pin;
                 if (exact_in(events, k) && exact_is(k, WH_FRICTION)) {
                     e->v[pin] = 0.0;
@@ -444,7 +445,7 @@ void exact_step(exact *e) {
         }
     }
     for (unsigned k = exact_forced(); k < hand_now.system.contacts;
-         k++) { /* passed the other way */
+         k++) { /* the rate has passed zero */
         const int side = exact_sign(e, exact_gap(e, k));
         e->mode[k] = side != 0 ? side : e->mode[k];
     }

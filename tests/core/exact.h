@@ -1,5 +1,7 @@
-/* exact.h: an independent reference for mechanisms by hand (hand.h). Under constant loads motion is piecewise parabolic, with
- * roots in closed form. Events try all cases of the laws of docs/dev/events.md. In double, without probes, pivots or pins. */
+/* exact.h: an independent reference for the mechanisms of hand.h. Under constant loads the motion is piecewise
+ * parabolic, and the times of events are roots in closed form. At an event, all combinations of modes are tried against
+ * the laws of docs/dev/events.md. The reference computes in double, without the probes, pivots and pins of
+ * core/contact/. */
 #ifndef TESTS_EXACT_H
 #define TESTS_EXACT_H
 
@@ -7,7 +9,7 @@
 
 enum { EXACT_LOG = 32 };
 
-/* A double that is only a float, as on AVR, is no reference. */
+/* Skips a test if double has only the precision of float, as on an AVR: the reference would be too coarse. */
 #define EXACT_NEEDS_DOUBLE() \
     do { \
         if (__DBL_MANT_DIG__ < 53) { \
@@ -19,21 +21,22 @@ typedef struct exact {
     double x[2];
     double v[2];
     int mode[HAND_CONTACTS];
-    double energy[HAND_CONTACTS];  /* each contact's energy */
-    double impulse[HAND_CONTACTS]; /* and impulse along its row, since the start */
+    double energy[HAND_CONTACTS];  /* energy that each contact has given since the start */
+    double impulse[HAND_CONTACTS]; /* impulse of each contact along its row since the start */
     double pushed;                 /* the input */
     wh_event log[EXACT_LOG];       /* of the last step */
     unsigned logged;
-    unsigned next;   /* stops that are hit in the next round, as bits */
-    unsigned stands; /* crossings just taken that are still at their place, as bits */
-    bool vague;      /* a decision depended on round-off; from then on there is no reference */
-    bool shared;     /* redundant contacts: each one's share is not unique */
+    unsigned next;   /* bits: stops that are hit in the next round */
+    unsigned stands; /* bits: crossings just taken whose values are still zero */
+    bool vague;      /* a decision depended on round-off; from then on this is no reference */
+    bool shared;     /* contacts are redundant: the force of each one is not unique */
 } exact;
 
-/* hand_now's start, and a step of 1 ms. */
+/* Starts at the start of hand_now, with a step of 1 ms. */
 void exact_start(exact *e);
 void exact_step(exact *e);
-/* Moves bodies back from free stops that they passed, by the least move, and stops those that close there. */
+/* Moves bodies back from free stops that they passed, by the smallest move in the mass metric, and stops those that
+ * approach a stop. */
 void exact_squeeze(exact *e);
 
 #endif

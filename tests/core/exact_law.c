@@ -1,7 +1,7 @@
 /* exact_law.c: see exact_law.h. */
 #include "exact_law.h"
 
-/* Below it, but not zero, a number is vague. */
+/* A number below NEAR that is not zero makes a decision vague (exact.h). */
 #define NEAR (WH_DOUBLE ? 1e-6 : 1e-4)
 
 double exact_size_of(double value) { return value < 0.0 ? -value : value; }
@@ -73,7 +73,8 @@ bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double
         }
         a[r][count] = p->target[member[r]] - exact_along(member[r], y);
     }
-    for (unsigned q = 0; q < count; q++) { /* positive definite, or singular */
+    for (unsigned q = 0; q < count; q++) {
+        /* each pivot must be positive; otherwise the rows are dependent */
         if (a[q][q] < 1e-7) {
             return false;
         }
@@ -98,7 +99,7 @@ static bool good(const exact_problem *p, unsigned k, int which, double lambda, d
 
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda) {
     for (unsigned number = 0; number < 27;
-         number++) { /* each contact at its target, its low end or its high end */
+         number++) { /* the cases: each contact at its target, its low limit or its high limit */
         unsigned rest = number;
         unsigned tight = 0;
         int which[HAND_CONTACTS] = {0};
@@ -134,7 +135,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
                 const bool off =
                     exact_in(p->members, k) && exact_sign(e, exact_along(k, y) - p->target[k]) != 0;
                 beyond |= off ? 1U << k : 0U;
-                if (exact_in(tight, k)) { /* at an end nevertheless? */
+                if (exact_in(tight, k)) { /* is it also at a limit? */
                     (void)exact_sign(e, lambda[k] - p->low[k]);
                     (void)exact_sign(e, lambda[k] - p->high[k]);
                 }
@@ -144,7 +145,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
             return beyond;
         }
     }
-    e->vague = true; /* dependent holds: not here */
+    e->vague = true; /* dependent holds have no unique forces: no reference */
     return 0;
 }
 
@@ -161,7 +162,8 @@ unsigned exact_holding(const exact *e) {
            exact_those(e, WH_FRICTION, WH_STUCK);
 }
 
-/* Accelerations and forces in the current modes; a contact that must pull pulls. The last of dependent rows get nothing. */
+/* Accelerations and forces in the current modes; a contact that must pull pulls. Of dependent rows, the later ones get
+ * no force. */
 void exact_accelerate(exact *e, double *a, double *force) {
     double own[2] = {0.0, 0.0};
     unsigned members = 0;
@@ -203,7 +205,7 @@ void exact_give_way(exact *e) {
         exact_problem p = {exact_holding(e), {0.0}, {0.0}, {0.0}};
         unsigned first = 0;
         double most = 0.0;
-        exact_accelerate(e, way, force); /* as if all held */
+        exact_accelerate(e, way, force); /* with all contacts active */
         a[0] = 0.0;
         a[1] = 0.0;
         for (unsigned i = 0; i < hand_now.n; i++) {
@@ -262,7 +264,7 @@ double exact_kinetic(const exact *e) {
     return sum;
 }
 
-/* See exact_law.h. Without a `mover` the energy belongs to the first contact that is off its place. */
+/* See exact_law.h. Without a `mover` the energy belongs to the first contact with an error. */
 void exact_put_back(exact *e, unsigned but, unsigned mover) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -273,7 +275,8 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
         if (exact_in(p.members, k) && exact_is(k, WH_STOP) && exact_sign(e, exact_gap(e, k)) != 0) {
             p.target[k] = -exact_gap(e, k);
             mover = mover < exact_forced() || mover == HAND_CONTACTS ? k : mover;
-            if (pin >= 0) { /* its coordinate alone; the furthest of several */
+            if (pin >= 0) {
+                /* only its coordinate moves; of several contacts, the one with the largest error counts */
                 const double by = p.target[k] / (double)hand_now.law[k].row[pin];
                 way[pin] = exact_size_of(by) > exact_size_of(way[pin]) ? by : way[pin];
             }
@@ -281,7 +284,8 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
     }
     e->x[0] += way[0];
     e->x[1] += way[1];
-    for (unsigned k = 0; k < exact_forced(); k++) { /* and the places around it */
+    for (unsigned k = 0; k < exact_forced(); k++) {
+        /* and the constraints that depend on several coordinates */
         p.target[k] = hand_now.contact[k].pin >= 0 ? 0.0 : p.target[k] - exact_along(k, way);
     }
     way[0] = 0.0;

@@ -1,10 +1,10 @@
-/* exact_law.h: the contact laws of exact.c for mechanisms by hand (hand.h): all cases, forces, places. */
+/* exact_law.h: the contact laws of exact.c, for the mechanisms of hand.h: combinations of modes, forces, positions. */
 #ifndef TESTS_EXACT_LAW_H
 #define TESTS_EXACT_LAW_H
 
 #include "exact.h"
 
-/* A smaller number is zero; a slightly larger one is vague. */
+/* Numbers below this are zero; numbers slightly above it make a decision vague (exact.h). */
 #define EXACT_ZERO 1e-11
 
 /* The problem: x + M^-1 J^T lambda with J x = target[k]. A stop only pushes, a friction acts up to a limit, a hold acts both
@@ -19,7 +19,7 @@ typedef struct exact_problem {
 #define EXACT_ENDLESS 1e9
 
 double exact_size_of(double value);
-/* Above zero, at it or below. */
+/* The sign of a value: 1, 0 or -1. */
 int exact_sign(exact *e, double value);
 bool exact_in(unsigned bits, unsigned k);
 
@@ -29,7 +29,7 @@ bool exact_is(unsigned k, wh_contact_kind kind);
 /* Contacts of a kind in a mode, as bits. Crossings have no mode. */
 unsigned exact_those(const exact *e, wh_contact_kind kind, int mode);
 void exact_give(exact *e, unsigned bits, int mode);
-/* All contacts that keep J_k q' at zero, as bits. */
+/* The contacts that keep J_k q' at zero, as bits. */
 unsigned exact_holding(const exact *e);
 
 /* In order: J_k x; the gap; x += M^-1 J_k^T lambda; the change of J_k x by a unit impulse of contact l. */
@@ -38,11 +38,11 @@ double exact_gap(const exact *e, unsigned k);
 void exact_push(unsigned k, double lambda, double *x);
 double exact_coupled(unsigned k, unsigned l);
 
-/* Computes lambda[] so that the contacts in `tight` reach their targets; the lambda[] of the others are given. False: rows
- * are dependent. */
+/* Computes lambda[] so that the contacts in `tight` reach their targets; the lambda[] of the others are given. Returns
+ * false if rows are dependent. */
 bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double *lambda);
-/* Finds the case that meets the conditions and changes x and the members' lambda[]. Returns the contacts with J x beyond
- * target, as bits. */
+/* Finds the combination of limits that meets the conditions, and sets x and the members' lambda[] accordingly. Returns
+ * the contacts with J x beyond target, as bits. */
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda);
 bool exact_repeat(const exact *e, unsigned members);
 
@@ -54,8 +54,8 @@ void exact_give_way(exact *e);
 double exact_stored(const exact *e);
 double exact_kinetic(const exact *e);
 
-/* Resting contacts return to their place; the other holds, except those in `but`, stay with them. The energy is booked to
- * contact `mover` or, if `mover` is HAND_CONTACTS, to the first contact that is off its place. */
+/* Moves resting contacts back to their constraints; holds, except those in `but`, keep their values. The energy is
+ * entered for contact `mover` or, if `mover` is HAND_CONTACTS, for the first contact with an error. */
 void exact_put_back(exact *e, unsigned but, unsigned mover);
 
 #endif

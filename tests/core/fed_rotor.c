@@ -1,4 +1,4 @@
-/* fed_rotor.c: the made-up rotor under a speed drive, with observer and feed-forward. */
+/* fed_rotor.c: the imitated rotor under a speed drive, with observer and gravity compensation. */
 #include "fed_rotor.h"
 
 #include "build/gen/scenes.h"

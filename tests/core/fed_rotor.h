@@ -1,5 +1,5 @@
-/* fed_rotor.h: the made-up rotor under a speed drive, with observer and feed-forward (core/rig/observer.c, gravity_compensation.c) and their
- * errors. */
+/* fed_rotor.h: the imitated rotor under a speed drive, with observer and gravity compensation (core/rig/observer.c,
+ * gravity_compensation.c) and their errors. */
 #ifndef TESTS_CORE_FED_ROTOR_H
 #define TESTS_CORE_FED_ROTOR_H
 
@@ -25,34 +25,35 @@ typedef struct fed_rotor {
     wh_speed speed;
     wh_real voltage; /* for the next control step, a fraction of the rated one */
     fed_by by;
-    unsigned lose_marks; /* this many, of either sensor */
-    /* since fed_rotor_count(): */
+    unsigned lose_marks; /* number of pulses that will be lost, of either sensor */
+    /* counted since fed_rotor_count(): */
     uint32_t steps;
-    uint32_t valid;    /* of them with a valid observer, */
-    uint32_t lies;     /* with a valid one that is off by more than lie_rad */
-    wh_real worst_rad; /* steps with a valid observer whose angle is off by more than FED_LIE_RAD */
+    uint32_t valid;    /* steps with a valid observer */
+    uint32_t lies;     /* steps with a valid observer whose angle has an error above FED_LIE_RAD */
+    wh_real worst_rad; /* largest error of the angle while valid */
     wh_real square_rad2;
     wh_real least_radps;
     wh_real most_radps;
     wh_real sum_radps;
-    bool stood; /* slower than 10 rpm */
+    bool stood; /* the rotor was slower than 10 rpm */
 } fed_rotor;
 
 #define FED_LIE_RAD WH_R(0.35)
 
-/* The controller's settings are the standard rig's. Change the rotor before fed_rotor_start(), which sets it turning at this
- * speed. */
+/* Sets the rotor and the controller as in the standard rig. Change the rotor before fed_rotor_start(), which sets it
+ * turning at this speed. */
 void fed_rotor_standard(fed_rotor *fed, uint64_t seed);
 wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm);
 
 void fed_rotor_run(fed_rotor *fed, wh_real target_rpm, wh_real time_s);
 
-/* From now on the voltage is the one for this speed, without a speed drive. */
+/* From now on the voltage is constant: the one for this speed, without a speed drive. */
 void fed_rotor_hold(fed_rotor *fed, wh_real speed_rpm);
 
 void fed_rotor_count(fed_rotor *fed);
 
-/* Over the counted steps: RMS error of the angle while valid; half the range of the speed divided by its mean. */
+/* Over the counted steps: RMS error of the angle while the observer is valid; half the range of the speed divided by
+ * its mean. */
 wh_real fed_rotor_rms_rad(const fed_rotor *fed);
 wh_real fed_rotor_ripple(const fed_rotor *fed);
 wh_real fed_rotor_mean_rpm(const fed_rotor *fed);

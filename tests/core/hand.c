@@ -42,7 +42,8 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         }
         const wh_real size = WH_ABS(result[2 * k]);
         for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
-            result[2 * k] *= size * size * WH_R(1e6); /* of a millimetre, one */
+            /* the unit is a millimetre: there the factor is one */
+            result[2 * k] *= size * size * WH_R(1e6);
         }
         for (unsigned i = 0; i < 2; i++) {
             result[2 * k + i] = (m->lost[i] >> k & 1U) != 0 ? m->nothing : result[2 * k + i];
@@ -57,17 +58,17 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)rate;
     (void)input;
     for (unsigned k = 0; k < HAND_CONTACTS;
-         k++) { /* also the invalid contacts after the last one (hand_start()) */
+         k++) { /* also the invalid contacts after the last one (put_sentinels()) */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
         law[WH_LAW_BIAS] = WH_R(0.0);
         if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
             m->law[k].first == WH_R(0.0)) {
-            law[WH_LAW_FIRST] = along(m, k, linear); /* like a curved one */
+            law[WH_LAW_FIRST] = along(m, k, linear); /* as for a curved hold */
         } else if (m->contact[k].kind == WH_HOLD && m->contact[k].direction < 0 && linear != NULL) {
             law[WH_LAW_FIRST] =
-                along(m, k, linear) - m->law[k].offset; /* like one moved by inputs */
+                along(m, k, linear) - m->law[k].offset; /* as for a hold that is moved by inputs */
         }
         for (unsigned i = 0; i < m->n; i++) {
             law[WH_LAW_ROWS + i] = m->law[k].row[i];
@@ -86,7 +87,7 @@ static void hand_sets(const void *model, const wh_phase *phase, const wh_real *l
     result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
-/* Entries of the books: the effect of loads and springs on each momentum, and the work of the loads. */
+/* Powers of the ledger's entries: the effect of loads and springs on each momentum, and the work of the loads. */
 static void hand_powers(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
@@ -115,7 +116,7 @@ static void hand_levels(const void *model, const wh_angle *angle, const wh_real 
     }
 }
 
-/* Uninitialized entries are not zero. */
+/* Fills memory with numbers that are not zero, so that a missing initialization shows. */
 static void soil(void *memory, unsigned size) {
     unsigned char *byte = memory;
     for (unsigned i = 0; i < size; i++) {
@@ -182,7 +183,8 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
-/* Entries after a scene's contacts are invalid. If the core used them, the first coordinate would stick for ever. */
+/* Fills the entries after a scene's contacts with a friction that would hold the first coordinate for ever, if the core
+ * read it. */
 static void put_sentinels(void) {
     for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
         hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};

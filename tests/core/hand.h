@@ -1,9 +1,9 @@
-/* hand.h: hand-written contact mechanisms of up to two coordinates with constant masses, loads and springs: closed-form
- * results. */
+/* hand.h: contact mechanisms of one or two coordinates with constant masses, loads and springs, whose motion is known
+ * in closed form. */
 #ifndef TESTS_HAND_H
 #define TESTS_HAND_H
 
-/* static, as in a generated scene: a board's stack is small */
+/* static, as in a generated scene, because a board's stack is small */
 #define WH_LEDGER 1
 #define WH_LEDGER_MAX 12
 #define WH_ACCOUNTS_MAX 3
@@ -19,7 +19,7 @@ typedef struct hand {
     wh_real mass[2][2];
     wh_real inverse[2][2];
     wh_real load[2];   /* N */
-    wh_real spring[2]; /* N/m, to the origin */
+    wh_real spring[2]; /* N/m, towards the origin */
     struct {
         wh_real row[2]; /* gap, held or crossing expression: row . x - offset */
         wh_real offset;
@@ -28,13 +28,13 @@ typedef struct hand {
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
-    unsigned bent;    /* how often a crossing's value is multiplied by its own square */
-    unsigned lost[2]; /* contacts whose first signal, or second, as bits, */
-    wh_real nothing;  /* is this */
-    bool weighs;      /* the loads' energy is potential energy, not external work */
+    unsigned bent;    /* number of times that a crossing's value is multiplied by its own square */
+    unsigned lost[2]; /* bits: contacts whose first or second signal */
+    wh_real nothing;  /* has this value */
+    bool weighs;      /* the work of the loads counts as potential energy, not as external work */
     bool eventful;    /* every step takes the path of steps with events */
-    bool places;      /* a crossing assigns the first coordinate */
-    wh_real place;    /* this value, not its rate */
+    bool places;      /* a crossing assigns the first coordinate instead of its rate */
+    wh_real place;    /* the value that is assigned */
     wh_real start[4];
     wh_scene scene;
 } hand;
@@ -42,7 +42,7 @@ typedef struct hand {
 extern hand hand_now;             /* the mechanism of the calls below */
 extern wh_ledger_form hand_books; /* its ledger */
 extern wh_state hand_state;
-extern unsigned hand_looks; /* how often the signals were evaluated */
+extern unsigned hand_looks; /* number of evaluations of the signals */
 extern wh_real hand_pushed; /* the scene's input: a hold's condition, true above zero */
 
 /* Sets up one body (of mass m00), or two with the given mass matrix, without contact, load or spring. */
@@ -50,12 +50,12 @@ void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11);
 /* Adds a contact; see hand.law for the numbers. Returns its number. Contacts with a force come first. */
 unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
                   wh_real first, wh_real second);
-/* Puts it at its start, with a step of 1 ms. */
+/* Starts the mechanism, with a step of 1 ms. */
 void hand_start(bool with_books);
-/* Steps that must all succeed. */
+/* Makes steps that must all succeed. */
 void hand_steps(unsigned count);
-/* |value - wanted| <= `bound`, in float `bound_f`. A float sum rounds by up to 3e-8 of its value a step: n times that in n
- * steps. */
+/* |value - wanted| <= `bound`, in float `bound_f`. A float sum is rounded by up to 3e-8 of its value in each step: n
+ * times that in n steps. */
 bool hand_near(wh_real value, wh_real wanted, double bound, double bound_f);
 
 /* Gravity, m/s^2. */

@@ -8,7 +8,7 @@
 
 #if !WH_DOUBLE
 
-/* Nearly normal: the sum of twelve uniform ones. */
+/* An approximately Gaussian number: the sum of twelve uniform ones. */
 static float normal(void) {
     float sum = -6.0f;
     for (unsigned i = 0; i < 12; i++) {
@@ -40,7 +40,7 @@ void plant_control(on_plant *on) {
     on->command = wh_rig_step(&on->config, &on->rig, &inputs);
     obey(&on->command, &on->drives);
     trip_memory_keep(&on->memory, &on->rig);
-    hal_watchdog_kick(); /* also when tripped */
+    hal_watchdog_kick(); /* kicked also when tripped */
     const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
     on->fastest_radps = speed > on->fastest_radps ? speed : on->fastest_radps;
 }
@@ -61,7 +61,8 @@ static void begin_control(on_plant *on) {
 void plant_reset(on_plant *on, hal_reset cause) {
     hal_virtual_rig_reset(hal_virtual_rig_instance(), cause);
     on->rig = (wh_rig){.state = WH_RIG_ARMED,
-                       .run.phase = WH_PHASE_RECORD}; /* not zeroed, like real memory */
+                       /* not zeroed: real memory is not zeroed either */
+                       .run.phase = WH_PHASE_RECORD};
     on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
     begin_control(on);
 }
@@ -72,7 +73,8 @@ void plant_start(on_plant *on) {
                                                .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                                                .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&on->config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-    on->config.tripped_max_s = on->config.rest_max_s; /* a coasting rotor takes a minute */
+    /* a rotor that coasts needs a minute to come to rest */
+    on->config.tripped_max_s = on->config.rest_max_s;
     scattered_state = UINT64_C(0x5eed0041);
     on->fastest_radps = 0.0f;
     on->noise_N = 0.0f;

@@ -26,7 +26,7 @@ typedef struct on_plant {
     wh_rig_command command;
     bool drives; /* obey.h */
     trip_memory memory;
-    float fastest_radps; /* the rotor's own, not the measured one */
+    float fastest_radps; /* the largest true speed of the rotor, not the measured one */
     float noise_N;       /* standard deviation of the noise added to each sample */
 } on_plant;
 
@@ -35,10 +35,10 @@ void plant_control(on_plant *on);
 /* Posts an order, steps, and returns the answer. */
 wh_refusal plant_order(on_plant *on, wh_rig_event event, float value);
 
-/* Resets and restarts the processor; the rig continues. */
+/* Resets and restarts the processor; the rotor keeps moving. */
 void plant_reset(on_plant *on, hal_reset cause);
 
-/* Starts hardware and controller; they end idle at rest, armed, or at the tare of a run. */
+/* Starts hardware and controller; afterwards the rig is idle at rest, armed, or at the tare of a run. */
 void plant_start(on_plant *on);
 void plant_arm(on_plant *on);
 void plant_begin(on_plant *on, float target_rpm);
@@ -49,7 +49,7 @@ void plant_go_on_to_the_end(on_plant *on);
 
 bool plant_is_done(const on_plant *on);
 
-/* The rotor ends at rest, hanging, with the motor off. */
+/* Checks that the rotor is at rest, hanging, with the motor off. */
 void plant_check_stopped(const on_plant *on);
 
 #endif

@@ -1,4 +1,4 @@
-/* tel_bench.c: a station with telemetry on made-up samples and pulses, and its receiver. */
+/* tel_bench.c: a station with telemetry that gets random samples and pulses, and a receiver of its line. */
 #include "tel_bench.h"
 
 #include <string.h>
@@ -25,8 +25,8 @@ void tel_type(const char *line) {
     wh_station_take(&bench.station, "\n", 1);
 }
 
-/* Finds the next item of this kind with this time and value; earlier ones were dropped. Times of uneven samples are exact to
- * an eighth of their period. */
+/* Finds the next item of this kind with this time and value; items before it were dropped. The times of samples that
+ * come irregularly are exact to an eighth of their period. */
 static void find_sample(uint32_t ticks, int32_t value) {
     const uint32_t within = bench.got.uneven ? bench.tel.every * EVEN_STEP_TICKS / 8U : 0;
     while (bench.samples.taken < bench.samples.put &&
@@ -38,7 +38,7 @@ static void find_sample(uint32_t ticks, int32_t value) {
     bench.samples.taken++;
 }
 
-/* Ends of pulses are in one sequence with their beginnings; their value is the sensor and */
+/* Begins and ends of pulses are in one sequence; the value of an end is the sensor and this bit. */
 #define OF_AN_END 2
 
 static void find_pulse(uint32_t ticks, int32_t sensor) {
@@ -82,7 +82,7 @@ void tel_hear_frame(const wire_frame *frame) {
     }
 }
 
-/* The line takes this many bytes per control step. */
+/* The line transmits this many bytes per control step. */
 void tel_hear(unsigned bytes) {
     char room[64];
     while (bytes > 0) {
@@ -108,7 +108,7 @@ static void draw_sample(bool evenly) {
     const unsigned shift = wh_tel_shift(cell);
     sample->ticks = bench.cell_ticks;
     sample->raw = (int32_t)draw_whole(&bench.seed, (int)-cell->raw_max, (int)cell->raw_max);
-    if (draw_one_in(&bench.seed, 40)) { /* full scale, which is invalid even without a flag */
+    if (draw_one_in(&bench.seed, 40)) { /* full scale, which is invalid even without the status */
         sample->raw = draw_one_in(&bench.seed, 2) ? cell->raw_max : -cell->raw_max;
     }
     sample->status = WH_LOAD_OK;
@@ -139,7 +139,7 @@ void tel_draw_seen(bool evenly) {
     if (evenly || !draw_one_in(&bench.seed, 40)) {
         draw_sample(evenly);
     }
-    if (!evenly && draw_one_in(&bench.seed, 50)) { /* two at once, or a break */
+    if (!evenly && draw_one_in(&bench.seed, 50)) { /* two samples at once, or a gap */
         bench.cell_ticks += draw_one_in(&bench.seed, 2) ? EVEN_STEP_TICKS : 777U;
         draw_sample(evenly);
     }
@@ -162,7 +162,7 @@ void tel_step(void) {
     wh_station_step(&bench.station, &bench.even.rig);
 }
 
-/* One control period of the firmware; the line takes this many bytes. */
+/* One control period of the firmware, in which the line transmits this many bytes. */
 void tel_period(bool evenly, unsigned bytes) {
     even_step(&bench.even);
     tel_draw_seen(evenly);

@@ -1,4 +1,5 @@
-/* tel_bench.h: a station with telemetry on made-up samples and pulses, and its receiver, for the suites of telemetry. */
+/* tel_bench.h: a station with telemetry that gets random samples and pulses, and a receiver of its line, for the suites
+ * of telemetry. */
 #ifndef TESTS_CORE_TEL_BENCH_H
 #define TESTS_CORE_TEL_BENCH_H
 
@@ -7,12 +8,13 @@
 #include "wire.h"
 
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
-#define FREE 4096U /* bytes a step: a line that is never full */
+#define FREE 4096U /* bytes per step of a line that is never full */
 #define AT_115200 23U
-/* No type may be this large on a chip with a 16-bit int; the tests that need the room do not run there. */
+/* Most items that wait for the receiver. A chip with a 16-bit int allows no larger array; tests that need more do not
+ * run there. */
 #define TRUTHS (sizeof(int) > 2U ? 1024U : 64U)
 
-/* Sent and not received yet. */
+/* An item that was sent and not received yet. */
 typedef struct tel_truth {
     uint32_t ticks[TRUTHS];
     int32_t value[TRUTHS];
@@ -22,11 +24,11 @@ typedef struct tel_truth {
 
 typedef struct tel_counts {
     unsigned frames;
-    uint32_t gaps;    /* in the sequences of all channels */
-    uint32_t dropped; /* as frames say */
+    uint32_t gaps;    /* number of gaps in the sequences of all channels */
+    uint32_t dropped; /* number of dropped items, according to the frames */
     uint16_t before[WH_TEL_CHANNELS];
     unsigned loads;
-    bool broken; /* the line loses frames too */
+    bool broken; /* the line loses frames */
     bool uneven; /* samples come unevenly */
     bool blind;  /* frame contents are not checked */
     bool any[WH_TEL_CHANNELS];
@@ -48,24 +50,25 @@ typedef struct tel_bench {
 
 extern tel_bench bench;
 
-/* At rest, telemetry off, nothing received. */
+/* Begins with the rig at rest, telemetry off, and nothing received. */
 void tel_begin(void);
 
 void tel_type(const char *line);
 
-/* The line takes this many bytes. They are compared with the sent data. */
+/* The line transmits this many bytes. The receiver compares them with the sent data. */
 void tel_hear(unsigned bytes);
 void tel_hear_frame(const wire_frame *frame);
 
-/* Makes this step's input: one sample a step, evenly, or now and then two, none, a late or an invalid one. Also pulses. */
+/* Makes the input of this step. Evenly: one sample. Otherwise sometimes two, none, a late or an invalid one. Also
+ * pulses. */
 void tel_draw_seen(bool evenly);
 
 void tel_step(void);
 
-/* A control period of the firmware, in which the line takes this many bytes. */
+/* One control period of the firmware, in which the line transmits this many bytes. */
 void tel_period(bool evenly, unsigned bytes);
 
-/* Starts telemetry by this order. From then on all output is compared with the sent data. */
+/* Turns telemetry on by this order. From then on all output is compared with the sent data. */
 void tel_turn_on(const char *rate);
 
 #endif

@@ -1,5 +1,5 @@
-/* test_ahead.c: many steps in one call equal single steps bit by bit, however they end. Compares steps by a constant matrix,
- * and steps with a length correction in float, with closed forms. */
+/* test_ahead.c: many steps in one call give the same bits as single steps, also if one fails. Steps by a constant
+ * matrix, and float steps with a two-part length, are compared with closed forms. */
 #include "core/scene.h"
 #define WH_COORDS 3
 #include "core/step.h"
@@ -15,7 +15,7 @@ void suite_ahead(void);
 
 enum { STEPS = WH_TEST_SMALL ? 256 : 4096 };
 
-/* A double that is only a float, as on AVR, is no reference. */
+/* True if double has enough precision for a reference (on an AVR it is a float). */
 #define HAS_REFERENCE (__DBL_MANT_DIG__ >= 53)
 
 static uint64_t memory[WH_STATE_WORDS(1, 3, 1)];
@@ -24,7 +24,7 @@ static wh_real length[2]; /* step length and its correction */
 
 static double size_of(double x) { return x < 0.0 ? -x : x; }
 
-/* A driven pendulum beside a mass on a spring. */
+/* The accelerations of a driven pendulum and of a mass on a spring. */
 static void accel(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *input, wh_real *result) {
     wh_real sine;
@@ -85,7 +85,7 @@ static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_rea
 }
 
 static void test_steps_ahead_are_steps(void) {
-    /* continues; the shaft accelerates until half a turn per step is too much; not a number */
+    /* inputs: a normal one; one that accelerates the shaft until it makes half a turn per step; not a number */
     const wh_real inputs[] = {WH_R(2.0), WH_R(300.0), (wh_real)__builtin_nan("")};
     length[0] = WH_R(0.0625);
     length[1] = WH_R(0.0);
@@ -114,7 +114,7 @@ static const double turn_sine = 2.0 * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_
 static const double turn_less =
     -2.0 * HALF_TANGENT * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_TANGENT); /* cos - 1 */
 
-/* The rounding error of a constant as a real. */
+/* The round-off of a constant as a real. */
 static wh_real lack(double constant) {
     volatile wh_real kept = (wh_real)constant;
     return (wh_real)(constant - (double)kept);
@@ -174,7 +174,8 @@ static void test_a_matrix_turns_as_far_as_its_power(void) {
 
 #endif
 
-/* The input accelerates a shaft (angle, rate). Mean rate r + u h/2 and end rate r + u h, or their changes. */
+/* The input accelerates a shaft (angle, rate). The list gives the mean rate r + u h/2 and the end rate r + u h, or, for
+ * compensated sums, their changes. */
 static bool changes_only;
 static void speed_up(const void *model, const wh_phase *phase, const wh_real *real,
                      const wh_real *rate, const wh_real *input, wh_real *given) {
@@ -205,7 +206,7 @@ static void test_a_matrix_moves_angles(void) {
     }
 }
 
-/* The first invalid component is blamed; nothing moves. */
+/* The fault is the first invalid component, and the state stays unchanged. */
 static wh_real spoilt[6];
 static void spoil(const void *model, const wh_phase *phase, const wh_real *real,
                   const wh_real *rate, const wh_real *input, wh_real *given) {
@@ -249,7 +250,8 @@ static void pull(const void *model, const wh_phase *phase, const wh_real *linear
     result[1] = input[0];
 }
 
-/* The relative errors of a body and a shaft of this rate after STEPS milliseconds under this acceleration. */
+/* The relative errors of a body and of a shaft after STEPS milliseconds, which start with rate `rest` and have
+ * acceleration `push`. */
 static void errors_after(wh_method method, wh_real rest, wh_real push, double *line, double *turn) {
     const double milli_s = 0.001;
     const double end_s = milli_s * STEPS;
@@ -269,8 +271,8 @@ static void errors_after(wh_method method, wh_real rest, wh_real push, double *l
     *turn = size_of((double)wh_angle_to_rad(angle[0]) - way) / way;
 }
 
-/* A millisecond is no float: the error is a part in 2e7. In two parts many steps last the right time, for lines and angles; in
- * one part they do not. Accelerations add the round-off of their products. */
+/* No float equals a millisecond: the relative error is 5e-8. With a two-part length, many steps last the right time,
+ * for positions and angles; with a one-part length they do not. Accelerations add the round-off of their products. */
 static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         double line;

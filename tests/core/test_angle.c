@@ -1,4 +1,4 @@
-/* test_angle.c: moving angles, and conversion to and from radians. WH_TEST_SMALL takes fewer angles. */
+/* test_angle.c: moving angles, and conversion to and from radians. WH_TEST_SMALL: fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"
@@ -66,7 +66,7 @@ static void test_phase_moves(void) {
     }
 }
 
-/* Steps of every size: rounded to the nearest, halves away from zero, as in integers. */
+/* Steps of all sizes are rounded to the nearest integer, halves away from zero; computed in integers. */
 static void test_phase_moves_to_the_nearest(void) {
     for (unsigned i = 0; i < 20000; i++) {
         const uint32_t digits = (uint32_t)(scattered() & 0xffffffU);
@@ -151,9 +151,9 @@ static void test_angle_from_rad_out_of_range(void) {
         TEST_ASSERT_EQUAL_INT64(0, wh_angle_from_rad(bad[i]));
         TEST_ASSERT_EQUAL_UINT32(0, wh_phase_from_rad(bad[i]));
     }
-    expect_from_rad(999999936.0f); /* the last float below */
+    expect_from_rad(999999936.0f); /* the largest float in range */
     expect_from_rad(-999999936.0f);
-    /* such a number has no sine */
+    /* out of range: the phase is invalid, so sines are NaN */
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         wh_real sine = 0.5f;
         wh_real cosine = 0.5f;
@@ -193,7 +193,8 @@ static void test_there_and_back(void) {
     }
 }
 
-/* The low half above the point of angle * factor, rounded: 128 bits, added up bit by bit. */
+/* Reference for wh_phase_times(): bits 0 to 31 before the point of angle * factor, rounded: 128 bits, added up bit by
+ * bit. */
 static uint32_t times_reference(int64_t angle, wh_factor factor) {
     uint64_t shifted_high = angle < 0 ? UINT64_MAX : 0U;
     uint64_t shifted_low = (uint64_t)angle;
@@ -219,7 +220,7 @@ static void test_parts_of_angles(void) {
     const wh_factor more = WH_FACTOR(1.5, 1U, UINT64_C(1) << 63);
     const wh_factor less = WH_FACTOR(-0.5, UINT32_MAX, UINT64_C(1) << 63);
     const wh_factor third = WH_FACTOR(1.0 / 3.0, 0U, UINT64_C(6148914691236517205));
-    /* a further turn is half a turn of the half */
+    /* one more whole turn adds half a turn to the half */
     TEST_ASSERT_EQUAL_UINT32(2 * QUARTER, wh_phase_times(turn, half));
     TEST_ASSERT_EQUAL_UINT32(0, wh_phase_times(2000 * turn, half));
     TEST_ASSERT_EQUAL_UINT32(2 * QUARTER, wh_phase_times(-2001 * turn, half));

@@ -1,5 +1,6 @@
-/* test_arithmetic.c: the start checks the arithmetic of this build, of a file compiled with other flags (imitated by functions
- * that compute differently), and of a processor in another mode. tests/flags.sh tests the flags of real compilers. */
+/* test_arithmetic.c: wh_scene_start() detects wrong arithmetic of this build, of a file compiled with other flags
+ * (imitated by functions that compute differently), and of a processor in another mode. tests/flags.sh tests the flags
+ * of real compilers. */
 #include "core/number/arithmetic.h"
 #include "core/scene.h"
 
@@ -68,7 +69,7 @@ static void test_a_scene_of_other_arithmetic_is_refused(void) {
         spoilt_to = made[i];
         TEST_ASSERT_TRUE(start() == WH_E_ARITHMETIC);
         TEST_ASSERT_TRUE(state.fault == (int)i);
-        TEST_ASSERT_TRUE(state.steps == 5); /* as before */
+        TEST_ASSERT_TRUE(state.steps == 5); /* the earlier run is unchanged */
     }
 }
 

@@ -21,7 +21,7 @@ TEST(contact, ball_comes_to_rest_and_stays) {
     TEST_ASSERT_TRUE(hand_state.contacts->overruns == 0);
 }
 
-/* A spring presses the body onto the stop, then a load lifts it off. */
+/* A spring presses the body onto the stop, then a load lifts it. */
 TEST(contact, resting_stop_lets_go_when_the_force_turns) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_now.load[0] = WH_R(-1.0);
@@ -37,7 +37,7 @@ TEST(contact, resting_stop_lets_go_when_the_force_turns) {
     TEST_ASSERT_TRUE(hand_near(hand_state.real[1], WH_R(1.0), 1e-12, 1e-5)); /* 2 t */
 }
 
-/* Two stops a micrometre apart and a fast body: far more bounces than a step can hold. */
+/* Two stops one micrometre apart and a fast body: more bounces than a step can resolve. */
 TEST(contact, too_many_bounces_are_counted_and_end) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
@@ -52,7 +52,8 @@ TEST(contact, too_many_bounces_are_counted_and_end) {
     TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
 }
 
-/* Between two walls 1 m apart, n of them hit in each 1 ms step. All hits are counted; the first eight are reported. */
+/* A body bounces between two walls 1 m apart, n times in each step of 1 ms. All events are counted; the first eight are
+ * logged. */
 TEST(contact, a_step_has_room_for_so_many_moments) {
     for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
         const unsigned n = each / 2U;
@@ -61,7 +62,7 @@ TEST(contact, a_step_has_room_for_so_many_moments) {
         hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1.0), WH_R(1.0), WH_R(0.0));
         hand_now.start[0] = WH_R(0.5);
         hand_start(false);
-        hand_steps(each % 2U); /* the first one, or a later one */
+        hand_steps(each % 2U); /* the first step, or a later one */
         hand_state.real[1] = WH_R(1000.0) * (wh_real)n;
         hand_steps(1);
         const bool many = n > WH_EVENTS_MAX;
@@ -80,7 +81,8 @@ TEST(contact, a_step_has_room_for_so_many_moments) {
     }
 }
 
-/* A pressed body hits a wall at the eighth moment, from which it would have separated. It rests there. */
+/* At the eighth moment a pressed body hits a wall from which it would bounce. It comes to rest, which counts as an
+ * overrun. */
 TEST(contact, a_rest_at_the_last_moment_is_counted) {
     for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
@@ -95,7 +97,7 @@ TEST(contact, a_rest_at_the_last_moment_is_counted) {
     }
 }
 
-/* 10 degrees: sin 0.17364818, cos 0.98480775. */
+/* The sine and cosine of 10 degrees. */
 static void build_block(wh_real coefficient) {
     const wh_real normal = HAND_G * WH_R(0.984807753);
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
@@ -111,7 +113,7 @@ TEST(contact, block_sticks_on_the_incline) {
     TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.0) && hand_state.real[1] == WH_R(0.0));
 }
 
-/* A load beyond all bounds: the step is refused; state, modes and books stay unchanged. */
+/* A load that moves the body out of bounds: the step is refused, and state, modes and ledger stay unchanged. */
 TEST(contact, a_refused_step_changes_nothing) {
     hand_build_ball(WH_R(0.5));
     hand_start(true);
@@ -127,7 +129,8 @@ TEST(contact, a_refused_step_changes_nothing) {
     TEST_ASSERT_TRUE(hand_state.fault >= 0);
 }
 
-/* A load drives a component out of bounds. It is named at a run's first step, after an event within a step, and later. */
+/* A load drives a component out of bounds. The fault names this component, at a run's first step, after an event within
+ * a step, and later. */
 TEST(contact, the_component_that_diverged_is_told) {
     for (unsigned where = 0; where < 3; where++) {
         for (unsigned c = 0; c < 2; c++) {

@@ -1,5 +1,6 @@
-/* test_contact_assign.c: a crossing's assignments (contact_resolve.h), on random mechanisms (bench.h). Turn angles and reals
- * are evaluated before any is set, and their low parts are cleared. Invalid values are blamed. */
+/* test_contact_assign.c: a crossing's assignments (contact_resolve.h), on random mechanisms (bench.h). All values are
+ * evaluated before any is set, and the low parts of the assigned components become zero. The fault names a component
+ * that gets an invalid value. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -17,12 +18,13 @@ static void give(const void *model, const wh_phase *phase, const wh_real *linear
     result[0] = values[0];
 }
 
-/* One crossing on a random mechanism of `angles` angles, which sets component `to`. Returns its number. */
+/* Draws a random mechanism of `angles` angles with one crossing, which sets component `to`. Returns the crossing's
+ * number. */
 static unsigned draw_crossing(uint64_t *seed, unsigned n, unsigned angles, unsigned to,
                               wh_contact_work *w, wh_contact_state *s) {
     bench_build(seed, n, angles);
     bench_add_some(seed, WH_KIND_BIT(WH_STOP) | WH_KIND_BIT(WH_HOLD));
-    while (bench_now.system.forced > BENCH_FORCED - 1U) { /* room for one more */
+    while (bench_now.system.forced > BENCH_FORCED - 1U) { /* keeps room for one more contact */
         bench_build(seed, n, angles);
         bench_add_some(seed, WH_KIND_BIT(WH_STOP));
     }
@@ -59,7 +61,7 @@ TEST(contact_assign, each_component_can_be_assigned) {
         const int8_t side = w.mode[k];
         values[0] = draw_broken(&seed, -1000, 1000);
         wh_contact_assign(&bench_now.system, &w, k, NULL, &s);
-        TEST_ASSERT_EQUAL_INT(-side, w.mode[k]); /* it is on the other side */
+        TEST_ASSERT_EQUAL_INT(-side, w.mode[k]); /* the value is on the other side */
         TEST_ASSERT_EQUAL_INT(-1, w.fault);
         for (unsigned i = 0; i < components; i++) {
             const wh_real carry = bench_now.system.compensated && i == to ? WH_R(0.0) : WH_R(0.125);
@@ -76,7 +78,7 @@ TEST(contact_assign, each_component_can_be_assigned) {
     }
 }
 
-/* A turn angle holds less than 1e9 rad, any other component less than 1e15; NaN is invalid. */
+/* A turn angle must be below 1e9 rad, any other component below 1e15; NaN is invalid. The fault names the component. */
 TEST(contact_assign, what_cannot_be_held_is_blamed) {
     uint64_t seed = 1123;
     for (unsigned round = 0; round < 200; round++) {

@@ -1,4 +1,5 @@
-/* test_contact_begin.c: a step's start (contact_step.h) sets all that the contacts' laws read, and held places are the state's. */
+/* test_contact_begin.c: the begin of a step (contact_step.h) sets all values that the contacts' laws read, and copies
+ * the holds' values from the state. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -21,7 +22,7 @@ TEST(contact_begin, nothing_is_left_of_what_was_there) {
             const wh_contact_kind kind = kinds[draw_one_of(&seed, 3)];
             hand_add(kind, -1, WH_R(1.0), WH_R(0.5), WH_R(0.0), WH_R(0.5), WH_R(0.25));
             if (kind == WH_HOLD && hand_now.system.held == 0) {
-                hand_now.system.held = 1; /* the state has room for one */
+                hand_now.system.held = 1; /* the state has memory for the value of one hold */
             }
         }
         hand_start(false);

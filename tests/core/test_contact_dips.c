@@ -1,6 +1,6 @@
-/* test_contact_dips.c: steps that pass a stop and come back (contact_step.h), for random bodies under constant loads with
- * known ends. Stops that were passed and are being left are reported. Stops that are open or closing at the start were hit.
- * Passes between two open ends are found. */
+/* test_contact_dips.c: stops that a body passes and leaves within one step (contact_dip.h), for random bodies under
+ * constant loads, whose motion is known. wh_contact_attempt_dipped() must report such stops. It must report a hit if
+ * the stop was open or closing at the begin. wh_contact_dip() must find a pass between two open ends. */
 #include "draw.h"
 #include "hand.h"
 
@@ -16,7 +16,7 @@ typedef struct drawn_stop {
     wh_real rate[2]; /* rates at the begin and at the end */
 } drawn_stop;
 
-/* Stops on x0 from below, on x1, and on x0 from above. */
+/* Stop k: the first bounds x0 from below, the second x1, the third x0 from above. */
 static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, wh_real offset) {
     const unsigned i = k == 1 ? 1 : 0;
     const wh_real sign = k == 2 ? WH_R(-1.0) : WH_R(1.0);
@@ -28,7 +28,7 @@ static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, w
     return s;
 }
 
-/* Too near zero for round-off to decide. */
+/* False if a number is so near zero that round-off decides. */
 static bool is_plain(const drawn_stop *s) {
     return WH_ABS(s->gap[1]) > WH_R(1e-6) && WH_ABS(s->rate[1]) > WH_R(1e-4) &&
            WH_ABS(s->gap[0]) > WH_R(1e-6) && WH_ABS(s->rate[0]) > WH_R(1e-4);
@@ -38,8 +38,8 @@ TEST(contact_dips, what_dips_and_comes_back) {
     uint64_t seed = 2322;
     unsigned dips = 0;
     unsigned leaves = 0;
-    unsigned passed = 0; /* and left again within the try */
-    unsigned missed = 0; /* too little for the tangents to show */
+    unsigned passed = 0; /* stops that are passed and left again within the trial step */
+    unsigned missed = 0; /* stops passed by less than the tangents can show */
     for (unsigned round = 0; round < 3000; round++) {
         wh_real input[1] = {WH_R(0.0)};
         wh_real offset[3];
@@ -96,7 +96,7 @@ TEST(contact_dips, what_dips_and_comes_back) {
             dips += hit;
             leaves += (leaving >> k & 1U) != 0 && closed && !hit;
         }
-        /* the path is a parabola and open at both ends: its lowest place decides whether the stop is passed */
+        /* The path is a parabola, and open at both ends: its lowest point decides whether the stop is passed. */
         for (unsigned k = 0; k < 3; k++) {
             const drawn_stop *s = &stop[k];
             const wh_real least =

@@ -1,5 +1,6 @@
-/* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads. Each step's
- * state, modes, events and energies equal the reference of exact.h, until a decision depends on round-off (few do). */
+/* test_contact_exact.c: random mechanisms of one or two coordinates with up to three contacts under constant loads.
+ * Each step's state, modes, events and energies equal the reference of exact.h, until a decision depends on round-off,
+ * which is rare. */
 #include <string.h>
 
 #include "draw.h"
@@ -22,7 +23,8 @@ static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
     return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
 }
 
-/* Draws one to three contacts under loads of size `heavy`: stops (one in `touched` touches), a hold, frictions, a crossing. */
+/* Draws one to three contacts under loads of size `heavy`: stops, of which one in `touched` touches at the start, a
+ * hold, frictions, a crossing. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = (unsigned)HAND_CONTACTS - crosses;
@@ -98,14 +100,15 @@ static double rate_of(unsigned k) {
     return sum;
 }
 
-/* The impulse of contact k along its row, by the books. */
+/* The impulse of contact k along its row, from the ledger. */
 static double impulse_of(unsigned k) {
     const wh_real *entry = hand_state.ledger + wh_ledger_of_contact(&hand_books, k) + 1;
     const unsigned i = hand_now.law[k].row[0] != WH_R(0.0) ? 0 : 1;
     return (double)(entry[i] / hand_now.law[k].row[i]);
 }
 
-/* Did the contact act? A stop that round-off finds again as it leaves gets nothing, and a redundant one may get nothing. */
+/* Did the contact act? A stop that leaves may be found again because of round-off, with no impulse. A redundant contact
+ * may have no impulse, either. */
 static bool counts(const exact *e, const wh_event *event) {
     return hand_now.contact[event->contact].kind != WH_STOP || event->mode != WH_FREE ||
            !(e->shared || near((double)event->impulse, 0.0));
@@ -157,7 +160,7 @@ static bool same(const exact *e) {
 
 typedef struct tally {
     unsigned wrong;
-    unsigned steps; /* compared ones */
+    unsigned steps; /* number of compared steps */
     uint64_t events;
 } tally;
 
@@ -177,7 +180,7 @@ static void compare(tally *t) {
         t->steps++;
         t->events += e.logged;
         t->wrong += !good;
-        if (step % 8U == 7U) { /* toggles the hold */
+        if (step % 8U == 7U) { /* changes the condition of the hold */
             hand_state.input[0] = -hand_state.input[0];
             e.pushed = -e.pushed;
         }
@@ -218,7 +221,7 @@ typedef struct reached {
 static reached reached_now(void) {
     const unsigned held = hand_now.system.held;
     reached r;
-    memset(&r, 0, sizeof r); /* padding is compared too */
+    memset(&r, 0, sizeof r); /* memcmp() compares padding, too */
     r.held = held > 0 ? hand_state.held[0] : WH_R(0.0);
     r.events = hand_state.contacts->events;
     for (unsigned i = 0; i < 2 * hand_now.n; i++) {
@@ -235,14 +238,15 @@ static void levels_now(wh_real *level) {
                       hand_state.input, level);
 }
 
-/* Corrects some places and rates, or all of them if runs differ by their carries. The books record the change. */
+/* Corrects some positions and rates, or all of them if the low parts of the runs differ. The ledger records the
+ * change. */
 static void correct(uint64_t *seed) {
     wh_real before[3];
     wh_real after[3];
     wh_real level[3];
     wh_real had[3];
     const bool all = hand_now.system.compensated;
-    double size = 1.0; /* the accounts' round-off */
+    double size = 1.0; /* size of the accounts, for their round-off */
     for (unsigned a = 0; a <= hand_now.n; a++) {
         had[a] = wh_ledger_error(&hand_books, &hand_state, a, level);
         size += (double)WH_ABS(level[a]);
@@ -273,7 +277,7 @@ static wh_real gap_of(unsigned k) {
            hand_now.law[k].row[1] * hand_state.real[hand_now.n - 1] - hand_now.law[k].offset;
 }
 
-/* Number of stops in this mode, and of stops passed by more than `by`. */
+/* Number of stops in mode `rest`, plus those passed by more than `by`. */
 static unsigned stops_that(bool rest, wh_real by) {
     unsigned count = 0;
     for (unsigned k = 0; k < hand_now.system.forced; k++) {
@@ -283,7 +287,7 @@ static unsigned stops_that(bool rest, wh_real by) {
     return count;
 }
 
-/* A corrected run equals, bit by bit, one that starts from the corrected state. No stop stays passed. */
+/* A corrected run has the same bits as a run that starts from the corrected state. No body stays beyond a stop. */
 TEST(contact_exact, a_corrected_run_is_one_that_starts_there) {
     uint64_t seed = 4600;
     unsigned beyond = 0;
@@ -292,7 +296,7 @@ TEST(contact_exact, a_corrected_run_is_one_that_starts_there) {
         draw(&seed, 2, draw_one_in(&seed, 4), draw_one_in(&seed, 2) ? 128 : 1);
         hand_start(true);
         if (stops_that(false, WH_R(0.0)) > 0) {
-            continue; /* contradictory stops */
+            continue; /* the stops contradict each other */
         }
         i++;
         hand_steps(1 + draw_one_of(&seed, STEPS));

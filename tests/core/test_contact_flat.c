@@ -1,12 +1,13 @@
-/* test_contact_flat.c: the places where holds become redundant (core/contact/contact_rank.h). Checks where rows are evaluated,
- * the row of a contact without a hold, and the place of the loss. */
+/* test_contact_flat.c: states in which holds lose rank (core/contact/contact_rank.h): at which states rows are
+ * evaluated, the row of a contact that is no hold, and the state in which rank is lost. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Draws stops and holds on lines and angles, or holds alone. `held`: number of holds that can slip. */
+/* Draws stops and holds on lines and angles, or holds alone. The mechanism's `held` is the number of holds that can
+ * slip. */
 static void draw(uint64_t *seed, unsigned angles, wh_contact_work *w) {
     const unsigned stops = draw_one_in(seed, 2) ? WH_KIND_BIT(WH_STOP) : 0U;
     bench_build(seed, BENCH_COORDS, angles);
@@ -25,7 +26,8 @@ static bool holds(const wh_contact_work *w, unsigned k) {
     return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
 }
 
-/* A contact that holds nothing has a row of zeros. A hold has the part of its row that is independent of the others. */
+/* A contact that is no active hold has a row of zeros. A hold's row is its part that is independent of the other
+ * rows. */
 TEST(contact_flat, rows_are_those_of_the_place) {
     uint64_t seed = 241;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -72,14 +74,15 @@ TEST(contact_flat, rows_are_those_of_the_place) {
     }
 }
 
-/* The rows change with the place of the first line. A step is checked at its end and at the place that its rates alone lead
- * to, whichever comes first. A refused step is checked only at the latter. A check is made only if a curved hold can slip. */
+/* The rows change with the position of the first coordinate. A step is tested at its end and at the state reached by
+ * the rates alone. The test reports the first state in which rank is lost. A refused step is tested only at the latter.
+ * Nothing is tested unless a curved hold can slip. */
 TEST(contact_flat, a_say_is_lost_at_either_place) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
-        wh_contact_state place[3]; /* from, rates' place, to */
+        wh_contact_state place[3]; /* from, the state reached by the rates, to */
         wh_contact_rows rows[3];
         bool any = false;
         draw(&seed, 0, &w);
@@ -114,7 +117,7 @@ TEST(contact_flat, a_say_is_lost_at_either_place) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 64 && seen[1] > ROUNDS / 64 && seen[2] > ROUNDS / 64);
 }
 
-/* The place that the rates lead to: angles advance by their turn, lines by their motion. */
+/* The state reached by the rates alone: angles and positions move by rate times time. */
 TEST(contact_flat, rates_lead_ahead) {
     uint64_t seed = 243;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

@@ -4,7 +4,8 @@
 #include "tests/suites.h"
 
 #define STEP_S WH_R(0.001)
-#define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S) /* a body's fall in a step */
+/* the distance that a body falls in a step */
+#define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S)
 
 /* A ball of 1 kg at rest on a stop that the input moves. */
 static void rest_on_a_stop(bool books) {
@@ -17,8 +18,8 @@ static void rest_on_a_stop(bool books) {
     TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE && hand_state.real[0] == WH_R(0.0));
 }
 
-/* The stop is raised, or lowered by at most the ball's fall in a step, and takes the ball along. The energy m g s is booked
- * to the stop. */
+/* The stop is raised, or lowered by at most the ball's fall in a step, and the ball stays on it. The stop's ledger
+ * entry gets the energy m g s. */
 TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
     const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
                              WH_R(-0.9) * REACH_M};
@@ -54,7 +55,8 @@ TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
     }
 }
 
-/* A stop that no input moves (direction 0) is checked too. Of two bodies on two stops only the one on the moved stop follows. */
+/* A stop that no input moves (direction 0) stays where it is. Of two bodies on two stops only the one on the moved stop
+ * follows. */
 TEST(contact_follow, others_stay_where_they_are) {
     for (unsigned moved = 0; moved < 2; moved++) {
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));
@@ -77,8 +79,8 @@ TEST(contact_follow, others_stay_where_they_are) {
     }
 }
 
-/* Two bodies of 1 and 3 kg held at a distance from an input with a rate, drawn by a load. A jump of the input is corrected at
- * once by both bodies in the ratio of their masses; both continue as one body of 4 kg. */
+/* Two bodies of 1 and 3 kg are held at a distance that is an input with a rate, and a load pulls them. When the input
+ * jumps, both bodies move at once, in inverse ratio of their masses; then they move on as one body of 4 kg. */
 TEST(contact_follow, a_hold_takes_along_what_it_holds) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(3.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
@@ -92,7 +94,7 @@ TEST(contact_follow, a_hold_takes_along_what_it_holds) {
         hand_now.law[0].offset = WH_R(0.01) * (wh_real)(i % 7U);
         hand_steps(1);
     }
-    const wh_real way = WH_R(0.005); /* 1 m/s^2 for 0.1 s */
+    const wh_real way = WH_R(0.005); /* distance after 0.1 s at 1 m/s^2 */
     TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE);
     const wh_real longer = WH_R(0.01) * WH_R(1.0);
     TEST_ASSERT_TRUE(
@@ -109,8 +111,8 @@ static wh_real shown(unsigned i) {
     return accel[i];
 }
 
-/* Accelerations before and after the first step: zero on a stop, free fall above it. Friction holds up to its limit, then
- * slows the slide. */
+/* Recorded accelerations before and after the first step: zero on a stop, free fall above it. Friction balances the
+ * load up to its limit, then slows the slide. */
 TEST(contact_follow, accelerations_with_their_contacts) {
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));
@@ -127,7 +129,7 @@ TEST(contact_follow, accelerations_with_their_contacts) {
         hand_build(1, WH_R(2.0), WH_R(0.0), WH_R(1.0));
         hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(2.0), WH_R(1.0));
         hand_now.load[0] = load;
-        hand_now.start[1] = WH_R(1.0) - (wh_real)(k % 3U); /* forward, still, backward */
+        hand_now.start[1] = WH_R(1.0) - (wh_real)(k % 3U); /* forward, at rest, backward */
         hand_start(false);
         const wh_real way = k % 3U != 1        ? hand_now.start[1]
                             : load > WH_R(0.0) ? WH_R(1.0)

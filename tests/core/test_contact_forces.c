@@ -1,5 +1,5 @@
-/* test_contact_forces.c: the forces and impulses of core/contact/contact_forces.h and their elimination, against dense solves.
- * For redundant contacts the reference is the sharing that test_contact_pivot.c tests. */
+/* test_contact_forces.c: the forces and impulses of core/contact/contact_forces.h and their elimination, compared with
+ * dense solves. For redundant contacts the reference is wh_contact_lcp(), which test_contact_pivot.c tests. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -11,8 +11,8 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_work(seed, some, w);
 }
 
-/* The load of a contact contains the effect of the other contacts' forces. A redundant contact, or one at a limit, has no
- * effect. */
+/* The load of a contact includes the effect of the other contacts' forces. A contact that is redundant or at a limit
+ * gets no force here. */
 TEST(contact_forces, a_load_is_what_a_dense_solve_says) {
     uint64_t seed = 101;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -144,7 +144,7 @@ TEST(contact_forces, forces_keep_what_is_kept) {
     TEST_ASSERT_TRUE(regular > ROUNDS / 32);
 }
 
-/* Do the redundant contacts get their targets from these? */
+/* Do the redundant contacts reach their targets by the forces of the others? */
 static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, const wh_real *wanted,
                    wh_real *lambda) {
     bool good = true;
@@ -159,9 +159,9 @@ static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, cons
     return good;
 }
 
-/* Redundant contacts carry nothing if they agree with the others and no limit is exceeded. Otherwise they share the load, and
- * a contact that cannot take its share reports a force beyond its limit. The motion changes only if contacts contradict each
- * other. */
+/* Redundant contacts get no force if they agree with the others and no limit is exceeded. Otherwise they share the
+ * load, and a contact that cannot take its share reports a force beyond its limit. The motion changes only if contacts
+ * contradict each other. */
 TEST(contact_forces, what_repeats_others_shares_their_load) {
     uint64_t seed = 222;
     unsigned seen[2][2] = {{0}};
@@ -200,7 +200,8 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
         if (repeats == 0) {
             continue;
         }
-        for (unsigned i = 0; i < count; i++) { /* of its own path's curvature, and of all */
+        for (unsigned i = 0; i < count; i++) {
+            /* sizes of the terms: of the path's curvature alone, and of all terms */
             bend[i] = -bench_now.bias[member[i]];
         }
         contradicts = !agrees(member, count, repeats, bend, lambda);
@@ -223,7 +224,8 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
         for (unsigned i = 0; i < count; i++) {
             const unsigned k = member[i];
             wh_real force_of = lambda[i];
-            if ((giving >> k & 1U) != 0) { /* its additional force, at least a thousandth */
+            if ((giving >> k & 1U) != 0) {
+                /* the excess of the force that it reports: at least a thousandth of the limit */
                 force_of -= left[i] / bench_delassus(k, k);
                 if (!wh_contact_exceeds(of, &w, k, force_of)) {
                     force_of +=
@@ -232,7 +234,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             }
             TEST_ASSERT_TRUE(bench_near(w.force[k], force_of));
         }
-        if (!contradicts) { /* to the bit as without sharing */
+        if (!contradicts) { /* the same bits as without sharing */
             (void)wh_delassus_solve(of, &w, member, count, NULL, w.wanted, plain);
             for (unsigned i = 0; i < count; i++) {
                 wh_contact_apply(of, &w, member[i], plain[i], unshared);
@@ -258,7 +260,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
     TEST_ASSERT_TRUE(seen[0][1] > ROUNDS / 32 && seen[1][1] > ROUNDS / 32);
 }
 
-/* A pinned and held coordinate has zero acceleration, but its unconstrained acceleration must be a number. */
+/* A coordinate that is pinned and held has zero acceleration, unless its unconstrained acceleration is NaN. */
 TEST(contact_forces, no_number_stays_none_where_it_is_pinned) {
     uint64_t seed = 223;
     for (unsigned round = 0; round < ROUNDS / 8; round++) {
@@ -282,8 +284,9 @@ TEST(contact_forces, no_number_stays_none_where_it_is_pinned) {
 
 /* --- impulses ------------------------------------------------------------------------------------------------- */
 
-/* Each contact in the set reaches its target; holds and neighbouring stops reach zero, stops by pushing only. A pinned contact
- * that comes to zero is there exactly. Impulses add to the earlier ones; the books get the work at the mean speed. */
+/* Each contact in the set reaches its target rate; active holds, and the stops in `beside`, reach zero; stops only
+ * push. A pinned contact whose target is zero gets exactly zero. Impulses are added to the earlier ones; the ledger
+ * gets the work at the mean speed. */
 TEST(contact_forces, impulses_lead_to_their_targets) {
     uint64_t seed = 224;
     unsigned given = 0;

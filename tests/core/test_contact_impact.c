@@ -1,12 +1,12 @@
-/* test_contact_impact.c: the decisions before an impact (core/contact/contact_impact.h), function by function: pressed,
- * resting, touching, hit along. Numbers lie just on either side of each limit. */
+/* test_contact_impact.c: the conditions of an impact, function by function (core/contact/contact_impact.h): is a stop
+ * pressed, at rest, touching, hit in the same moment? The numbers are just on either side of each limit. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Just within a limit of 1, or just beyond. */
+/* A random number just below 1, or just above it. */
 static wh_real beside_one(uint64_t *seed, bool *within) {
     *within = draw_one_in(seed, 2);
     return *within ? WH_R(0.9375) : WH_R(1.0625);
@@ -24,7 +24,8 @@ static bool is_stop(unsigned k) { return bench_now.contact[k].kind == WH_STOP; }
 
 /* --- one stop ------------------------------------------------------------------------------------------------ */
 
-/* A press within the round-off of its terms does not count. If the stop is the only contact, any press counts. */
+/* An acceleration onto the stop within the round-off of its terms counts as zero. If the stop is the only contact, any
+ * acceleration counts. */
 TEST(contact_impact, who_is_pressed) {
     uint64_t seed = 301;
     unsigned pressed = 0;
@@ -54,8 +55,8 @@ TEST(contact_impact, who_is_pressed) {
     TEST_ASSERT_TRUE(pressed > ROUNDS / 3 && pressed < ROUNDS);
 }
 
-/* A flight shorter than its share of the step counts as rest. Without a press, a stop rests only if its rate is known to be
- * zero. */
+/* A flight shorter than its share of the step counts as rest. If nothing presses the body onto the stop, it rests only
+ * if its rate counts as zero. */
 TEST(contact_impact, who_rests) {
     uint64_t seed = 302;
     unsigned resting = 0;
@@ -84,7 +85,7 @@ TEST(contact_impact, who_rests) {
                                                    : false;
         TEST_ASSERT_TRUE(wh_contact_rests(&bench_now.system, &w, k, &m, speed, accel, rate) ==
                          wanted);
-        TEST_ASSERT_TRUE(pressing != WH_R(0.0) || /* a lone stop: not even a little */
+        TEST_ASSERT_TRUE(pressing != WH_R(0.0) || /* a single stop: any acceleration counts */
                          !wh_contact_rests(&bench_now.system, &w, k, &m, 64, accel, rate));
         resting += wanted;
     }
@@ -93,7 +94,8 @@ TEST(contact_impact, who_rests) {
 
 /* --- several ------------------------------------------------------------------------------------------------- */
 
-/* Stops that touch: resting, with restitution, and with a force of zero relative to the accelerations and the other forces. */
+/* The stops that merely touch: at rest, with a restitution, and with a force that is zero relative to the accelerations
+ * and the other forces. */
 TEST(contact_impact, who_merely_touches) {
     uint64_t seed = 303;
     unsigned loose = 0;
@@ -126,7 +128,7 @@ TEST(contact_impact, who_merely_touches) {
     TEST_ASSERT_TRUE(loose > ROUNDS / 32);
 }
 
-/* Stops hit in the same moment: free and closing, with a gap smaller than the motion in the step's finest share. */
+/* The stops hit in the same moment: free and closing, with a gap smaller than the location error. */
 TEST(contact_impact, who_is_hit_in_the_same_moment) {
     uint64_t seed = 304;
     unsigned tied = 0;
@@ -141,7 +143,7 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
         wh_real signal[2 * BENCH_CONTACTS];
         bench_work(&seed, true, &w);
         for (unsigned i = 0; i < 2 * BENCH_CONTACTS; i++) {
-            signal[i] = draw_whole(&seed, 1, 4); /* open, and opening */
+            signal[i] = draw_whole(&seed, 1, 4); /* open and opening */
         }
         const wh_real h = draw_whole(&seed, 0, 4);
         const wh_real *rate = wh_contact_rates(&bench_now.system, &s);
@@ -163,7 +165,8 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
     TEST_ASSERT_TRUE(tied > ROUNDS / 32);
 }
 
-/* Stops that an impact is passed on to: free, touching, and made to close by the hit, or to close more than twice as fast. */
+/* The stops that an impact is passed on to: free and touching. The impact makes them close, or close more than twice as
+ * fast. */
 TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     uint64_t seed = 305;
     unsigned passed = 0;
@@ -171,7 +174,7 @@ TEST(contact_impact, to_whom_an_impact_is_passed_on) {
         wh_contact_work w;
         wh_real before[2 * BENCH_CONTACTS];
         wh_real after[2 * BENCH_CONTACTS];
-        unsigned wanted = draw_one_in(&seed, 2) ? 1U : 0U; /* the earlier ones */
+        unsigned wanted = draw_one_in(&seed, 2) ? 1U : 0U; /* stops already in the set */
         bench_draw(&seed, true);
         bench_work(&seed, true, &w);
         w.hit_next = wanted;
@@ -196,7 +199,8 @@ TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     TEST_ASSERT_TRUE(passed > ROUNDS / 64);
 }
 
-/* Stops beside an impact: free, without restitution, touching, and at rest relative to the hit's effect on them. */
+/* The stops that take part in an impact although they are not hit: free, without restitution, touching, and at rest
+ * relative to the rate that the hit causes. */
 TEST(contact_impact, who_is_beside_an_impact) {
     uint64_t seed = 306;
     unsigned beside = 0;
@@ -219,7 +223,7 @@ TEST(contact_impact, who_is_beside_an_impact) {
         for (unsigned i = 0; i < BENCH_CONTACTS; i++) {
             was[i] = draw_whole(&seed, -4, 0);
             target[i] = draw_whole(&seed, 0, 4);
-            signal[2 * i] = signal[2 * i + 1] = BENCH_SENTINEL; /* no other is in touch */
+            signal[2 * i] = signal[2 * i + 1] = BENCH_SENTINEL; /* the others do not touch */
         }
         const wh_real passed_on =
             WH_ABS(bench_delassus(l, k) * (target[k] - was[k])) / bench_delassus(k, k);
@@ -227,7 +231,7 @@ TEST(contact_impact, who_is_beside_an_impact) {
         signal[2 * l] = passed_on * (h * WH_BRACKET) * beside_one(&seed, &touched);
         const wh_real share = beside_one(&seed, &still);
         bench_vector(&seed, rate);
-        for (unsigned i = 0; i < n; i++) { /* its speed along the row */
+        for (unsigned i = 0; i < n; i++) { /* its rate along the row */
             const wh_real size = bench_delassus(l, l);
             rate[i] = bench_way(l, i) / size * (WH_CONTACT_STILL * passed_on * share);
         }
@@ -263,7 +267,8 @@ TEST(contact_impact, a_restitution) {
 
 /* --- after too many events ------------------------------------------------------------------------------------ */
 
-/* Newton's method finds a curved surface in a limited number of steps. After the last evaluation nothing moves. */
+/* Newton's method projects a body onto a curved surface in a limited number of steps. After the last evaluation the
+ * body does not move. */
 TEST(contact_impact, a_squeeze_ends) {
     uint64_t seed = 308;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -276,7 +281,8 @@ TEST(contact_impact, a_squeeze_ends) {
         bench_state(&seed, &s);
         s.real[0] = x;
         bench_now.row[0][0] = WH_R(0.0);
-        bench_now.signal[0] = h; /* the gap: h - x^2/2, with an inexact root */
+        /* the gap is h - x^2/2, whose root is no real number of the build */
+        bench_now.signal[0] = h;
         bench_work(&seed, false, &w);
         w.mode[0] = WH_FREE;
         bench_now.moves = true;
@@ -295,8 +301,8 @@ TEST(contact_impact, a_squeeze_ends) {
     }
 }
 
-/* The body is beyond a surface that curves away. The first push moves it too far, and the next ones bring it back to its own
- * side. */
+/* A body is beyond a surface that curves away from it. The first projection moves it too far, and the next ones bring
+ * it back to the surface. */
 TEST(contact_impact, what_is_pushed_too_far_comes_back) {
     uint64_t seed = 309;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -312,7 +318,7 @@ TEST(contact_impact, what_is_pushed_too_far_comes_back) {
         bench_state(&seed, &s);
         s.real[0] = side * radius * depth;
         bench_now.row[0][0] = WH_R(0.0);
-        bench_now.signal[0] = -radius * radius / 2; /* the gap: x^2/2 - radius^2/2 */
+        bench_now.signal[0] = -radius * radius / 2; /* the gap is x^2/2 - radius^2/2 */
         bench_work(&seed, false, &w);
         w.mode[0] = WH_FREE;
         bench_now.moves = true;

@@ -1,4 +1,4 @@
-/* test_contact_load.c: the parts of core/contact/contact_lcp.h against a dense solve and explicit sums; limits are met exactly. */
+/* test_contact_load.c: the parts of core/contact/contact_lcp.h, compared with a dense solve and with explicit sums. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -16,7 +16,8 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     }
 }
 
-/* A stop pushes with zero or more, friction acts up to its limit, a hold without limit. No contact takes more than its limit. */
+/* The limits of a contact's force: zero and none for a stop, the static or kinetic limit for friction, none for a
+ * hold. */
 TEST(contact_load, who_takes_how_much) {
     uint64_t seed = 102;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -38,7 +39,8 @@ TEST(contact_load, who_takes_how_much) {
     }
 }
 
-/* The terms of one contact: its bias, and each coordinate's share of the accelerations and of every force. */
+/* The magnitudes of the terms of a contact's acceleration: its bias, and each coordinate's part of the accelerations
+ * and of every force. */
 static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *accel) {
     wh_real size = WH_ABS(bench_now.bias[k]);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
@@ -85,7 +87,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
         for (unsigned i = 0; i < count; i++) {
             w.rough[member[i]] = BENCH_SENTINEL;
         }
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* of no other */
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* effect of no other contact */
             TEST_ASSERT_TRUE(w.rough[k] == BENCH_SENTINEL);
         }
     }
@@ -94,7 +96,8 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
     TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
 }
 
-/* Direction of a force that is missing, or that the curvature alone requires. With `impulse`, of rates, without curvature. */
+/* Reference for the direction of the push that is missing, from the accelerations or from the curvature alone. With
+ * `impulse`, rates, without curvature. */
 static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
                      wh_real bends_by) {
     const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));
@@ -109,7 +112,7 @@ static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, 
     return 0;
 }
 
-/* Each term alone is at the threshold, below it and above it. */
+/* wh_contact_contradicts(): each term, with the others zero, is at its threshold, below it and above it. */
 TEST(contact_load, what_contradicts_is_told_from_rounding) {
     uint64_t seed = 104;
     unsigned seen[3] = {0};
@@ -142,7 +145,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
             impulse[i] = draw_whole(&seed, -4, 4) * (rates ? big : WH_R(1.0));
             wanted[i] = bench_along(k, way) + draw_whole(&seed, -8, 8);
             if (rates &&
-                draw_one_in(&seed, 2)) { /* relative to its size round-off only, or just more */
+                draw_one_in(&seed, 2)) { /* relative to its size only round-off, or just above */
                 const wh_real made = bench_along(k, way);
                 const wh_real part = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
                 wanted[i] = made + part * WH_CONTACT_ROUNDING * made;
@@ -151,7 +154,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
         }
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         const unsigned repeats = bench_repeats(member, count, at);
-        /* with curvature, only redundant contacts are asked */
+        /* with curvature, only redundant contacts are tested */
         const unsigned any = small == WH_R(0.0) || rates ? (1U << count) - 1U : repeats;
         const unsigned asked = any & (unsigned)draw_bits(&seed);
         out = repeats;
@@ -190,7 +193,8 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 8 && seen[1] > ROUNDS / 8 && seen[2] > ROUNDS / 8);
 }
 
-/* Two contacts of one row with nearly equal curvature: the difference counts relative to both and to the terms of one of them. */
+/* Two contacts with the same row and nearly equal curvature. The difference is compared with both curvatures and with
+ * the terms of one contact. */
 TEST(contact_load, a_small_difference_of_bends_is_none) {
     uint64_t seed = 107;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
@@ -221,7 +225,7 @@ TEST(contact_load, a_small_difference_of_bends_is_none) {
     }
 }
 
-/* The contact that reaches a limit first if redundant contact i is pushed and nothing may move. */
+/* Reference: the contact that reaches a limit first if redundant contact i is pushed and nothing may move. */
 static unsigned first_of(const uint8_t *member, unsigned count, const int8_t *at,
                          const wh_real *lambda, unsigned i, int8_t push, int8_t *limit, bool *tie) {
     int8_t fixed[BENCH_CONTACTS];
@@ -307,7 +311,7 @@ TEST(contact_load, who_is_at_a_limit_first_gives_way) {
     TEST_ASSERT_TRUE(asked > ROUNDS / 10 && others > ROUNDS / 40);
 }
 
-/* In a round, contacts at a limit push with that limit, and the others take the remainder. */
+/* In a round of the pivoting, contacts at a limit get that force, and the others balance the remainder. */
 TEST(contact_load, a_round_bears_what_limits_leave) {
     uint64_t seed = 106;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -342,7 +346,7 @@ TEST(contact_load, a_round_bears_what_limits_leave) {
             right[i] = at[i] != 0 ? right[i] : lambda[i];
             lambda[i] = BENCH_SENTINEL;
         }
-        if (count > 1) { /* of one contact: contact_lcp_one() solves it */
+        if (count > 1) { /* contact_lcp_one() solves the problem of a single contact */
             TEST_ASSERT_EQUAL_UINT(repeats, wh_contact_lcp_round(&bench_now.system, &w, member,
                                                                  count, at, wanted, lambda, way));
             for (unsigned c = 0; c < bench_now.system.coordinates; c++) {

@@ -1,11 +1,12 @@
-/* test_contact_margins.c: the margins of the search in core/contact/contact_locate.h, its path, and the contact named for NaN. */
+/* test_contact_margins.c: the margins of the search in core/contact/contact_locate.h, its path, and which contact is
+ * reported for NaN. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Contacts of some kinds in some modes, with room permitting a crossing or two. */
+/* Draws contacts of some kinds in some modes, and a crossing or two if there is room. */
 static void draw(uint64_t *seed, wh_contact_work *w) {
     bench_draw(seed, true);
     while (bench_now.system.contacts < BENCH_FORCED && draw_one_in(seed, 2)) {
@@ -25,7 +26,7 @@ static void draw(uint64_t *seed, wh_contact_work *w) {
     w->inside = (unsigned)draw_bits(seed) % 32U;
 }
 
-/* Bound on the round-off of the others' forces along k. */
+/* Bound on the round-off of the acceleration along k that the other contacts' forces cause. */
 static wh_real others_of(const wh_contact_work *w, unsigned k) {
     wh_real others = WH_R(0.0);
     for (unsigned l = 0; l < bench_now.system.forced; l++) {
@@ -140,7 +141,7 @@ static wh_real draw_none(uint64_t *seed) {
 
 static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
 
-/* The law that a step depends on in the contact's current mode; a stop has none. */
+/* Is the law finite that a step depends on in the contact's current mode? A stop has none. */
 static bool law_is_number(const wh_contact_work *w, unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
     const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && bench_keeps(w, k));
@@ -148,8 +149,8 @@ static bool law_is_number(const wh_contact_work *w, unsigned k) {
     return !asked || is_number(second ? bench_now.second[k] : bench_now.first[k]);
 }
 
-/* Among several contacts, some of them NaN, signals are checked first, then laws if any contact acts, then margins. The first
- * NaN of each is reported, and an earlier report stays. */
+/* If several contacts have NaN, signals are checked first, then laws (if any contact acts), then margins. The first NaN
+ * that is found is reported, and an earlier report stays. */
 TEST(contact_margins, the_first_that_is_no_number_is_told) {
     uint64_t seed = 183;
     unsigned told[BENCH_FORCED] = {0};
@@ -201,7 +202,7 @@ TEST(contact_margins, the_first_that_is_no_number_is_told) {
     }
 }
 
-/* The cubic with these end values and slopes (over the whole path), in Bezier's form, by de Casteljau. */
+/* Reference: the cubic with these values and slopes at its ends, in Bezier's form, by de Casteljau's algorithm. */
 static double cubic(double s, double from, double slope0, double to, double slope1) {
     double point[4] = {from, from + slope0 / 3.0, to - slope1 / 3.0, to};
     for (unsigned left = 3; left > 0; left--) {
@@ -226,7 +227,7 @@ TEST(contact_margins, the_way_is_a_cubic_through_both_ends) {
         bench_state(&seed, &to);
         const wh_real h = draw_whole(&seed, 1, 8) / 8;
         const wh_real s = draw_whole(&seed, 0, 16) / 16;
-        for (unsigned i = 0; i < of->angles; i++) { /* less than a half turn */
+        for (unsigned i = 0; i < of->angles; i++) { /* less than half a turn */
             to.angle[i] = from.angle[i] +
                           (wh_angle)(draw_whole(&seed, -3, 3) / 4 * (wh_real)WH_PHASE_PER_RAD);
             const unsigned rate = (unsigned)(of->coordinates - of->angles) + i;

@@ -1,4 +1,5 @@
-/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, in parts and whole, against a trial of all cases. */
+/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, its parts and the whole. The reference tries every
+ * combination of limits. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -26,12 +27,13 @@ static wh_real noise_of(const wh_contact_work *w, unsigned k, bool forces, wh_re
     return WH_CONTACT_ROUNDING * sum + (forces ? WH_CONTACT_QUIET * w->rough[k] : WH_R(0.0));
 }
 
-/* 0, or so large that its round-off is of the size of the drawn numbers. */
+/* A bound on round-off: 0, or as large as the drawn numbers. */
 static wh_real draw_rough(uint64_t *seed) {
     return draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 8) / WH_CONTACT_QUIET;
 }
 
-/* One contact gets exactly its limit, less, more, more by round-off only, or just more than that. */
+/* A single contact whose wanted force is exactly its limit, less, more, more by round-off only, or just more than
+ * that. */
 TEST(contact_pivot, one_contact_takes_what_it_can) {
     uint64_t seed = 121;
     unsigned gave = 0;
@@ -48,8 +50,7 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
         w.rough[k] = draw_rough(&seed);
         wh_real wanted = draw_whole(&seed, -8, 8);
         if (draw_one_in(&seed, 2) && (up ? high_of(k) : -low_of(k)) < WH_LIMITLESS) {
-            wanted =
-                (up ? high_of(k) : low_of(k)) * yield; /* the limit, and a little more or less */
+            wanted = (up ? high_of(k) : low_of(k)) * yield; /* the limit, times a factor near 1 */
             const wh_real off = tenths[draw_bits(&seed) % 4U] *
                                 noise_of(&w, k, forces, wanted, wanted, wanted / yield);
             wanted += draw_one_in(&seed, 2) ? off : -off;
@@ -73,7 +74,7 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
     TEST_ASSERT_TRUE(gave > ROUNDS / 8);
 }
 
-/* A contact at a limit keeps its place in the list. One that leaves a limit goes to the end and is tested again for
+/* A contact that stays at a limit keeps its index. One that leaves a limit becomes the last, and is tested again for a
  * contradiction. */
 TEST(contact_pivot, who_leaves_a_limit_is_eliminated_last) {
     uint64_t seed = 122;
@@ -106,7 +107,8 @@ TEST(contact_pivot, who_leaves_a_limit_is_eliminated_last) {
     }
 }
 
-/* Among contacts beyond a limit, or pulled on at one, the one with the lowest number is chosen, wherever it is in the list. */
+/* Of the contacts beyond a limit, and those at a limit that should leave it, the one with the lowest number is chosen,
+ * whatever its index. */
 TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
     uint64_t seed = 123;
     unsigned none = 0;
@@ -137,7 +139,8 @@ TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
         TEST_ASSERT_TRUE(count <= BENCH_FORCED);
         const unsigned said =
             wh_contact_pivot_wrong(&bench_now.system, &w, &p, count, forces, way, &to);
-        for (unsigned k = 0; k < bench_now.system.forced; k++) { /* by number */
+        for (unsigned k = 0; k < bench_now.system.forced; k++) {
+            /* in the order of the contacts' numbers */
             for (unsigned i = 0; i < count; i++) {
                 if (p.member[i] != k) {
                     continue;
@@ -171,7 +174,8 @@ TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
 
 #define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
 
-/* Case `number` in base three: each contact at its low limit, free, or at its high limit. Does it solve the problem? */
+/* Digit k of `number` in base three: contact k is at its low limit, free, or at its high limit. Does this combination
+ * solve the problem? */
 static bool solves(unsigned number, const uint8_t *member, unsigned count, const wh_real *wanted,
                    wh_real *lambda, wh_real *left) {
     int8_t at[BENCH_CONTACTS];
@@ -208,7 +212,8 @@ static bool solves(unsigned number, const uint8_t *member, unsigned count, const
     return true;
 }
 
-/* The accelerations are those of every case that solves the problem, and so are the forces if no rows are dependent. */
+/* The accelerations equal those of every combination that solves the problem, and so do the forces if no rows are
+ * dependent. */
 TEST(contact_pivot, no_case_solves_it_otherwise) {
     uint64_t seed = 124;
     unsigned solved = 0;
@@ -236,7 +241,7 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
         const bool forces = draw_one_in(&seed, 2); /* or impulses */
         const unsigned giving =
             wh_contact_lcp(&bench_now.system, &w, member, count, wanted, forces, lambda, left);
-        if (number == cases) { /* contradictory holds */
+        if (number == cases) { /* no combination solves it: the holds contradict each other */
             continue;
         }
         solved++;
@@ -253,8 +258,8 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
     TEST_ASSERT_TRUE(solved > ROUNDS / 2);
 }
 
-/* The cycle is forced, because here no residual counts as small. It ends after 4 n + 1 rounds, counting the last round's
- * release. */
+/* A problem that would cycle, because no residual counts as small here. It ends after 4 n + 1 rounds, including the
+ * last round's release. */
 TEST(contact_pivot, what_does_not_end_is_ended) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {

@@ -1,11 +1,12 @@
-/* test_contact_places.c: the functions of core/contact/contact_project.h one by one, against dense solves in the mass metric. */
+/* test_contact_places.c: the functions of core/contact/contact_project.h one by one, compared with dense solves in the
+ * mass metric. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Contacts of some kinds in some modes; straight or curved holds, each with its held place. */
+/* Draws contacts of some kinds in some modes, with straight or curved holds, each with its stored value. */
 static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_draw(seed, true);
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
@@ -37,14 +38,15 @@ TEST(contact_places, a_coordinate_moves_and_no_other) {
             TEST_ASSERT_TRUE(bench_near(bench_moved(&from, &to, i), i == moved ? by : WH_R(0.0)));
             TEST_ASSERT_TRUE(i == moved || bench_moved(&from, &to, i) == WH_R(0.0));
         }
-        for (unsigned i = 0; i < bench_now.system.coordinates; i++) { /* nor a rate */
+        for (unsigned i = 0; i < bench_now.system.coordinates; i++) { /* nor does a rate */
             const wh_real *was = wh_contact_rates(&bench_now.system, &from);
             TEST_ASSERT_TRUE(wh_contact_rates(&bench_now.system, &to)[i] == was[i]);
         }
     }
 }
 
-/* The products have as many bits as a 64-bit integer holds. A plain sum would lose the last ones. */
+/* wh_contact_add_product(): the products need as many bits as a 64-bit integer has. A plain sum would lose the last
+ * ones. */
 TEST(contact_places, no_bit_of_a_product_is_lost) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
@@ -62,7 +64,7 @@ TEST(contact_places, no_bit_of_a_product_is_lost) {
     }
 }
 
-/* J times the motion, of lines and angles at any distance. It is exact for two far turns that differ by the same factor. */
+/* wh_contact_moved(): J times the motion of positions and angles, at any distance from zero. */
 TEST(contact_places, a_straight_way_is_summed_without_rounding) {
     uint64_t seed = 143;
     const uint64_t most = WH_DOUBLE ? 0x3fffffff : 0x7ffff;
@@ -80,7 +82,7 @@ TEST(contact_places, a_straight_way_is_summed_without_rounding) {
         const unsigned k = draw_one_of(&seed, 2U);
         const int64_t way = (int64_t)(draw_bits(&seed) & most);
         const wh_real factor = (wh_real)(draw_bits(&seed) & most);
-        int64_t sums[2] = {0, 0}; /* of turns, of metres */
+        int64_t sums[2] = {0, 0}; /* sums for angles and for positions */
         bench_state(&seed, &from);
         for (unsigned i = 0; far && i < n; i++) {
             bench_now.row[k][i] = factor;
@@ -101,7 +103,7 @@ TEST(contact_places, a_straight_way_is_summed_without_rounding) {
         bench_work(&seed, false, &w);
         const double turns = (double)sums[0] / (double)WH_PHASE_PER_RAD;
         const double ways = (double)sums[1];
-        /* float: the last eight bits of each angle's motion are a rounded product */
+        /* in float the last eight bits of each angle's motion are a rounded product */
         const double last = far ? 512.0 * (double)factor / (double)WH_PHASE_PER_RAD : 0.0;
         const double size = last + (turns < 0.0 ? -turns : turns) + (ways < 0.0 ? -ways : ways);
         const double off =
@@ -175,7 +177,8 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
         was = w;
         const unsigned one = draw_one_of(&seed, of->forced);
         wh_contact_capture(of, &w, one);
-        for (unsigned place = 0; place < BENCH_CONTACTS; place++) { /* the captured one */
+        for (unsigned place = 0; place < BENCH_CONTACTS; place++) {
+            /* its index among the captured values */
             const wh_contact *c = &bench_now.contact[one];
             const bool its = slips(&w, one) && c->first_set == place;
             const wh_real kept = c->direction > 0 ? WH_R(0.0) : bench_now.first[one];
@@ -185,7 +188,7 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
         wh_contact_keep(of, &w, &from, &to);
         for (unsigned k = 0; k < of->forced; k++) {
             const wh_contact *c = &bench_now.contact[k];
-            if (slips(&w, k)) { /* its total slip */
+            if (slips(&w, k)) { /* its slip so far */
                 const wh_real kept =
                     c->direction > 0 ? drift_of(&was, k, &from, &to) : was.held[c->first_set];
                 TEST_ASSERT_TRUE(bench_near(w.held[c->first_set], kept));
@@ -196,8 +199,8 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 16 && seen[1] > ROUNDS / 16 && seen[2] > ROUNDS / 16);
 }
 
-/* A stop is far passed if its error exceeds a share of the gap's terms: an entry of the row times the place of a line, or
- * times one radian for an angle. */
+/* wh_contact_is_far(): a stop counts as far passed if its error exceeds a share of the gap's terms. A term is an entry
+ * of the row times the position of a coordinate, or times one radian for an angle. */
 TEST(contact_places, how_far_a_stop_is_passed) {
     uint64_t seed = 145;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -226,7 +229,7 @@ TEST(contact_places, how_far_a_stop_is_passed) {
     }
 }
 
-/* The step's end is written to the state completely, and nothing after it changes. It reads back the same. */
+/* The end of a step is copied to the state completely, and nothing after it changes. Copied back, it is the same. */
 TEST(contact_places, a_step_is_written_down_and_read_back) {
     uint64_t seed = 146;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

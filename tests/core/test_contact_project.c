@@ -1,12 +1,12 @@
-/* test_contact_project.c: projection of places onto the constraints, and of rates to zero (core/contact/contact_project.h). The
- * reference is a dense solve in the mass metric. Limits are met exactly, and the books get the energy. */
+/* test_contact_project.c: projection of positions onto the constraints, and of rates to zero
+ * (core/contact/contact_project.h). The reference is a dense solve in the mass metric. The ledger gets the energy. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Contacts of some kinds in some modes; holds that hold only their curve's value. */
+/* Draws contacts of some kinds in some modes; the holds are curved. */
 static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *books) {
     bench_draw(seed, true);
     for (unsigned k = 0; k < bench_now.system.forced; k++) {
@@ -15,7 +15,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *
             c->first_set = c->pin < 0 ? bench_now.system.held++ : BENCH_CONTACTS - 1;
         }
         bench_now.signal[2 * k] *= draw_one_in(seed, 3) ? WH_R(0.0) : WH_R(0.03125);
-        bench_now.first[k] /= 32; /* each turns by less than half a turn */
+        bench_now.first[k] /= 32; /* each angle moves by less than half a turn */
     }
     bench_work(seed, some, w);
     w->books = draw_one_in(seed, 2) ? books : NULL;
@@ -25,7 +25,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *
     }
 }
 
-/* The constraint error of contact k, if it has one: a stop's gap, a curved hold's slip. */
+/* The error of contact k's constraint, if it has one: a stop's gap, a curved hold's slip. */
 static wh_real off_of(const wh_contact_work *w, unsigned k) {
     const wh_contact *c = &bench_now.contact[k];
     const wh_real slipped = c->pin < 0 ? bench_now.first[k] - w->held[c->first_set] : WH_R(0.0);
@@ -57,7 +57,8 @@ static void add_least(const uint8_t *member, unsigned count, const wh_real *want
     }
 }
 
-/* A pinned contact goes straight back if it is the first of its coordinate or is still beyond its place. */
+/* A pinned contact moves its coordinate to the constraint if it is the first of this coordinate or still beyond the
+ * constraint. */
 static void go_back(const uint8_t *member, unsigned count, const wh_real *off, wh_real *way) {
     bool first[BENCH_COORDS];
     for (unsigned c = 0; c < BENCH_COORDS; c++) {
@@ -75,8 +76,9 @@ static void go_back(const uint8_t *member, unsigned count, const wh_real *off, w
     }
 }
 
-/* Pinned contacts go straight back. The others move together along the least-mass path, and constraints keep them with the
- * pinned ones. The result is coarse if the error exceeds its share of the motion. */
+/* Pinned contacts move their coordinate directly. The other contacts are projected together by the smallest move in the
+ * mass metric, while the pinned coordinates are fixed. A second projection is asked for if the error exceeds its share
+ * of the motion. */
 TEST(contact_project, places_are_put_right_by_the_least_way) {
     uint64_t seed = 161;
     unsigned coarse = 0;
@@ -102,7 +104,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
         spot.mover = draw_one_in(&seed, 3) ? draw_one_of(&seed, of->forced) : spot.mover;
         const unsigned count = members_of(&w, spot.but, member);
         const unsigned asked =
-            (unsigned)draw_bits(&seed) % (count + 1U); /* just below or just at its limit */
+            (unsigned)draw_bits(&seed) % (count + 1U); /* just below its limit, or at it */
         spot.h = draw_whole(&seed, 0, 4) / WH_SLIP_COARSE;
         for (unsigned i = 0; i < count; i++) {
             const wh_real size = WH_ABS(off_of(&w, member[i]));
@@ -143,7 +145,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
         }
         TEST_ASSERT_TRUE(w.undefined == -1);
         for (unsigned e = 0; e < of->ledger->entries;
-             e++) { /* the energy is booked to the contact that was off its place */
+             e++) { /* the energy is entered for the first contact with an error */
             const bool its = w.books != NULL && e == wh_ledger_of_contact(of->ledger, mover);
             const bool line = of->angles < n;
             TEST_ASSERT_TRUE(bench_near(books.step[e], its && line && mover < WH_CONTACTS_MAX
@@ -156,7 +158,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
     TEST_ASSERT_TRUE(coarse > ROUNDS / 8 && moves > ROUNDS / 8);
 }
 
-/* The first contact with a NaN place is reported, and the others are corrected without it. */
+/* The first contact whose error is NaN is reported, and the others are corrected without it. */
 TEST(contact_project, a_place_that_is_no_number_is_told) {
     uint64_t seed = 162;
     unsigned told = 0;
@@ -211,7 +213,8 @@ TEST(contact_project, a_place_that_is_no_number_is_told) {
     TEST_ASSERT_TRUE(told > ROUNDS / 8);
 }
 
-/* Rates along constraints become zero, exactly so for one coordinate. The books get the impulses and their mean-speed work. */
+/* Rates along constraints become zero, and exactly zero for pinned contacts. The ledger gets the impulses and their
+ * work at the mean speed. */
 TEST(contact_project, rates_are_taken_away_by_the_least) {
     uint64_t seed = 163;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -263,8 +266,8 @@ TEST(contact_project, rates_are_taken_away_by_the_least) {
     }
 }
 
-/* A stop and a friction act on one of two coupled bodies, which is a little or far beyond the stop. Then friction does not
- * hold its body. A corrected place is checked again, at most twice. */
+/* A stop and a friction act on two coupled bodies. One body is slightly or far beyond the stop; if far, the friction
+ * does not hold its body. A corrected position is tested again, at most twice. */
 TEST(contact_project, what_slipped_is_put_back) {
     uint64_t seed = 164;
     unsigned far = 0;
@@ -284,7 +287,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         }
         bench_state(&seed, &from);
         for (unsigned i = 0; i < 2; i++) {
-            bench_now.free[i] = WH_R(0.0); /* the friction is not loaded */
+            bench_now.free[i] = WH_R(0.0); /* no load on the friction */
             bench_now.row[0][i] = i == 0 ? WH_R(1.0) : pinned ? WH_R(0.0) : WH_R(2.0);
             from.real[i] = WH_R(1.0);
             bench_now.bias[i] = WH_R(0.0);
@@ -296,7 +299,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         w.mode[1] = WH_FREE;
         w.mode[2] = slides ? 1 : WH_STUCK;
         const wh_real size =
-            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* far begins at half of it */
+            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* the far range begins at half of this */
         const wh_real off =
             draw_whole(&seed, -3, 3) * size * (draw_one_in(&seed, 2) ? 1 : WH_R(0.125));
         for (unsigned k = 0; k < 2; k++) {
@@ -312,7 +315,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         const wh_real h = draw_one_in(&seed, 2) ? WH_R(0.0) : WH_R(1.0);
         const bool still = h * (WH_ABS(from.real[2]) + WH_ABS(from.real[3])) == WH_R(0.0);
         wh_contact_stabilise(&bench_now.system, &w, h, &input, &from, &s);
-        if (pinned) { /* it cannot slip and is not checked */
+        if (pinned) { /* a pinned contact cannot slip and is not tested */
             TEST_ASSERT_TRUE(bench_now.looks == looks && s.real[0] == from.real[0]);
             continue;
         }
@@ -327,7 +330,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         TEST_ASSERT_TRUE(!sticks || (s.real[1] == from.real[1] && s.real[3] == WH_R(0.0)));
         const wh_real speed = bench_along(0, from.real + 2);
         for (unsigned i = 0; i < 2;
-             i++) { /* and so are the rates; a contact that breaks loose keeps its rate */
+             i++) { /* the rates are zero, too; a contact that breaks loose keeps its rate */
             const wh_real free = from.real[2 + i] - bench_way(0, i) / yield * speed;
             const wh_real right = sticks ? WH_R(0.0) : free;
             TEST_ASSERT_TRUE(WH_ABS(s.real[2 + i] - right) <=
@@ -340,7 +343,8 @@ TEST(contact_project, what_slipped_is_put_back) {
     TEST_ASSERT_TRUE(far > ROUNDS / 40);
 }
 
-/* A stop with a curved surface is corrected along its row, and once more if the distance was large, but never a third time. */
+/* A body is projected onto a stop with a curved surface, and a second time if the distance was large, but never a third
+ * time. */
 TEST(contact_project, what_is_bent_is_put_back_twice) {
     uint64_t seed = 165;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -365,7 +369,7 @@ TEST(contact_project, what_is_bent_is_put_back_twice) {
         bench_work(&seed, false, &w);
         bench_now.moves = true;
         bench_now.lean[0] = draw_one_in(&seed, 2) ? WH_R(0.5) : WH_R(-0.5);
-        const bool slow = draw_one_in(&seed, 2); /* has not moved */
+        const bool slow = draw_one_in(&seed, 2); /* the body has not moved */
         const unsigned passes = slow ? 2U : 1U;
         const unsigned looks = bench_now.looks;
         s = from;
@@ -381,7 +385,7 @@ TEST(contact_project, what_is_bent_is_put_back_twice) {
             bench_now.row[0][0] = straight;
         }
         TEST_ASSERT_TRUE(bench_near(s.real[0], x[0]) && bench_near(s.real[1], x[1]));
-        /* it need not be curved along its motion */
+        /* the surface may be flat in the direction of the motion */
         TEST_ASSERT_EQUAL_UINT(!slow ? 1U : x[0] != WH_R(0.0) ? 3U : 2U, bench_now.looks - looks);
     }
 }

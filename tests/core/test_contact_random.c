@@ -1,7 +1,7 @@
-/* test_contact_random.c: invariants after every step, for random mechanisms of one or two coordinates with up to three contacts
- * under constant loads. A stop is not passed, only pushes, and closes at rest. Sticking friction is at rest, sliding friction
- * opposes its motion, and both stay within their limits. Held places stay. Only assignments give energy, and the books balance.
- * A mirrored mechanism moves mirrored. */
+/* test_contact_random.c: invariants after every step, for random mechanisms of one or two coordinates with up to three
+ * contacts under constant loads. No body is beyond a stop, a stop only pushes, and a resting stop has zero rate.
+ * Sticking friction has zero rate, sliding friction opposes its rate, and both forces stay within their limits. Held
+ * values stay. Only assignments add energy, and the ledger balances. A mirrored mechanism has the mirrored motion. */
 #include "draw.h"
 #include "hand.h"
 
@@ -16,7 +16,7 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 /* Round-off of numbers of size one. */
 #define SLACK (WH_DOUBLE ? WH_R(2e-12) : WH_R(2e-3))
 
-/* A row of whole numbers; its only coordinate, or -1. */
+/* Draws a row of whole numbers. Returns its only coordinate, or -1. */
 static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
     row[0] = draw_whole(seed, -2, 2);
     row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
@@ -49,7 +49,7 @@ static void add_friction(uint64_t *seed, unsigned i) {
                    i == 1 ? WH_R(1.0) : WH_R(0.0), WH_R(0.0), most, less);
 }
 
-/* Stops, a hold, frictions, a crossing, in this order, three at most. */
+/* Draws up to three contacts: stops, a hold, frictions, a crossing, in this order. */
 static void draw(uint64_t *seed) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = HAND_CONTACTS;
@@ -84,7 +84,7 @@ static void draw(uint64_t *seed) {
     }
 }
 
-/* Everything with a side, on the other one. */
+/* Mirrors the mechanism: every quantity with a sign changes it. */
 static void mirror(void) {
     for (unsigned i = 0; i < 2; i++) {
         hand_now.load[i] = -hand_now.load[i];
@@ -97,7 +97,7 @@ static void mirror(void) {
         for (unsigned i = 0; i < 2 && kind != WH_FRICTION && kind != WH_WHEN; i++) {
             hand_now.law[k].row[i] = -hand_now.law[k].row[i];
         }
-        if (kind == WH_WHEN) { /* the same place, mirrored */
+        if (kind == WH_WHEN) { /* the same value at the mirrored position */
             hand_now.law[k].offset = -hand_now.law[k].offset;
             hand_now.contact[k].direction = (int8_t)-hand_now.contact[k].direction;
         }
@@ -141,7 +141,7 @@ static bool friction_holds(unsigned k) {
     return way && energy_of(k) <= SLACK && WH_ABS(impulse_of(k)) <= most + SLACK;
 }
 
-/* `was`: its place at capture. A crossing in this step may have moved it. */
+/* `was`: its value at the capture. A crossing in this step may have changed it. */
 static bool hold_holds(unsigned k, wh_real was) {
     for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
         if (hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN) {
@@ -156,7 +156,7 @@ static bool hold_holds(unsigned k, wh_real was) {
 
 static bool all_hold(const wh_real *was) {
     wh_real level[WH_ACCOUNTS_MAX];
-    bool good = hand_state.input[0] == hand_pushed; /* is only read */
+    bool good = hand_state.input[0] == hand_pushed; /* the step must not change its input */
     for (unsigned k = 0; k < hand_now.system.contacts; k++) {
         switch ((wh_contact_kind)hand_now.contact[k].kind) {
         case WH_STOP: good = good && stop_holds(k); break;
@@ -191,7 +191,7 @@ static bool run(wh_real *end, uint64_t *overruns) {
             assigned =
                 assigned || hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN;
         }
-        if (step % 8U == 7U) { /* toggles the hold */
+        if (step % 8U == 7U) { /* changes the condition of the hold */
             hand_state.input[0] = -hand_state.input[0];
             hand_pushed = -hand_pushed;
         }
@@ -240,7 +240,7 @@ TEST(contact_random, the_other_way_round_is_the_same) {
     TEST_ASSERT_EQUAL_UINT(0, wrong);
 }
 
-/* After each step: the state, the books, and the reported events. */
+/* Mixes into a hash, after each step: the state, the ledger, and the reported events. */
 static uint64_t trace(uint64_t *hashes) {
     hand_start(true);
     for (unsigned step = 0; step < STEPS; step++) {

@@ -1,4 +1,5 @@
-/* test_contact_rank.c: independent holds (core/contact/contact_rank.h): rows orthogonal in the metric of M^-1, and lost rows. */
+/* test_contact_rank.c: rank of the holds (core/contact/contact_rank.h): rows made orthogonal in the metric of M^-1, and
+ * rows that lose rank. */
 #include "draw.h"
 #include "hand.h"
 
@@ -8,7 +9,8 @@ enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 200 };
 
 #define SLACK (WH_DOUBLE ? WH_R(1e-12) : WH_R(1e-4))
 
-/* Up to three holds, with ignored stops between them, and rows of whole numbers; returns their number. */
+/* Draws up to three holds with rows of whole numbers, and stops between them, which must be ignored. Returns the number
+ * of holds. */
 static unsigned draw(uint64_t *seed, wh_contact_work *w) {
     hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
     const unsigned count = 1U + (unsigned)draw_bits(seed) % HAND_CONTACTS;
@@ -42,7 +44,7 @@ static wh_real across(const wh_real *a, const wh_real *b) {
     return sum;
 }
 
-/* Is row k in the span of the earlier independent rows? In whole numbers. */
+/* Is row k a linear combination of earlier independent rows? Computed in whole numbers. */
 static bool repeats(const wh_contact_work *w, unsigned k) {
     const wh_real *row = hand_now.law[k].row;
     const wh_real *one = NULL;
@@ -63,7 +65,8 @@ static bool repeats(const wh_contact_work *w, unsigned k) {
     return false;
 }
 
-/* What remains of a row is orthogonal to the other remainders. Its length is the row's distance from their span. */
+/* The remainder of a row is orthogonal to the other remainders. Its length is the row's distance from the span of the
+ * others. */
 TEST(contact_rank, rows_are_made_independent) {
     uint64_t seed = 31;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -97,8 +100,9 @@ TEST(contact_rank, rows_are_made_independent) {
     }
 }
 
-/* The holds move from one place to another. Without a change, or with a small one, none is lost. A row that has become
- * dependent is lost, and so is the first that points back. A redundant hold cannot be lost. */
+/* The rows of the holds change from one state to the next. Without a change, or with a small one, no hold loses rank. A
+ * hold whose row becomes dependent is reported, and so is the first hold whose row reverses. A redundant hold is never
+ * reported. */
 TEST(contact_rank, the_first_that_is_lost_is_told) {
     uint64_t seed = 37;
     unsigned lost = 0;
@@ -126,14 +130,14 @@ TEST(contact_rank, the_first_that_is_lost_is_told) {
     TEST_ASSERT_TRUE(lost > ROUNDS / 4);
 }
 
-/* A lone hold is lost only if its row points nearly straight back. The second of two is lost after a right angle, when
- * nothing of its row remains. */
+/* A single hold loses rank only if its row almost reverses. The second of two holds loses rank when its row has turned
+ * by a right angle, and nothing of it remains. */
 TEST(contact_rank, how_far_a_row_may_turn) {
     static const struct {
         unsigned count;
         wh_real row[2][2];
         wh_real turned[2];
-        unsigned lost; /* from 0; count: none */
+        unsigned lost; /* the hold that lost rank, from 0; count: none */
     } rows[] = {
         {1, {{1, 0}}, {WH_R(0.1), 1}, 1},           {1, {{1, 0}}, {-1, 1}, 1},
         {1, {{1, 0}}, {-1, WH_R(0.3)}, 0},          {1, {{1, 0}}, {-1, WH_R(0.4)}, 1},

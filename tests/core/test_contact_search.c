@@ -1,5 +1,5 @@
-/* test_contact_search.c: the search of core/contact/contact_locate.h: bodies on parabolas with events at times in closed form,
- * of every kind, earliest first, and the number of evaluations. */
+/* test_contact_search.c: the search of core/contact/contact_locate.h: bodies on parabolas have events of every kind at
+ * times known in closed form. Tests that the earliest is found, and the number of evaluations. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -8,17 +8,17 @@ enum { ROUNDS = __STDC_HOSTED__ ? 1500 : 30 };
 
 #define FINE (WH_DOUBLE ? 1e-12 : 2e-5)
 
-/* From 0 to 1, in steps of 1/1024, without the ends. */
+/* A random number between 0 and 1 in steps of 1/1024, without the ends. */
 static wh_real share_of(uint64_t *seed) {
     return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
-/* Motion of line i, v t + a t^2/2, in one second; its speed has one sign. */
+/* Motion of coordinate i in one second, v t + a t^2/2; its rate does not change its sign. */
 static wh_real place_at(const wh_contact_state *from, unsigned i, wh_real t) {
     return t * (from->real[bench_now.system.coordinates + i] + bench_now.free[i] / 2 * t);
 }
 
-/* Up to three uncoupled lines, each with its own motion, forward or backward. */
+/* Draws up to three uncoupled coordinates, each with its own motion, forward or backward. */
 static void draw_ways(uint64_t *seed, unsigned n, wh_contact_state *from) {
     bench_build(seed, n, 0);
     bench_now.moves = true;
@@ -33,7 +33,7 @@ static void draw_ways(uint64_t *seed, unsigned n, wh_contact_state *from) {
     }
 }
 
-/* A contact that depends on line i alone. */
+/* Adds a contact that depends on coordinate i alone. */
 static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_real factor) {
     const unsigned k = bench_add(seed, kind, -1);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
@@ -44,7 +44,7 @@ static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_r
     return k;
 }
 
-/* Perhaps far stops. Returns their number. */
+/* Adds no, one or two stops far from any event. Returns their number. */
 static unsigned add_far(uint64_t *seed) {
     if (draw_one_in(seed, 2)) {
         return 0;
@@ -83,7 +83,7 @@ typedef struct tally {
     unsigned most;
 } tally;
 
-/* Counts one with this error, which must be within its bound. */
+/* Adds a search with this error, which must be within its bound, to the statistics. */
 static void enter(wh_real off, tally *sum) {
     sum->searches++;
     sum->fine += (double)WH_ABS(off) <= FINE;
@@ -92,17 +92,20 @@ static void enter(wh_real off, tally *sum) {
     TEST_ASSERT_TRUE(WH_ABS(off) <= WH_BRACKET);
 }
 
-/* The mean is at most this many hundredths of evaluations, the maximum `most`. Almost all are accurate. */
+/* Checks the statistics: the mean is at most this many hundredths of evaluations, the maximum `most`. Almost all are
+ * accurate. */
 static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, unsigned most) {
     const unsigned mean = 100U * sum->looks / sum->searches;
     const unsigned bound = WH_DOUBLE ? hundredths : hundredths_f;
-    TEST_ASSERT_TRUE(mean <= (__STDC_HOSTED__ ? bound : 2U * bound)); /* too few for a mean */
+    /* a board makes too few searches for a mean */
+    TEST_ASSERT_TRUE(mean <= (__STDC_HOSTED__ ? bound : 2U * bound));
     TEST_ASSERT_TRUE(sum->most <= most && sum->most <= WH_PROBES + 1U);
     TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
 }
 
-/* Several stops, hold conditions and crossings, each with its time (after the end: no event). Some begin at zero and have an
- * event at once. The search finds the first, just past it, and all that are simultaneous with it. */
+/* Several stops, hold conditions and crossings, each with a random event time; after the end of the step there is no
+ * event. Some values are zero at the begin and have an event at once. The search returns a time just after the first
+ * event, with all events of that moment. */
 TEST(contact_search, the_first_of_several_is_found) {
     uint64_t seed = 201;
     tally sum = {0, 0, 0, 0};
@@ -142,7 +145,7 @@ TEST(contact_search, the_first_of_several_is_found) {
         const wh_real found = locate(&w, &from, WH_R(1.0), &events);
         enter(found - first, &sum);
         TEST_ASSERT_TRUE(found > WH_R(0.0));
-        for (unsigned k = 0; k < count; k++) { /* exactly the reported number */
+        for (unsigned k = 0; k < count; k++) { /* exactly the events of this moment */
             const bool its = (events >> k & 1U) != 0;
             TEST_ASSERT_TRUE(its ? (double)(when[k] - first) <= FINE
                                  : (double)(when[k] - first) >= -FINE);
@@ -152,7 +155,8 @@ TEST(contact_search, the_first_of_several_is_found) {
     told(&sum, 870, 645, 14);
 }
 
-/* Contacts that start beyond zero all have their event at once, and no others have. A sliding contact begins at rest. */
+/* Contacts that are beyond zero at the begin all have their event at once, and no others do. A sliding contact begins
+ * at rate zero. */
 TEST(contact_search, what_is_beyond_already_comes_at_once) {
     uint64_t seed = 202;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -182,8 +186,8 @@ TEST(contact_search, what_is_beyond_already_comes_at_once) {
     }
 }
 
-/* A friction that slides against a force comes to rest at v/a. It begins with a rate, or at zero in a mode that it is about
- * to leave. */
+/* A friction that slides against a force comes to rest at the time v/a. It begins with a nonzero rate, or with rate
+ * zero in a mode that ends at once. */
 TEST(contact_search, sliding_ends_where_the_rate_does) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
@@ -191,14 +195,14 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
         wh_contact_work w;
         wh_contact_state from = {.real = {WH_R(0.0)}};
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* or the first of all */
+        const unsigned behind = add_far(&seed); /* stops after the friction, or before it */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
         bench_now.moves = true;
         const wh_real when = share_of(&seed);
         const wh_real way = from.real[3] > WH_R(0.0) ? WH_R(1.0) : WH_R(-1.0);
         const bool second = draw_one_in(&seed, 2);
-        if (second) { /* and a place crossed after it, or before */
+        if (second) { /* and a crossing later, or earlier */
             (void)add_along(&seed, WH_WHEN, 0, WH_R(1.0));
             bench_now.signal[2 * behind + 2] =
                 -place_at(&from, 0, when < WH_R(0.5) ? when + WH_R(0.25) : when / 2);
@@ -219,8 +223,8 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
     told(&sum, 1025, 740, 25);
 }
 
-/* A contact slides from rest, and a force turns it back. Its rate is zero at the start, which is no event, and again at the
- * end. */
+/* A contact slides from rest, and a force reverses it. Its rate is zero at the begin, which is no event, and again at
+ * the end. */
 TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};
@@ -230,10 +234,11 @@ TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
         wh_contact_state to;
         wh_margins m;
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* or the first of all */
+        const unsigned behind = add_far(&seed); /* stops after the friction, or before it */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
-        /* a = a0 (1 - 2 t/when), by the first line's place, which moves evenly: v = a0 t (1 - t/when) */
+        /* a = a0 (1 - 2 t/when), a function of the first coordinate, which moves at a constant rate: v = a0 t (1 -
+         * t/when) */
         const wh_real when = WH_R(0.25) + WH_R(0.74) * share_of(&seed);
         const wh_real a0 = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
         from.real[2] = WH_R(1.0);
@@ -259,7 +264,8 @@ TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
     told(&sum, 1340, 1085, 15);
 }
 
-/* A sticking friction breaks loose at its limit, and so does a pulled stop. A load at its limit at the start exceeds it then. */
+/* A sticking friction slides when its load reaches the limit, and a stop opens when its force reaches zero. A load that
+ * is at its limit at the begin exceeds it then. */
 TEST(contact_search, a_load_meets_its_limit) {
     uint64_t seed = 205;
     tally sum = {0, 0, 0, 0};
@@ -274,7 +280,8 @@ TEST(contact_search, a_load_meets_its_limit) {
         const wh_real when = draw_one_in(&seed, 4) ? WH_R(0.0) : share_of(&seed);
         const wh_real row = bench_now.row[0][1];
         const wh_real up = stop || draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
-        /* its force is -free/row: a stop's falls to zero, a friction's rises to its limit, either way */
+        /* its force is -free/row: for a stop it falls to zero, for a friction it rises to its limit, in either
+         * direction */
         const wh_real limit = stop ? WH_R(0.0) : up * bench_now.first[0];
         from.real[3] = WH_R(0.0);
         bench_now.bias[0] = WH_R(0.0);

@@ -1,7 +1,7 @@
-/* test_contact_squeeze.c: steps with too many events. Bodies beyond stops return by the least move in the mass metric, and
- * closing ones stop. Random mechanisms, against all cases (exact.h). */
+/* test_contact_squeeze.c: steps with too many events. Bodies beyond stops are moved back by the smallest move in the
+ * mass metric, and stops that close are hit without a bounce. Random mechanisms are compared with exact.h. */
 
-/* Without the rows of longer methods: an ATmega2560 has no room for them beside the cases. */
+/* Without the rows of longer methods: an ATmega2560 has no memory for them. */
 #define WH_STAGES 4
 
 #include "draw.h"
@@ -13,7 +13,8 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 4000 : 100 };
 
 #define CLOSE (WH_DOUBLE ? 1e-9 : 2e-4)
 
-/* Draws stops; the last contact may be a hold or a friction. A body may be anywhere; resting and held contacts are at rest. */
+/* Draws stops; the last contact may be a hold or a friction. Positions are random; resting and held contacts have zero
+ * rate. */
 static void draw(uint64_t *seed, wh_contact_work *w, wh_contact_state *s, exact *e) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     const unsigned count = 1 + (unsigned)(draw_bits(seed) % HAND_CONTACTS);
@@ -103,15 +104,16 @@ TEST(contact_squeeze, the_least_that_lets_nobody_pass) {
     TEST_ASSERT_TRUE(compared >= MECHANISMS / 2U);
 }
 
-/* Two stops are passed. The first pushes a body onto the second. That one is hit although nothing pushes it, because the body
- * slides along the first. */
+/* Two stops are passed. The projection onto the first moves a body away from the second. The second stop is hit
+ * nevertheless, because the body slides along the first. */
 TEST(contact_squeeze, who_is_met_without_a_push_is_hit) {
     for (int slope = -3; slope <= 3; slope++) {
         for (int beyond = 1; beyond <= 3; beyond++) {
             wh_contact_work w;
             wh_contact_state s = {.real = {WH_R(0.0)}};
             const wh_real row[2] = {WH_R(1.0), (wh_real)slope};
-            const wh_real speed = slope > 0 ? WH_R(-2.0) : WH_R(2.0); /* against the other */
+            /* the rate towards the second stop */
+            const wh_real speed = slope > 0 ? WH_R(-2.0) : WH_R(2.0);
             hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(1.0));
             hand_now.start[3] = speed;
             (void)hand_add(WH_STOP, 0, row[0], WH_R(0.0), (wh_real)beyond, WH_R(0.5), WH_R(0.0));

@@ -14,7 +14,8 @@ static wh_real none(unsigned way) {
     return way == 0 ? zero / zero : (way == 1 ? WH_R(1.0) : WH_R(-1.0)) / zero;
 }
 
-/* Draws three contacts with ordered kinds, from the number. False: there is no such case. No contact is near an event. */
+/* Draws three contacts whose kinds follow from the number, in order. Returns false if no such combination exists. No
+ * contact is near an event. */
 static bool build(unsigned number, bool held, bool pinned, bool straight) {
     wh_contact_kind kind[COUNT];
     for (unsigned k = 0; k < COUNT; k++, number /= 4) {
@@ -47,7 +48,7 @@ static bool build(unsigned number, bool held, bool pinned, bool straight) {
     return true;
 }
 
-/* Does a step depend on it? */
+/* Does a step depend on this expression of contact k? */
 static bool needed(unsigned k, lost_place place) {
     const wh_contact_kind kind = (wh_contact_kind)hand_now.contact[k].kind;
     const bool stuck = kind == WH_FRICTION && hand_state.contacts->mode[k] == WH_STUCK;
@@ -71,11 +72,12 @@ static void lose(unsigned k, lost_place place, wh_real nothing) {
     }
 }
 
-/* Steps, then makes contact k's expression undefined. Is the next step as expected? */
+/* Steps, then makes contact k's expression undefined. Returns true if the next step is refused or accepted as
+ * expected. */
 static bool answers(unsigned k, lost_place place, unsigned steps, wh_real nothing) {
     hand_start(true);
     hand_steps(steps);
-    if (steps == 0) { /* the modes of the start, in a run that has begun */
+    if (steps == 0) { /* a run that has begun: the modes are those of the start */
         hand_steps(1);
         const bool build_on = needed(k, place);
         hand_start(true);
@@ -129,7 +131,7 @@ TEST(contact_undefined, the_first_of_several_is_named) {
     }
 }
 
-/* A restitution is evaluated only when its stop is hit, at a run's start or later. */
+/* A restitution is evaluated only when its stop is hit, at the start of a run or later. */
 TEST(contact_undefined, a_restitution_counts_at_an_impact) {
     for (unsigned k = 0; k < COUNT; k++) {
         for (unsigned later = 0; later < 2; later++) {
@@ -148,7 +150,7 @@ TEST(contact_undefined, a_restitution_counts_at_an_impact) {
     }
 }
 
-/* A crossing that assigns an invalid value is refused with the component. */
+/* If a crossing assigns an invalid value, the step is refused with that component as the fault. */
 TEST(contact_undefined, what_is_assigned_must_be_a_number) {
     for (unsigned way = 0; way < 3; way++) {
         for (unsigned others = 0; others < COUNT; others++) {

@@ -1,5 +1,5 @@
-/* test_convert.c: 64-bit integers convert to the nearest float, ties to even, by the processor, the compiler's support code or
- * a board's own (boards/shared/convert.c). By the definition, in integers. */
+/* test_convert.c: 64-bit integers convert to the nearest float, ties to even, by the processor, the compiler's support
+ * code or a board's own (boards/shared/convert.c). The reference applies the definition, in integers. */
 #include "core/real.h"
 
 #include "tests/suites.h"
@@ -79,7 +79,7 @@ TEST(convert, around_powers_of_two) {
     TEST_ASSERT_EQUAL_HEX32(UINT32_C(0xDF000000), bits_of(wide_signed_to_float(INT64_MIN)));
 }
 
-/* The middle between two floats, and its neighbours. */
+/* A number in the middle between two floats, and its neighbours. */
 TEST(convert, ties) {
     for (unsigned shift = 1; shift <= 40U; shift++) {
         for (uint64_t kept = (UINT64_C(1) << 23) + 5U; kept < (UINT64_C(1) << 23) + 9U; kept++) {

@@ -11,7 +11,7 @@ static uint32_t draw_word(void) { return (uint32_t)(draw_bits(&seed) << 16 ^ dra
 
 static float draw_float(void) { return (float)(int32_t)draw_word() * 1e-3f; }
 
-/* Every wrong length is refused, also if the missing bytes are zeros. */
+/* Every wrong length is refused, even if the missing bytes are zeros. */
 static void expect_length(unsigned length, bool (*get)(unsigned length)) {
     TEST_ASSERT_TRUE(get(length));
     for (unsigned wrong = 0; wrong < length; wrong++) {
@@ -50,7 +50,7 @@ TEST(exchange, orders) {
             0, __builtin_memcmp(orders_in.output, orders_out.output, outputs * sizeof(float)));
         TEST_ASSERT_EQUAL_UINT(0, wh_orders_put(&orders_in, bytes, length - 1U));
     }
-    bytes[17] = WH_SIGNALS_MAX + 1U; /* how many there are */
+    bytes[17] = WH_SIGNALS_MAX + 1U; /* the number of readings */
     TEST_ASSERT_FALSE(wh_orders_get(&orders_out, bytes, 22U + 4U * (WH_SIGNALS_MAX + 1U)));
 }
 
@@ -64,7 +64,7 @@ TEST(exchange, readings) {
         readings_in = (wh_readings){.flags = (uint8_t)draw_word(),
                                     .edges = draw_one_of(&seed, WH_EDGES_MAX + 1U),
                                     .samples = draw_one_of(&seed, WH_SAMPLES_MAX + 1U)};
-        if (round == 0) { /* the longest */
+        if (round == 0) { /* the longest payload */
             readings_in.edges = WH_EDGES_MAX;
             readings_in.samples = WH_SAMPLES_MAX;
         }
@@ -99,7 +99,7 @@ TEST(exchange, readings) {
 
 static wh_reset reset_out;
 
-/* Any number of remembered bytes, also zero, and an existing cause. */
+/* Any number of remembered bytes, also zero, and each known cause. */
 TEST(exchange, reset) {
     seed = 3;
     for (unsigned count = 0; count <= WH_REMEMBER_MAX; count++) {
@@ -157,15 +157,15 @@ TEST(exchange, hello) {
             0, __builtin_memcmp(&signals[i].low, &signals_out[i].low, 3U * sizeof(float)));
         TEST_ASSERT_EQUAL_UINT32(signals[i].period_ticks, signals_out[i].period_ticks);
     }
-    bytes[22] = WH_SIGNAL_NOTE + 1U; /* the first signal's kind: after 4 + 5 + 12 + 1 bytes */
+    bytes[22] = WH_SIGNAL_NOTE + 1U; /* the kind of the first signal, after 4 + 5 + 12 + 1 bytes */
     TEST_ASSERT_FALSE(get_hello(length));
     bytes[22] = WH_SIGNAL_OUTPUT;
     TEST_ASSERT_TRUE(get_hello(length));
-    bytes[21] = WH_SIGNALS_MAX + 1U; /* how many there are */
+    bytes[21] = WH_SIGNALS_MAX + 1U; /* the number of signals */
     TEST_ASSERT_FALSE(get_hello(length));
 }
 
-/* Random bytes: no count beyond its room, no string beyond the bytes. */
+/* Random bytes: no count exceeds its array, and no string leaves the bytes. */
 TEST(exchange, noise) {
     seed = 4;
     for (unsigned round = 0; round < 3000; round++) {

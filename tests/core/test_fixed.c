@@ -1,4 +1,5 @@
-/* test_fixed.c: core/fixed.h's integers against 64-bit ones: products, rounding, reciprocals, sines, conversions of reals. */
+/* test_fixed.c: the integers of core/fixed.h, compared with 64-bit integers: products, rounding, reciprocals, sines,
+ * conversions of reals. */
 #include <math.h>
 
 #include "core/angle.h"
@@ -20,7 +21,7 @@ static uint32_t draw(void) {
     return (uint32_t)(drawn >> 16);
 }
 
-/* Of all sizes, including the ends. */
+/* A random number of any size, including the ends of the range. */
 static int32_t draw_number(void) {
     static const int32_t edges[] = {0,         1,          -1,         0x7fff,     0x8000,
                                     -0x8000,   0x10000,    -0x10000,   0xffff,     -0xffff,
@@ -77,7 +78,7 @@ TEST(fixed, rounding) {
     TEST_ASSERT_EQUAL_INT32(0, wh_fixed_round(-INT32_C(0x3fffffff), 60));
 }
 
-/* Sums modulo 2^32, signs, sizes, shifts beyond all digits, and a product's upper digits. */
+/* Sums modulo 2^32, signs, limits, shifts by all digits, and the upper half of a product. */
 TEST(fixed, small_operations) {
     for (long i = 0; i < CASES; i++) {
         const int32_t a = draw_number();
@@ -146,7 +147,7 @@ static void check_sine(uint32_t phase) {
     int32_t c_here;
     wh_real sine;
     wh_real cosine;
-    /* its own error, 3.4e-8, and the reals' */
+    /* its own error, 3.4e-8, and the error of a real */
     const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.3e-7));
     wh_fixed_sincos_called(phase, &s, &c);
     wh_fixed_sincos_shared(phase, &s_here, &c_here);
@@ -214,7 +215,7 @@ static const wh_fixed_scene scene = {.name = "none",
                                      .start_input = start_number,
                                      .advance = no_step};
 
-/* Every function that takes a state gets one that was not started: zeroed, or refused. */
+/* Every function that takes a state gets one that was not started (zeroed or refused), and must refuse it. */
 static void must_not_run(wh_fixed_state *state) {
     const uint64_t steps = state->steps;
     const uint32_t saturated = state->saturated;
@@ -290,7 +291,7 @@ TEST(fixed, edges) {
     TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_input(&scene, &state, 0, WH_R(8009.0)));
     TEST_ASSERT_EQUAL_UINT32(3, state.saturated);
     TEST_ASSERT_EQUAL_INT32(1000, state.input[0]);
-    for (long i = 0; i < CASES; i++) { /* ranges of 1 to 7 digits: their ends are inside */
+    for (long i = 0; i < CASES; i++) { /* ranges of 1 to 7 digits: the ends must be inside */
         double limit = 1.0 + draw() % 9999999U;
         int16_t bits = 0;
         for (unsigned places = draw() % 12U; places > 0; places--) {
@@ -314,7 +315,8 @@ TEST(fixed, edges) {
         TEST_ASSERT_EQUAL_INT32(format.low, wh_fixed_of(&format, -most - more, &held));
         TEST_ASSERT_EQUAL_UINT32(2, held);
     }
-    for (long i = 0; i < CASES; i++) { /* integers: inside, beyond, and of a nonexistent input */
+    for (long i = 0; i < CASES; i++) {
+        /* integers inside and outside the range, and an input that does not exist */
         const int32_t raw = draw_number() >> (draw() % 31U);
         const wh_fixed_format *format = &formats[1];
         const uint32_t before = state.saturated;
@@ -328,7 +330,7 @@ TEST(fixed, edges) {
                                 state.input[0]);
         TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_raw_input(&scene, &state, 1, raw));
     }
-    for (long i = 0; i < CASES; i++) { /* both ways: float's precision */
+    for (long i = 0; i < CASES; i++) { /* conversion to and from: the precision of a float */
         const int32_t x = draw_number() >> 8;
         uint32_t held = 0;
         const wh_fixed_format format = {(int16_t)(draw() % 50U), INT32_MIN / 2, INT32_MAX / 2};

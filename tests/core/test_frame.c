@@ -1,10 +1,11 @@
-/* test_frame.c: framing: written frames are read, broken ones are dropped, and the next is read again. */
+/* test_frame.c: framing: written frames are read, broken ones are dropped, and the next frame is read again. */
 #include "core/frame.h"
 
 #include "draw.h"
 #include "tests/suites.h"
 
-/* An AVR has room for one block of the code and a part of a second, the others for two and a part. */
+/* Length of the payloads: on an AVR for one block of the code and a part of a second, elsewhere for two blocks and a
+ * part. */
 #if defined(__AVR__)
 enum { PAYLOAD_BYTES = 280 };
 #else
@@ -19,7 +20,7 @@ static wh_frame_reader reader;
 static wh_frame got;
 static uint64_t seed;
 
-/* Payloads: random bytes, many zeros, none, long ones without zeros. */
+/* Fills a payload: random bytes, many zeros, no zeros. */
 static void fill(unsigned length, unsigned kind) {
     for (unsigned i = 0; i < length; i++) {
         const uint8_t byte = (uint8_t)draw_bits(&seed);
@@ -36,7 +37,7 @@ static unsigned code_frame(unsigned length, uint16_t sequence) {
     return wh_frame_write(&frame, line, sizeof line);
 }
 
-/* Frames in bytes[count]; the last is in `got`. */
+/* Reads bytes[count]. Returns the number of frames; the last is in `got`. */
 static unsigned feed(const uint8_t *bytes, unsigned count) {
     unsigned frames = 0;
     for (unsigned i = 0; i < count; i++) {
@@ -64,7 +65,8 @@ TEST(frame, crc) {
     TEST_ASSERT_EQUAL_HEX32(0U, wh_frame_crc(0, digits, 0));
 }
 
-/* Every length and kind: whole, without a zero inside, and within the header's size bound. */
+/* Payloads of every length and kind: the frame is read as written, has no zero inside, and is within the header's size
+ * bound. */
 TEST(frame, round_trip) {
     seed = 1;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length++) {
@@ -75,14 +77,15 @@ TEST(frame, round_trip) {
             TEST_ASSERT_TRUE(line[i] != 0);
         }
         TEST_ASSERT_EQUAL_UINT(0, line[count - 1U]);
-        wh_frame_reader_start(&reader, room, WH_FRAME_BYTES(length) - 1U); /* all but its zero */
+        /* the coded frame without its final zero */
+        wh_frame_reader_start(&reader, room, WH_FRAME_BYTES(length) - 1U);
         TEST_ASSERT_EQUAL_UINT(1, feed(line, count));
         expect_same(length, (uint16_t)(length * 131U));
         TEST_ASSERT_EQUAL_UINT(0, reader.dropped);
     }
 }
 
-/* With one byte too little nothing is claimed, and nothing is written beyond the buffer. */
+/* With one byte too little the function returns 0 and writes nothing beyond the buffer. */
 TEST(frame, no_room) {
     seed = 2;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length += 13) {
@@ -101,7 +104,8 @@ TEST(frame, no_room) {
     }
 }
 
-/* Every single bit flip, and bursts of up to 32 bits, are detected, also if the frame's end moves. The next frame is read. */
+/* Every single flipped bit, and bursts of up to 32 bits, are detected, even if they move the end of the frame. The next
+ * frame is read. */
 TEST(frame, flips) {
     seed = 3;
     for (unsigned length = 0; length < 64; length += 9) {
@@ -119,7 +123,8 @@ TEST(frame, flips) {
     }
 }
 
-/* Frames with missing bytes are rejected. A missing zero may lose the next one too; the one after that is read. */
+/* Frames with missing bytes are rejected. If the zero is missing, the next frame may be lost too; the frame after that
+ * is read. */
 TEST(frame, truncations) {
     seed = 4;
     for (unsigned round = 0; round < 300; round++) {
@@ -141,7 +146,8 @@ TEST(frame, truncations) {
     }
 }
 
-/* Noise contains no frame (one in 2^32 would pass), overflows nothing, and the first frame after a zero is read. */
+/* In random bytes there is no frame (one in 2^32 would pass the CRC), nothing overflows, and the first frame after a
+ * zero is read. */
 TEST(frame, noise) {
     seed = 5;
     for (unsigned size = 1; size <= 64; size *= 4) {
@@ -169,7 +175,7 @@ TEST(frame, noise) {
     expect_same(40, 9);
 }
 
-/* A frame of another version is returned with its version. */
+/* A frame with another version is returned, with its version. */
 TEST(frame, version) {
     uint8_t raw[WH_FRAME_FIXED_BYTES + 2U] = {1, WH_FRAME_VERSION + 1U, 3, 1, 1, 1, 1, 1, 1};
     const uint32_t crc = wh_frame_crc(0, raw + 1, 8);

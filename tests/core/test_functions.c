@@ -199,7 +199,7 @@ TEST(functions, exact_powers_of_two) {
         wanted *= TWO;
     }
     for (int n = LEAST_POWER - 1; n > LEAST_POWER - 40;
-         n--) { /* half the smallest: to even, zero */
+         n--) { /* half of the smallest number: the tie goes to the even one, zero */
         TEST_ASSERT_TRUE(wh_pow(TWO, (wh_real)n) == ZERO);
         TEST_ASSERT_TRUE(wh_pow(HALF, (wh_real)-n) == ZERO);
     }
@@ -292,7 +292,7 @@ TEST(functions, symmetry) {
     }
 }
 
-/* Inverse pairs, to the round-off of the intermediate. */
+/* A function and its inverse give the argument again, to the round-off of the number between them. */
 TEST(functions, inverses) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 6;

@@ -17,13 +17,13 @@ TEST(ledger, books_do_not_touch_the_run) {
     TEST_ASSERT_TRUE(hash[0] == hash[1]);
 }
 
-/* A body of 1 kg on a spring with the input as its rate. */
+/* The acceleration of a body of 1 kg on a spring whose stiffness is the input. */
 static void spring_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
     (void)phase;
     (void)rate;
-    accel[0] = -input[0] * linear[0]; /* also the momentum per second */
+    accel[0] = -input[0] * linear[0]; /* which is also the change of momentum per second */
 }
 
 static void spring_levels(const void *model, const wh_angle *angle, const wh_real *linear,
@@ -52,8 +52,8 @@ static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* The spring becomes stiffer, then softer: each change adds (k2 - k1) x^2/2, entered in the next step; the balance stays 0 until
- * then. */
+/* The spring becomes stiffer, then softer. Each change adds the energy (k2 - k1) x^2/2, which the next step enters;
+ * until then the residual stays 0. */
 TEST(ledger, books_of_a_spring_that_is_changed) {
     static uint64_t memory[WH_STATE_WORDS(0, 2, 1) + WH_LEDGER_WORDS(2, 3)];
     static const wh_real start[2] = {WH_R(0.5), WH_R(1.0)};
@@ -89,8 +89,8 @@ TEST(ledger, books_of_a_spring_that_is_changed) {
     }
 }
 
-/* A shaft of 1 kg m^2 under a torque of 1/2 N m. Its account contains its angle, turns included, and two inputs, each in one of
- * the energies: 1/2 r^2 + a th + b. */
+/* A shaft of 1 kg m^2 under a torque of 1/2 N m. Its energy account is 1/2 r^2 + a th + b: it contains the angle, whole
+ * turns included, and the two inputs a and b. */
 static void shaft_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
@@ -100,7 +100,7 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
     accel[0] = WH_R(0.5) - input[0];
 }
 
-/* The torque's power, and its multiple less the same again, so that the angle appears. */
+/* The power of the torque; and another entry that cancels in the sum, so that the angle appears in the powers. */
 static void shaft_powers(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *power) {
     (void)model;
@@ -138,8 +138,8 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t, from the shaft's turns, not its phase. Each input has its
- * own entry: the first by its effect on the energy, the second by the remainder. */
+/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t, from the shaft's unwrapped angle, not its phase.
+ * Each input has its own entry. */
 TEST(ledger, books_name_angles_with_their_turns) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
@@ -175,7 +175,7 @@ TEST(ledger, books_name_angles_with_their_turns) {
         TEST_ASSERT_TRUE(hand_near(state.ledger[2], which != 1 ? rad / 4 : WH_R(0.0), 1e-13, 1e-6));
         TEST_ASSERT_TRUE(
             hand_near(state.ledger[3], which != 0 ? WH_R(0.75) : WH_R(0.0), 1e-13, 2e-6));
-        /* a refused change enters nothing */
+        /* a refused change makes no entry */
         const wh_real before[4] = {state.ledger[0], state.ledger[1], state.ledger[2],
                                    state.ledger[3]};
         state.input[0] = WH_R(-1e16);
@@ -186,7 +186,8 @@ TEST(ledger, books_name_angles_with_their_turns) {
     }
 }
 
-/* An angle is set, turns included, or moved exactly after many turns. An input changed just before has its own entry. */
+/* An angle is set, whole turns included, or moved exactly after many turns. An input that was changed just before has
+ * its own entry. */
 TEST(ledger, corrected_angles_are_booked) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
@@ -224,7 +225,7 @@ TEST(ledger, corrected_angles_are_booked) {
         TEST_ASSERT_TRUE(hand_near(state.ledger[2], WH_R(0.25) * rad, 1e-12, 1e-5));
         TEST_ASSERT_TRUE(
             hand_near(wh_ledger_error(&shaft_books, &state, 0, level), WH_R(0.0), 1e-11, 1e-4));
-        /* many turns on, a thousandth of a radian */
+        /* after many turns, a change by a thousandth of a radian */
         TEST_ASSERT_TRUE(wh_scene_set_angle(&scene, &state, 0, turns) == WH_OK);
         const wh_angle far = state.angle[0];
         TEST_ASSERT_TRUE(wh_scene_move_angle(&scene, &state, 0, WH_R(0.001)) == WH_OK);

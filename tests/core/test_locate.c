@@ -9,12 +9,12 @@ enum { CASES = __STDC_HOSTED__ ? 3000 : 200 };
 
 #define STEP_S WH_R(0.001)
 
-/* From 0 to 1, in steps of 1/1024. */
+/* A random number from 0 to 1 in steps of 1/1024. */
 static wh_real share_of(uint64_t *seed) {
     return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
-/* x = v t + a t^2/2, monotone over the step: the speed changes by up to nine tenths. */
+/* x = v t + a t^2/2, monotone over the step: the speed changes by at most nine tenths. */
 typedef struct path {
     wh_real v;
     wh_real a;
@@ -44,7 +44,7 @@ static unsigned add_crossing(wh_real at, int direction) {
     return k;
 }
 
-/* One crossing that reverses and halves the rate: located in time, then the other motion. */
+/* One crossing that reverses and halves the rate: its time must be right, and the motion after it. */
 TEST(locate, a_crossing_is_found_where_it_is) {
     uint64_t seed = 411;
     wh_real worst = WH_R(0.0);
@@ -69,7 +69,7 @@ TEST(locate, a_crossing_is_found_where_it_is) {
     TEST_ASSERT_TRUE((double)worst <= (WH_DOUBLE ? 1e-14 : 2e-6));
 }
 
-/* Flat or steep crossings do not exhaust the evaluations before the accuracy is reached. */
+/* Crossings with flat or steep values are located with full accuracy before the evaluations are exhausted. */
 TEST(locate, flat_and_steep_crossings_are_found) {
     uint64_t seed = 415;
     for (unsigned i = 0; i < CASES; i++) {

@@ -1,4 +1,4 @@
-/* test_lockin.c: the load's once-per-turn part, turn by turn, for made-up loads with a known answer.
+/* test_lockin.c: the load's once-per-turn component, turn by turn, for imitated loads whose components are known.
  *
  * tests/host/test_lockin_truth.c compares it with a swinging rotor, and its intervals with noise. */
 #include "core/angle.h"
@@ -14,24 +14,25 @@
 #define DEG WH_R(0.017453292519943295)
 #define PI WH_R(3.141592653589793)
 
-/* A rotor that turns evenly under a load mean + amplitude cos(order theta + phase), theta = mark_rad at sensor 1's marks, with
- * faults. Numbers count samples and turns from the start. */
+/* A rotor with constant speed and the load mean + amplitude cos(order theta + phase), with theta = mark_rad at the
+ * pulses of sensor 1; and faults. Samples and turns are counted from the start. */
 typedef struct made_up {
-    uint32_t first_ticks; /* of the first sample */
-    uint32_t late_ticks;  /* the first mark after it */
+    uint32_t first_ticks; /* time of the first sample */
+    uint32_t late_ticks;  /* time from the first sample to the first pulse */
     unsigned order;
     wh_real mean_N;
     wh_real amplitude_N;
     wh_real phase_rad;
-    wh_real third_N;       /* amplitude of the third order */
-    unsigned lost_mark[2]; /* this mark of sensor 1 and of sensor 2 is lost; 0: none */
-    unsigned spoilt;       /* from this sample on, 0: none, */
-    unsigned spoilt_count; /* this many samples */
-    wh_real spoilt_N;      /* have this offset, */
-    wh_load_status status; /* have this status, */
-    bool frozen;           /* or repeat the first of them */
+    wh_real third_N; /* amplitude of the third order */
+    /* number of the pulse of sensor 1, and of sensor 2, that is lost; 0: none */
+    unsigned lost_mark[2];
+    unsigned spoilt;       /* number of the first spoilt sample; 0: none */
+    unsigned spoilt_count; /* number of spoilt samples */
+    wh_real spoilt_N;      /* offset of the spoilt samples */
+    wh_load_status status; /* status of the spoilt samples */
+    bool frozen;           /* the spoilt samples repeat the first of them */
     unsigned slower_turn;  /* from this turn on, each turn takes a 40th longer */
-    unsigned bumpy_turn;   /* from this turn on each has a bump of 20 N, five samples wide */
+    unsigned bumpy_turn;   /* from this turn on, each turn has a bump of 20 N, five samples wide */
 } made_up;
 
 static wh_rotor_config rotor;
@@ -70,7 +71,7 @@ static wh_real load_of(const made_up *made, wh_real part) {
            made->third_N * cosine_of(WH_R(3.0) * theta);
 }
 
-/* A step does at most one piece of the work. */
+/* Checks that a control step does at most one piece of the work. */
 static void check_one_piece(wh_lockin_stage stage) {
     const wh_lockin_stage now = lockin.stage;
     const bool sums = stage == WH_LOCKIN_BEGINS || stage == WH_LOCKIN_SUMS;
@@ -81,13 +82,13 @@ static void check_one_piece(wh_lockin_stage stage) {
     TEST_ASSERT_TRUE(stage != WH_LOCKIN_RESHAPES || lockin.place == WH_LOCKIN_NOWHERE);
 }
 
-/* Runs until `wanted` turns are done, or for three more. */
+/* Runs until `wanted` turns are finished, but for at most three more turns. */
 static void run(const made_up *made, unsigned wanted) {
     wh_lockin_start(&rotor, &lockin);
     turns_done = 0;
-    unsigned turn = 0;                /* the rotor is in the turn before mark `turn` */
-    unsigned second = 0;              /* next mark of sensor 2 */
-    uint32_t mark = made->late_ticks; /* of `turn`, after the first sample */
+    unsigned turn = 0;                /* number of the pulse that ends the present turn */
+    unsigned second = 0;              /* number of sensor 2's next pulse */
+    uint32_t mark = made->late_ticks; /* time of pulse `turn`, after the first sample */
     uint32_t before = mark - TURN_TICKS;
     wh_real kept_N = WH_R(0.0);
     for (uint32_t i = 0; turn < wanted + 4U && turns_done < TURNS_MOST; i++) {
@@ -134,7 +135,7 @@ static void run(const made_up *made, unsigned wanted) {
     }
 }
 
-/* Amplitude within 0.01 %, phase within 0.01 degrees. */
+/* Checks a turn: amplitude within 0.01 %, phase within 0.01 degrees. */
 static void check_turn(const wh_lockin_turn *turn, const made_up *made) {
     wh_real amplitude;
     wh_real phase;
@@ -146,7 +147,7 @@ static void check_turn(const wh_lockin_turn *turn, const made_up *made) {
     TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)made->mean_N, (float)turn->mean_N);
 }
 
-/* Only turn 1, which has none before it, does not count. */
+/* All turns count except turn 1, which has no turn before it. */
 static void check_all(const made_up *made, unsigned wanted) {
     TEST_ASSERT_TRUE(turns_done >= wanted);
     for (unsigned i = 0; i < turns_done; i++) {
@@ -181,7 +182,7 @@ TEST(lockin, known_phase_and_amplitude_are_found) {
     }
 }
 
-/* A mark 5 degrees before the sensor: the angles count from there. */
+/* A pulse 5 degrees before the sensor: angles are counted from the arms' position at the pulse. */
 TEST(lockin, angle_of_the_mark_counts) {
     settings();
     made_up made = plain;
@@ -205,7 +206,7 @@ TEST(lockin, other_orders_are_rejected) {
         for (unsigned i = 2; i < turns_done; i++) {
             TEST_ASSERT_FLOAT_WITHIN(0.06f, 0.0f, (float)turns[i].force_N.at[1]); /* 0.1 % */
             TEST_ASSERT_FLOAT_WITHIN(0.06f, 0.0f, (float)turns[i].force_N.at[2]);
-            /* orders 0 and 2 are removed, the others are the residual */
+            /* orders 0 to 2 are no part of the residual; the higher orders are */
             TEST_ASSERT_FLOAT_WITHIN(order > 2 ? 0.3f : 0.05f, order > 2 ? 43.65f : 0.0f,
                                      (float)turns[i].residual_N); /* 60/sqrt(2) sqrt(91/86) */
         }
@@ -231,7 +232,8 @@ TEST(lockin, timer_may_wrap_within_a_turn) {
     }
 }
 
-/* Lost marks of sensor 1: two turns between marks are skipped. Of sensor 2: only the load there changes. */
+/* After a lost pulse of sensor 1, the two turns between the neighbouring pulses are skipped. After one of sensor 2,
+ * only the load at sensor 2 is wrong. */
 TEST(lockin, lost_marks_spoil_no_other_turn) {
     settings();
     for (unsigned sensor = 0; sensor < 2; sensor++) {
@@ -287,7 +289,8 @@ TEST(lockin, missing_samples) {
     }
 }
 
-/* Outliers are left out and counted. Of a turn's 91 samples, eight outliers are a gap; nine, a tenth of the rest, are too many. */
+/* Outliers are left out and counted. A turn has 91 samples. Eight successive outliers leave a gap; nine, a tenth of the
+ * samples, are too many. */
 TEST(lockin, outliers_are_left_out) {
     static const unsigned counts[] = {1, 8, 9, 14};
     settings();
@@ -313,7 +316,8 @@ TEST(lockin, outliers_are_left_out) {
     }
 }
 
-/* The load changes for good at some turn, within a few samples. They are outliers once, a gap, then the new expectation. */
+/* The load changes permanently at some turn. Its new samples are outliers in one turn, then a gap, and then the
+ * prediction. */
 TEST(lockin, what_stays_is_expected) {
     settings();
     made_up made = plain;
@@ -327,13 +331,13 @@ TEST(lockin, what_stays_is_expected) {
     }
 }
 
-/* Nine equal samples in a row cannot come from a turning rotor. */
+/* Nine equal samples in succession cannot come from a turning rotor. */
 TEST(lockin, a_frozen_load_does_not_count) {
     settings();
     for (unsigned held = 6; held <= 12; held += 3) {
         made_up made = plain;
         made.mean_N = WH_R(0.0);
-        made.spoilt = 91U * 5U + 88U; /* about the peak, where it changes least */
+        made.spoilt = 91U * 5U + 88U; /* near the peak, where the load changes least */
         made.spoilt_count = held;
         made.frozen = true;
         run(&made, 8);
@@ -372,7 +376,7 @@ TEST(lockin, samples_out_of_order_are_refused) {
     TEST_ASSERT_TRUE(lockin.taken && lockin.taken_ticks == 5000U && lockin.count == 0);
 }
 
-/* A mark that never comes: the newest samples wait, and none is stored outside the buffer. */
+/* A pulse that never comes: the newest samples wait, and none is stored outside the buffer. */
 TEST(lockin, samples_stay_in_their_room) {
     settings();
     wh_lockin_start(&rotor, &lockin);
@@ -391,13 +395,14 @@ TEST(lockin, samples_stay_in_their_room) {
 
 /* --- the angle within a turn ---------------------------------------------------------------------- */
 
-/* It begins at the mark and ends a turn on. An inertia off by up to 40 % is found from the split alone, for any direction
- * of gravity, except on the diagonal that the split does not show. */
+/* The angle begins at the pulse's angle and ends one turn later. An inertia that is wrong by up to 40 % is corrected
+ * from the quadrature ratio alone, for any direction of gravity except the diagonal, on which the ratio does not depend
+ * on the inertia. */
 TEST(lockin, the_inertia_is_found_from_the_split) {
     static const wh_real gravities[] = {WH_R(0.0), WH_R(90.0), WH_R(180.0), WH_R(-90.0)};
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(360.0)};
     for (unsigned k = 0; k < 4U * 3U * 2U; k++) {
-        if (k % 12U == 2U) { /* upside down at 170 rpm: two rotors give this split */
+        if (k % 12U == 2U) { /* upside down at 170 rpm: two inertias give this ratio */
             continue;
         }
         settings();
@@ -414,7 +419,8 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
                                  (float)wh_turn_angle_at(&wanted, WH_R(0.0)));
         TEST_ASSERT_FLOAT_WITHIN(3e-6f, (float)(rotor.mark_rad[0] + WH_RIG_TWO_PI),
                                  (float)wh_turn_angle_at(&wanted, WH_R(1.0)));
-        wh_real split = WH_R(0.25); /* when the angle is that of sensor 2 */
+        /* the part of the turn's time at which the angle is that of sensor 2 */
+        wh_real split = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
             split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
         }
@@ -436,7 +442,7 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
     }
 }
 
-/* Without gravity in the arms' plane there is no swing, and the split does not depend on the inertia. */
+/* Without gravity in the arms' plane there is no ripple, and the quadrature ratio does not depend on the inertia. */
 TEST(lockin, level_arms_turn_evenly) {
     settings();
     wh_turn_angle angle;

@@ -1,4 +1,5 @@
-/* test_lockin_late.c: the lock-in's result does not depend on samples' delays, a turn's start between samples, or earlier data. */
+/* test_lockin_late.c: the lock-in's result does not depend on the delay of samples, on the begin of a turn between
+ * samples, or on earlier data. */
 #include "core/angle.h"
 #include "core/rig/lockin.h"
 #include "core/rig/rig.h"
@@ -17,17 +18,19 @@ static const wh_cell_config cell = {
 static wh_lockin lockin;
 static wh_lockin fresh;
 
-/* A rotor that turns evenly, and its samples: turn 0 begins `lead` samples after the first one, or before it (< 0). */
+/* A rotor with constant speed, and its samples: turn 0 begins `lead` samples after the first one, or before it if
+ * `lead` is negative. */
 typedef struct stream {
-    uint32_t ticks; /* of the first sample */
+    uint32_t ticks; /* time of the first sample */
     int lead;
     int32_t behind_ticks; /* offset from the sample near the turn's start */
     wh_real mean_N;
     wh_real cosine_N;
     wh_real sine_N;
-    wh_real ripple_N;   /* of the third order */
-    unsigned held;      /* this many steps without samples, then all that wait */
-    unsigned hold_more; /* one step in so many, 0: none, begins a hold of up to 12 */
+    wh_real ripple_N; /* amplitude of the third order */
+    /* number of steps without samples, after which all waiting samples come at once */
+    unsigned held;
+    unsigned hold_more; /* one step in this number begins a delay of up to 12 steps; 0: none */
 } stream;
 
 static stream draw_stream(void) {
@@ -53,7 +56,7 @@ static wh_real load_of(const stream *from, int32_t since_mark) {
 
 /* Runs control steps; returns the finished turns, TURNS at most. */
 static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_lockin_turn *turns) {
-    /* as in the rig: a step without samples does more */
+    /* as in the rig: a step without samples does more work */
     const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
                                                               : WH_LOCKIN_HALVES_AT_ONCE + 1U;
     const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;
@@ -117,7 +120,7 @@ static void begin(uint64_t from) {
     rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI;
 }
 
-/* Samples that come late, single, in groups, or after the turn: each turn is equal to the bit. */
+/* Samples that come late, one by one, in groups, or after the turn: each turn has the same bits. */
 TEST(lockin_late, late_samples_change_nothing) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
@@ -138,7 +141,8 @@ TEST(lockin_late, late_samples_change_nothing) {
     }
 }
 
-/* After a reset at any point the results are as from the start, except for the first turn's length check and its effects. */
+/* After a reset at any point the results are as from the start, except for the first turn, whose length cannot be
+ * compared with the previous one. */
 TEST(lockin_late, what_was_forgotten_changes_nothing) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
@@ -163,7 +167,7 @@ TEST(lockin_late, what_was_forgotten_changes_nothing) {
     }
 }
 
-/* A turn that begins, ends or is split at or near a sample is as right as any other. */
+/* A turn whose begin, end or quarter is at or near a sample is as accurate as any other. */
 TEST(lockin_late, marks_may_fall_on_samples) {
     static wh_lockin_turn found[TURNS];
     begin(3);

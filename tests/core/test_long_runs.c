@@ -1,4 +1,4 @@
-/* test_long_runs.c: counts and times in runs of years: nothing wraps, and times are right to one rounding. */
+/* test_long_runs.c: counts and times in runs of years: no count overflows, and times have one rounding error. */
 #include "core/angle.h"
 #include "core/number/sum.h"
 #include "core/rig/speed.h"
@@ -8,7 +8,7 @@
 
 void suite_long_runs(void);
 
-/* --- whole numbers of 128 bits, by hand: boards have none ------------------------------------------- */
+/* --- integers of 128 bits, because boards have none ------------------------------------------- */
 
 typedef struct wide {
     uint64_t high, low;
@@ -35,7 +35,7 @@ static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
     uint64_t result = 0;
     *rest = 0;
     for (unsigned i = 0; i < 128; i++) {
-        *rest = *rest << 1 | a.high >> 63; /* by is below 2^63 */
+        *rest = *rest << 1 | a.high >> 63; /* `by` is below 2^63 */
         a = twice(a);
         result <<= 1;
         if (*rest >= by) {
@@ -48,9 +48,9 @@ static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
 
 #define DIGITS (sizeof(wh_real) == sizeof(float) ? 24 : 53)
 
-/* Is `value`, of [0, 1), a real nearest to part / of, with part < of < 2^30? */
+/* Is `value`, in [0, 1), the real nearest to part / of, with part < of < 2^30? */
 static bool is_nearest(wh_real value, uint64_t part, uint64_t of) {
-    int places = 0; /* value = digits / 2^places, all digits of a real used */
+    int places = 0; /* value = digits / 2^places, with all digits of a real */
     if (part == 0 || !(value > WH_R(0.0))) {
         return part == 0 && value == WH_R(0.0);
     }
@@ -58,7 +58,8 @@ static bool is_nearest(wh_real value, uint64_t part, uint64_t of) {
         value *= WH_R(2.0);
         places++;
     }
-    wide exact = {0, part}; /* part 2^places against digits of; half a digit is of / 2 */
+    /* part 2^places is compared with digits times `of`; half a digit is of / 2 */
+    wide exact = {0, part};
     for (int i = 0; i < places; i++) {
         exact = twice(exact);
     }
@@ -110,7 +111,7 @@ static void test_times_are_right_to_one_rounding(void) {
     random_state = UINT64_C(0x20261121);
     for (unsigned i = 0; i < 3 * sizeof known / sizeof known[0]; i++) {
         wh_fraction step = {random_bits() % 1000000 + 1, random_bits() % 1000000000 + 1};
-        if (i % 3 == 0) { /* as large as they come */
+        if (i % 3 == 0) { /* of any size */
             step.numerator = (random_bits() >> random_bits() % 63 >> 4) + 1;
             step.denominator = (random_bits() >> random_bits() % 63 >> 4) + 1;
         }
@@ -128,7 +129,7 @@ static void test_times_are_right_to_one_rounding(void) {
     }
 }
 
-/* A fraction that rounds to one is the next second; otherwise it stays below it. */
+/* A fraction that rounds to one becomes the next second; all others stay below one. */
 static void test_a_fraction_stays_below_one(void) {
     const uint64_t in = UINT64_C(1) << 60;
     wh_scene scene = {.step_s = WH_R(1.0), .step = {1, in}};
@@ -181,7 +182,7 @@ static void test_steps_do_not_wrap(void) {
     TEST_ASSERT_TRUE(time.whole_s == 4294967 && is_nearest(time.fraction_s, 301, 1000));
 }
 
-/* Two stops a micrometre apart and a fast body: every step overruns. */
+/* Two stops one micrometre apart and a fast body: every step overruns. */
 static void test_events_and_overruns_do_not_wrap(void) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
@@ -210,7 +211,8 @@ static void test_turns_wrap_and_the_phase_goes_on(void) {
 }
 #endif
 
-/* The books' sums after 50 years of 1 ms, 1.6e12 entries of one size: another hundred thousand entries are not lost. */
+/* Sums of the ledger after 50 years of 1 ms steps (1.6e12 entries of one size): another hundred thousand entries still
+ * change the sum. */
 static void test_sums_of_years_do_not_stall(void) {
     static const wh_real each[] = {WH_R(1.0), WH_R(-3e-7), WH_R(0.0123), WH_R(7.7e9), WH_R(-1e-20)};
     const wh_real years = WH_R(1.57788e12);
@@ -226,15 +228,15 @@ static void test_sums_of_years_do_not_stall(void) {
     }
 }
 
-/* Quarter turns and pulses wrap after 2^32, six years at 330 rpm, and capture ticks after 71.6 minutes. The speed stays right,
- * no pulse counts as lost, and no position changes. */
+/* Quarter turns and pulses wrap after 2^32, six years at 330 rpm, and capture ticks after 71.6 minutes. After the wraps
+ * the speed is right, no pulse counts as lost, and positions are right. */
 static void test_the_count_of_quarters_wraps(void) {
     static wh_speed speed;
     const uint32_t quarter_ticks = 45454U;
     uint32_t ticks = UINT32_MAX - 20U * quarter_ticks;
     wh_speed_start(&speed, WH_R(1e3));
     for (uint32_t k = 0; k < 60U; k++) {
-        if (k == 8U) { /* years later, at the same sensor: a multiple of a turn */
+        if (k == 8U) { /* years later at the same sensor, after a whole number of turns */
             const uint32_t on = (UINT32_MAX - 15U) - (speed.quarter & ~UINT32_C(3));
             speed.quarter += on;
             speed.seen_quarter[0] += on;
@@ -253,7 +255,7 @@ static void test_the_count_of_quarters_wraps(void) {
         ticks += quarter_ticks;
     }
     TEST_ASSERT_TRUE(speed.lost == 0 && speed.rejected == 0 && speed.restarts == 0);
-    TEST_ASSERT_TRUE(speed.quarter < 100U && speed.taken < 100U); /* they did wrap */
+    TEST_ASSERT_TRUE(speed.quarter < 100U && speed.taken < 100U); /* both counts have wrapped */
 }
 
 void suite_long_runs(void) {

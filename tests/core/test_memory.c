@@ -25,7 +25,7 @@ static void fill(void) {
     }
 }
 
-/* Is the memory outside room[from] to room[to] as after fill()? */
+/* Does the memory outside room[from] to room[to] still have the bytes of fill()? */
 static bool is_filled(size_t from, size_t to) {
     bool all = true;
     for (size_t i = 0; i < sizeof words; i++) {
@@ -46,7 +46,7 @@ static wh_status no_steps(const wh_scene *scene, wh_state *of, uint32_t steps) {
     return no_step(scene, of);
 }
 
-/* The state was not started: every function that takes one refuses it and leaves it unchanged. */
+/* Checks a state that was not started: every function that takes one refuses it and leaves it unchanged. */
 static void must_not_run(const wh_scene *scene) {
     wh_scene with_ahead = *scene;
     const wh_state before = state;
@@ -71,13 +71,13 @@ static void must_refuse(const wh_scene *scene, void *memory, size_t bytes, wh_st
     if (scene != NULL) {
         must_not_run(scene);
     }
-    state = (wh_state){.fault = 0}; /* like static memory */
+    state = (wh_state){.fault = 0}; /* zeroed, as static memory is */
     if (scene != NULL) {
         must_not_run(scene);
     }
 }
 
-/* The last byte of each part of the state lies within the memory. */
+/* Checks that the last byte of each part of the state is within the memory. */
 static bool ends_within(const wh_scene *scene, size_t first, size_t bytes) {
     const unsigned char *end = room + first + bytes;
     const size_t carries = scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
@@ -92,7 +92,7 @@ static bool ends_within(const wh_scene *scene, size_t first, size_t bytes) {
            (scene->contacts == 0 || (const unsigned char *)(state.contacts + 1) <= end);
 }
 
-/* By the compiler, not the core: a struct with its 64-bit integer after a byte. */
+/* The alignment by the compiler: the offset of a 64-bit integer after a byte in a struct. */
 typedef struct behind {
     char byte;
     uint64_t word;
@@ -126,7 +126,7 @@ static wh_scene shape(unsigned angles, unsigned reals, unsigned inputs, unsigned
     return scene;
 }
 
-/* Scenes of all shapes: `more` reals beside those of the state. */
+/* Calls see() for scenes of all shapes: numbers of components, compensation, inputs, contacts and ledger. */
 static void every_shape(void (*see)(const wh_scene *scene, size_t need)) {
     static const uint8_t contacts[] = {0, 1, 7, WH_CONTACTS_LIMIT};
     static const wh_ledger_form books[] = {{.entries = 1, .accounts = 1},

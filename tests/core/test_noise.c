@@ -1,4 +1,5 @@
-/* test_noise.c: noise by seed and index: equal integers everywhere, and the promised distribution. WH_TEST_SMALL: fewer draws. */
+/* test_noise.c: noise as a function of seed and index: the same integers on every machine, and the documented
+ * distribution. WH_TEST_SMALL: fewer draws. */
 #include "core/noise.h"
 
 #include "tests/suites.h"
@@ -12,7 +13,7 @@
 #define FOUR_SIGMA (WH_TEST_SMALL ? 0.0625 : 0.015625)
 #define ONE 65536 /* a standard deviation */
 
-/* From a Python program with arbitrary integers, whose splitmix64 gives the published first outputs of
+/* Reference values from a Python program with arbitrary integers, whose splitmix64 gives the published first outputs of
  * seed 1234567 (6457827717110365317, 3203168211198807973). */
 TEST(noise, fixed_values) {
     static const struct {
@@ -36,7 +37,8 @@ TEST(noise, fixed_values) {
     }
 }
 
-/* Moments 0, 1 and (fourth) 3, as for a Gaussian, to 0.1 %. The estimates' errors by a Gaussian's moments: 1, sqrt 2, sqrt 96. */
+/* The first, second and fourth moments are a Gaussian's, 0, 1 and 3, to 0.1 %. The tolerances are from the standard
+ * errors of a Gaussian's moments: 1, sqrt 2, sqrt 96. */
 TEST(noise, moments) {
     for (uint32_t seed = 1; seed <= 4; seed++) {
         int64_t sum = 0;
@@ -59,8 +61,8 @@ TEST(noise, moments) {
     }
 }
 
-/* The shares beyond one to four standard deviations are a Gaussian's. Bounds: four standard errors of a count, sqrt(p (1 -
- * p)/(16 DRAWS)). They separate 0.0027 from the 0.0020 of a sum of twelve. */
+/* The shares beyond one to four standard deviations are a Gaussian's. The tolerances are four standard errors of a
+ * count, sqrt(p (1 - p)/(16 DRAWS)): small enough to distinguish 0.0027 from the 0.0020 of a sum of twelve. */
 TEST(noise, tails) {
     enum { SEEDS = 16 };
     static const double part[] = {0.31731, 0.045500, 0.0026998, 6.33e-5};

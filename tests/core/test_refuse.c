@@ -1,5 +1,6 @@
-/* test_refuse.c: the component blamed for a refused step, in all chips' forms, against the written rule. Sizes with a sum of
- * 1e15 or more, or not a number, are invalid. The first that is so large by itself is blamed, or else the last. */
+/* test_refuse.c: which component a refused step reports, for the variants of all chips. The reference is the rule: a
+ * step is refused if the sum of sizes is 1e15 or more, or NaN. The fault is the first component that is too large by
+ * itself, or else the last. */
 #include "core/step/matrix_step.h"
 #include "tests/core/draw.h"
 #include "tests/suites.h"
@@ -12,7 +13,7 @@ enum { MOST = 12, NONE = -1 };
 
 static wh_real size_of(wh_real value) { return value < WH_R(0.0) ? -value : value; }
 
-/* Below 1e15, by comparisons that are false for NaN. */
+/* True below 1e15; false for NaN. */
 static bool is_small(wh_real value) { return size_of(value) < WH_R(1e15); }
 
 static int blamed_by_rule(const wh_real *value, unsigned n) {
@@ -30,7 +31,7 @@ static int blamed_by_rule(const wh_real *value, unsigned n) {
     return (int)at;
 }
 
-/* Ordinary numbers, those near a bound, and invalid ones. */
+/* A random number: ordinary, near the bound, or invalid. */
 static wh_real drawn(uint64_t *seed) {
     static const wh_real edge[] = {WH_R(0.0),
                                    WH_R(1e-30),

@@ -1,5 +1,5 @@
-/* test_rig_bounds.c: bounds in the rig's controller: work per control step, ramp time, the tare's validity, inclusive limits of
- * the tare, and the stage's name. */
+/* test_rig_bounds.c: bounds in the rig's controller: work per control step, time of the ramp, validity of the tare with
+ * its limits included, and the name of the stage. */
 #include "build/gen/scenes.h"
 #include "core/rig/observer.h"
 #include "draw.h"
@@ -10,7 +10,7 @@
 static even_rig even;
 static uint64_t seed;
 
-/* Armed, with an observer that calls every mark good (`trusted`) or none. */
+/* Arms the rig, with an observer that trusts every pulse (`trusted`) or none. */
 static void arm(bool trusted) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
@@ -22,12 +22,13 @@ static void arm(bool trusted) {
                      WH_OK);
 }
 
-/* As many marks wait as there is room for. Each step takes one; the last mark is taken only in a step without a pulse. */
+/* As many confirmed pulses wait as there is room for. Each step processes one; the last waits for a step without a new
+ * pulse. */
 TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
     static even_rig twin;
     even_reach(&even, WH_PHASE_SETTLE);
     while (even.rig.pulses.waits || even.rig.pulses.marks > 0) {
-        even_step(&even); /* the last pulse's mark is taken */
+        even_step(&even); /* processes the confirmed pulse before the last */
     }
     twin = even;
     for (unsigned marks = 0; marks <= WH_PULSES_MARKS; marks++) {
@@ -47,7 +48,7 @@ TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
     }
 }
 
-/* Number of half nodes by which the turn's sums advanced since `before`; -1 if unknown. */
+/* Number of half nodes by which the sums of the turn advanced since `before`; -1 if unknown. */
 static int halves_since(const wh_lockin *before) {
     const wh_lockin *now = &even.rig.measure.lockin;
     if (before->stage != WH_LOCKIN_SUMS || now->stage != WH_LOCKIN_SUMS || now->count < 4U ||
@@ -61,9 +62,10 @@ static int halves_since(const wh_lockin *before) {
            (before->place != WH_LOCKIN_NOWHERE ? 1 : 0);
 }
 
-/* The controller is late by up to three steps and may get samples meanwhile. A step without a sample adds four half nodes to
- * the turn's sums. A step with one sample adds three, or two while a mark is unsure and gravity is compensated. A step with
- * more samples, or in which the observer caught up two steps, adds one. A step with a pulse or a mark may add none. */
+/* The controller is late by up to three steps and gets the samples of that time. A step without a sample adds four half
+ * nodes to the turn's sums. A step with one sample adds three, or two while a pulse is unconfirmed and gravity is
+ * compensated. A step with more samples, or in which the observer does two steps, adds one. A step with a pulse may add
+ * none. */
 TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     static wh_lockin before;
     unsigned times[5] = {0};
@@ -81,7 +83,7 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
                 even.fails = (even_failure){.in = WH_PHASE_RECORD, .lose_samples = 1};
                 samples = 0;
             }
-            for (unsigned k = 0; k < late; k++) { /* the samples it would have had */
+            for (unsigned k = 0; k < late; k++) { /* the samples of the missed steps */
                 even.inputs.now_ticks += EVEN_STEP_TICKS;
                 if (draw_one_in(&seed, 2)) {
                     wh_rig_load(&even.config, &even.rig, even.inputs.now_ticks - 500U,
@@ -129,7 +131,7 @@ TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
     }
 }
 
-/* Pulses of a rotor that hangs and shivers during the tare begin no turn. */
+/* The rotor hangs at sensor 1 and gives pulses by jitter during the tare. These pulses begin no turn. */
 TEST(rig_bounds, what_was_seen_at_rest_begins_no_turn) {
     seed = 4;
     for (unsigned i = 0; i < 60U; i++) {
@@ -146,12 +148,13 @@ TEST(rig_bounds, what_was_seen_at_rest_begins_no_turn) {
     }
 }
 
-/* The largest scatter that counts as still is allowed, and the next larger number is refused. The same holds for the mean's
- * error. */
+/* A scatter exactly at the limit is accepted, and the next larger number is refused. The same is true for the error of
+ * the mean. */
 TEST(rig_bounds, limits_of_the_tare_are_allowed) {
     seed = 3;
     for (unsigned i = 0; i < 200U; i++) {
-        const uint32_t spare = UINT32_C(1) << (1U + draw_one_of(&seed, 7)); /* divides exactly */
+        /* a number that divides exactly */
+        const uint32_t spare = UINT32_C(1) << (1U + draw_one_of(&seed, 7));
         const wh_real noise_N2 = draw_one_in(&seed, 3) ? WH_R(0.0) : draw_whole(&seed, 1, 64);
         const wh_real still_N = draw_whole(&seed, 0, 8);
         const wh_real most_N2 = noise_N2 + still_N * still_N;

@@ -1,5 +1,5 @@
-/* test_rig_carriage.c: the angle within a turn on a compliant carriage against the rotor integrated over its angle, and the
- * mount's effect on the controller's numbers. */
+/* test_rig_carriage.c: the angle within a turn on a carriage that moves, compared with the rotor integrated over its
+ * angle; and the effect of the mount on the controller's numbers. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
@@ -11,7 +11,8 @@
 #define TURNS 16U
 
 static wh_rotor_config rotor;
-static wh_real part_at[STEPS + 1U]; /* by the turn's time, at STEPS equal angles from the mark */
+/* the part of the turn's time, at STEPS equal angles from sensor 1's pulse */
+static wh_real part_at[STEPS + 1U];
 static wh_real turn_s;
 
 static wh_real sine_of(wh_real rad) {
@@ -29,7 +30,7 @@ static wh_real slope(wh_real theta, wh_real speed, wh_real omega) {
     return torque / (inertia * speed);
 }
 
-/* Turns it until it is periodic and stores the last turn. */
+/* Integrates turns until the motion is periodic and stores the last turn. */
 static void integrate(wh_real omega) {
     const wh_real step = WH_RIG_TWO_PI / (wh_real)STEPS;
     wh_real speed = omega;
@@ -80,8 +81,8 @@ TEST(rig_carriage, angle_on_a_carriage) {
     wh_turn_angle angle;
     for (unsigned r = 0; r < sizeof ratios / sizeof ratios[0]; r++) {
         for (unsigned s = 0; s < sizeof speeds / sizeof speeds[0]; s++) {
-            for (unsigned drag = 1; drag <= 4U;
-                 drag *= 2U) { /* a stiffer motor shifts the wave's phase */
+            for (unsigned drag = 1; drag <= 4U; drag *= 2U) {
+                /* a steeper torque line shifts the phase of the term of twice the angle */
                 mount(ratios[r]);
                 rotor.damping_Nms *= (wh_real)drag;
                 integrate(speeds[s]);
@@ -93,7 +94,8 @@ TEST(rig_carriage, angle_on_a_carriage) {
                 const wh_real wave = angle.twice_rad;
                 TEST_ASSERT_TRUE(unshaped.twice_rad == WH_R(0.0));
                 TEST_ASSERT_TRUE(wave > WH_R(0.0) && wave < WH_R(0.06));
-                /* both are at the mark there: relative to an even angle, the wave less its value at the mark */
+                /* Both angles are equal at the pulse. So an angle of constant speed has an error of the term minus its
+                 * value at the pulse. */
                 TEST_ASSERT_TRUE(even_off > WH_R(0.9) * wave && even_off < WH_R(2.1) * wave);
                 TEST_ASSERT_TRUE(left < WH_R(2.5) * wave * wave + WH_R(6e-5));
             }
@@ -101,7 +103,7 @@ TEST(rig_carriage, angle_on_a_carriage) {
     }
 }
 
-/* A carriage too heavy to move is a fixed mount; a rotor without masses makes no wave. */
+/* A carriage too heavy to move is a fixed mount; a rotor without masses moves no carriage. */
 TEST(rig_carriage, no_wave) {
     wh_turn_angle angle;
     mount(WH_R(0.0));
@@ -131,7 +133,7 @@ TEST(rig_carriage, mount) {
     TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_COMPENSATION_NEVER &&
                      config.observer.scene == NULL);
 
-    /* arms without discs turn about themselves only */
+    /* arms without discs: their unbalance is neglected */
     const wh_carriage bare = {.disc_m = WH_R(0.0), .ratio = WH_R(0.0)};
     wh_carriage_mount(&config, &bare);
     TEST_ASSERT_FLOAT_WITHIN(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f,
@@ -154,7 +156,7 @@ TEST(rig_carriage, swing) {
             TEST_ASSERT_FLOAT_WITHIN(
                 1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),
                 (float)(config.measure.rotor.inertia_kgm2 - WH_RIG_INERTIA_KGM2));
-            /* if the force is a tenth above the expected one, the carriage moves a tenth further */
+            /* if the force is 10 % above the expected one, so is the motion of the carriage */
             const wh_measured force = {.amplitude_N = WH_R(1.1) * part * moment * WH_R(900.0),
                                        .expected_N = part * moment * WH_R(900.0)};
             const wh_real due = WH_R(1.1) * moment * (WH_R(1.0) - part) / WH_RIG_ECCENTRIC_KG;

@@ -1,5 +1,5 @@
-/* test_rig_gravity.c: gravity's feed-forward: its voltage, the times without one, and its effect on a rotor's ripple in closed
- * loop (fed_rotor.c), also with wrong settings. */
+/* test_rig_gravity.c: gravity compensation: its voltage, when the voltage is zero, and its effect on the ripple of a
+ * rotor in closed loop (fed_rotor.c), also with wrong settings. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
@@ -29,7 +29,8 @@ static wh_real sine_of(wh_real rad) {
 
 /* --- its voltage -------------------------------------------------------------------------------------- */
 
-/* The voltage is S g sin(theta - gamma) divided by the stall torque, with the lead and the limit, after an even fade-in. */
+/* The voltage is S g sin(theta - gamma) divided by the stall torque, at the angle after the lead, limited, and faded in
+ * linearly. */
 TEST(rig_gravity, it_says_gravitys_voltage) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
@@ -56,7 +57,7 @@ TEST(rig_gravity, it_says_gravitys_voltage) {
     }
 }
 
-/* The voltage is zero at once if the observer is invalid, fades in again from zero, and is never NaN. */
+/* The voltage is zero at once if the observer is invalid, and fades in again afterwards. It is never NaN. */
 TEST(rig_gravity, it_says_nothing_without_an_angle) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     fed_rotor_standard(&fed, 1);
@@ -88,7 +89,7 @@ TEST(rig_gravity, it_says_nothing_without_an_angle) {
 
 /* --- its effect ---------------------------------------------------------------------------------------- */
 
-/* Starts at 200 rpm, changes to this speed and stays there, with jitter and 0.02 N m of friction. */
+/* Starts at 200 rpm, changes to this speed and stays there, with jitter and a friction of 0.02 N m. */
 static void run_at(wh_real rpm) {
     fed.kind.jitter_s = JITTER_S;
     fed.kind.friction_Nm += WH_R(0.02);
@@ -98,7 +99,7 @@ static void run_at(wh_real rpm) {
     fed_rotor_count(&fed);
     fed_rotor_run(&fed, rpm, WH_R(3.0));
     TEST_ASSERT_FALSE(fed.stood);
-    /* an incomplete turn leaves ripple in the mean */
+    /* the last, incomplete turn adds some ripple to the mean */
     TEST_ASSERT_FLOAT_WITHIN(2.5f, (float)rpm, (float)fed_rotor_mean_rpm(&fed));
 }
 
@@ -107,9 +108,9 @@ static void begin(fed_by by) {
     fed.by = by;
 }
 
-/* Gravity compensation reduces the ripple from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170 rpm. At 100 rpm
- * the rotor alone would not pass the top. There a motor that brakes no harder than when shorted leaves a ripple, which
- * friction reduces. */
+/* Gravity compensation reduces the ripple from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170 rpm. At 100
+ * rpm the rotor would not pass the top without compensation. At that speed the motor brakes at most as much as with
+ * shorted leads, so some ripple remains, which friction reduces. */
 TEST(rig_gravity, the_ripple_goes) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
@@ -154,7 +155,8 @@ TEST(rig_gravity, another_weight_leaves_its_part) {
     }
 }
 
-/* With sensors 3 degrees off, in the same or opposite directions, at most a twentieth of the ripple remains. */
+/* With sensor positions wrong by 3 degrees, in equal or opposite directions, at most a twentieth of the ripple
+ * remains. */
 TEST(rig_gravity, sensors_may_stand_wrong) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
@@ -167,7 +169,7 @@ TEST(rig_gravity, sensors_may_stand_wrong) {
     }
 }
 
-/* With the wrong sign the ripple doubles, but the mean speed and the shaft's limit hold. */
+/* With the wrong sign the ripple doubles, but the mean speed stays, and the shaft's limit is not exceeded. */
 TEST(rig_gravity, the_wrong_sign_is_survived) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
@@ -184,7 +186,8 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
     }
 }
 
-/* When marks are missing the voltage vanishes at once and the ripple returns. With the marks back, the ripple vanishes again. */
+/* If pulses are missing, the voltage is zero at once and the ripple returns. With the pulses back, the ripple
+ * disappears again. */
 TEST(rig_gravity, lost_marks_take_it_away) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
@@ -201,8 +204,8 @@ TEST(rig_gravity, lost_marks_take_it_away) {
 
 /* --- its effect on the measurement ----------------------------------------------------------------------- */
 
-/* The share of gravity that remains, of either sign, follows from the split alone if the inertia is given. It is reset when
- * the compensation ends. */
+/* The part of gravity that remains, of either sign, follows from the quadrature ratio alone if the inertia is given.
+ * The estimate restarts when the compensation ends. */
 TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
@@ -222,12 +225,14 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
         for (unsigned i = 0; i < 4; i++) {
             wh_turn_angle_shape(&rotor, &wanted, speed);
         }
-        wh_real split = WH_R(0.25); /* when the angle is that of sensor 2 */
+        /* the part of the turn's time at which the angle is that of sensor 2 */
+        wh_real split = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
             split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
         }
         for (unsigned i = 0; i < 12; i++) {
-            wh_turn_angle_feed(&found, true, WH_R(0.0625)); /* no change */
+            /* compensation was already on: no change */
+            wh_turn_angle_feed(&found, true, WH_R(0.0625));
             wh_turn_angle_shape(&rotor, &found, speed);
             wh_turn_angle_split(&rotor, &found, split);
         }
@@ -245,8 +250,8 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     }
 }
 
-/* The turn in which the compensation changes does not count. A motor that cannot brake cancels gravity only as far as its
- * drive voltage reaches: `cut` is the missing part. */
+/* The turn in which the compensation changes does not count. A motor that cannot brake compensates gravity only as far
+ * as the drive's own voltage reaches: `cut` is the missing part. */
 TEST(rig_gravity, the_lockin_is_told) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -273,7 +278,7 @@ TEST(rig_gravity, the_lockin_is_told) {
 
 static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
-/* (1/pi) of the integral of (cos y - k) cos 2y over cos y > k, by the midpoint rule. */
+/* Reference: (1/pi) times the integral of (cos y - k) cos 2y over the angles with cos y > k, by the midpoint rule. */
 static double second_of_pulse(double k) {
     double sum = 0.0;
     for (unsigned i = 0; i < 4096U; i++) {
@@ -309,7 +314,7 @@ TEST(rig_gravity, the_answer_to_a_pulse) {
         const double slope = (double)rotor.damping_Nms;
         const double size = (double)weight_Nm * second_of_pulse(1.0 - (double)cut) /
                             (2.0 * (double)speed * root(turning * turning + slope * slope));
-        /* Fourier components over the angle of even motion, so that sampling loses nothing */
+        /* Fourier components over the angle of a constant speed; equidistant samples make them exact */
         double off[2] = {0.0, 0.0};
         for (unsigned k = 0; k < 64U; k++) {
             const wh_real part = (wh_real)k / WH_R(64.0);

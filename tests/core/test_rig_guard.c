@@ -22,7 +22,8 @@ TEST(rig_guard, speed_limit_follows_from_the_shaft) {
     const wh_real limit = wh_rig_standard.guard.limit_radps;
     const wh_real at_limit_N = WH_RIG_UNBALANCE_KGM / WH_R(2.0) * limit * limit + others_N;
     TEST_ASSERT_TRUE(at_limit_N < carried_N);
-    TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N); /* and not lower than necessary */
+    /* and the limit is not lower than necessary */
+    TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N);
     TEST_ASSERT_TRUE(wh_rig_standard.guard.target_max_radps < limit);
     TEST_ASSERT_TRUE(WH_RIG_NOMINAL_RPM * RPM < wh_rig_standard.guard.target_max_radps);
 }
@@ -61,7 +62,8 @@ TEST(rig_guard, over_speed_trips) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
-/* A turn that is too fast trips as soon as no accepted pulse contradicts it. Two fast intervals in a row trip too. */
+/* Over-speed trips when no accepted pulse can contradict it: at once for a turn that is too fast, or after two short
+ * intervals in succession. */
 TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     for (unsigned i = 0; i < 96U; i++) {
@@ -86,12 +88,12 @@ TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     }
 }
 
-/* Two marks of a climbing rotor and an interval beyond the bound are a runaway. Fewer are not. */
+/* A speed that rises at two successive pulses and one interval beyond the bound trip. Fewer signs do not. */
 TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
-        for (unsigned part = 0; part <= 10U; part++) { /* of twice the allowed climb */
+        for (unsigned part = 0; part <= 10U; part++) { /* in tenths of twice the allowed rise */
             wh_guard guard;
             wh_guard_start(&guard, 0);
             wh_pulses pulses;
@@ -119,8 +121,8 @@ TEST(rig_guard, what_climbs_and_is_fast_trips) {
     TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(-20.0) * RPM, true) < WH_R(0.0));
 }
 
-/* Without drive, a rotor that passes the top at 1.03 times the set-point reaches the bottom with the speed that its energy
- * gives there. */
+/* A rotor without drive that passes the top at 1.03 times the set-point has, at the bottom, the speed that follows from
+ * its energy. */
 TEST(rig_guard, the_bound_is_what_gravity_makes_of_a_speed) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
@@ -160,7 +162,8 @@ TEST(rig_guard, lost_pulses_and_silence_trip) {
     wh_guard_start(&guard, 0);
     wh_pulses_start(&pulses, WH_R(800.0) * RPM);
     wh_pulses_take(&pulses, 0, 1000U);
-    wh_guard_pulses(config, &guard, &pulses, silence_s, 999U); /* the step's own time is earlier */
+    /* the time of the step is before that of the last pulse */
+    wh_guard_pulses(config, &guard, &pulses, silence_s, 999U);
     wh_guard_pulses(config, &guard, &pulses, silence_s, 1000U + 499000U);
     TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
     wh_guard_pulses(config, &guard, &pulses, silence_s, 1000U + 501000U);
@@ -194,7 +197,7 @@ TEST(rig_guard, rest_is_remembered) {
     TEST_ASSERT_TRUE(guard.quiet);
 }
 
-/* Load samples that swing by `swing_N` about 50 N, a slot pulse with every 20th, at 330 rpm. */
+/* The trip from load samples that vary by `swing_N` about 50 N, with a slot pulse at every 20th sample, at 330 rpm. */
 static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     wh_guard guard;
@@ -214,10 +217,11 @@ static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
 TEST(rig_guard, a_stuck_load_cell_trips) {
     const unsigned enough = (unsigned)(20U * wh_rig_standard.guard.stuck_pulses + 1U);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), false, 1000) ==
-                     WH_TRIP_NONE); /* at rest it may stand still */
+                     WH_TRIP_NONE); /* at rest the load may be constant */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough - 1U) == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough) == WH_TRIP_LOAD_CELL);
-    /* a dead cell shows only noise, a live load at least a tenth of the masses' 42 N */
+    /* the samples of a dead cell vary by noise only; with a live cell the load varies by at least a tenth of the
+     * masses' 42 N */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.0), true, enough) == WH_TRIP_LOAD_CELL);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
@@ -233,11 +237,12 @@ TEST(rig_guard, an_overloaded_or_disconnected_load_cell_trips) {
         TEST_ASSERT_TRUE(guard.trip == (fails ? WH_TRIP_LOAD_CELL : WH_TRIP_NONE));
         wh_guard_start(&guard, 0);
         wh_guard_load(&wh_rig_standard.guard, &guard, &speed, &load, false, false);
-        TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE); /* not needed now */
+        TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE); /* the cell is not needed now */
     }
 }
 
-/* load_silence_max_s is ten periods of 2 ms, also across the timer's wrap. A repeated sample does not count as new. */
+/* A load cell without samples for more than load_silence_max_s, ten periods of 2 ms, trips, also across the timer's
+ * wrap. A repeated sample does not count as new. */
 TEST(rig_guard, a_silent_load_cell_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;
@@ -252,7 +257,8 @@ TEST(rig_guard, a_silent_load_cell_trips) {
             load.status = WH_LOAD_REPEATED;
             wh_guard_load(config, &guard, &speed, &load, false, true);
         }
-        TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last - 100U)); /* read before it */
+        /* the time of the step is before that of the last sample */
+        TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last - 100U));
         TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last + 19900U));
         TEST_ASSERT_FALSE(wh_guard_load_comes(config, &guard, last + 20100U));
     }

@@ -7,7 +7,8 @@
 #include "tests/scattered.h"
 #include "tests/suites.h"
 
-/* Silence counts from the last pulse on either side of the timer's wrap. A stamp later than the step's own time is ignored. */
+/* The time without a pulse is counted from the last pulse, also across the timer's wrap. It is 0 if the pulse is later
+ * than the step's own time. */
 TEST(rig_law, silence_goes_on_over_the_wrap) {
     scattered_state = UINT64_C(0x5eed0017);
     for (unsigned i = 0; i < 1000U; i++) {
@@ -63,7 +64,7 @@ TEST(rig_law, the_drive_keeps_its_law) {
         TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
         double setpoint = (double)drive.setpoint_radps;
         double integral = (double)drive.integral_V;
-        /* less than three steps' change; slow ones take a quarter of it */
+        /* the change in less than three steps; at slow speed, a quarter of it */
         const double far = setpoint < (double)law->gentle_radps + 0.1 ? 0.009 : 0.03;
         drive.target_radps = (wh_real)(setpoint + between(-far, far));
         const double target = (double)drive.target_radps;

@@ -1,5 +1,5 @@
-/* test_rig_lead.c: rotors that slow down later than their set-point. The drive stage does not brake, or the inertia is up to
- * six times larger. The guard does not call this over-speed, but it sees a drive that runs away meanwhile. */
+/* test_rig_lead.c: rotors that slow down later than their set-point, because the drive stage does not brake or the
+ * inertia is up to six times larger. The guard does not trip for over-speed then, but still detects a runaway drive. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -32,7 +32,7 @@ static void begin(wh_rig_phase phase, wh_real target_radps) {
     rig.run.closed_ticks = rotor.ticks - 5U * WH_RIG_TICKS_PER_S;
 }
 
-/* `drive`: fixed drive, or below zero the ordered one. */
+/* Steps with the fixed drive `drive`; if it is negative, with the commanded one. */
 static void go_on(wh_real drive, unsigned steps) {
     wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
     for (unsigned step = 0; step < steps && rig.state == WH_RIG_RUNNING; step++) {
@@ -77,7 +77,7 @@ TEST(rig_lead, a_rotor_that_cannot_follow_is_not_too_fast) {
         leads_to(target_radps);
         go_on(AS_ASKED, 2500);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
-        /* the guard's bound by the set-point alone */
+        /* counts the steps in which the set-point alone would give a lower bound */
         left_behind +=
             rig.pulses.speed.turn_radps >
                     wh_guard_bound_radps(&config.guard, rig.run.drive.setpoint_radps, true)

@@ -1,5 +1,5 @@
-/* test_rig_motor.c: motors of any torque line on a made-up rotor. With their settings a run ends good. With other settings, or
- * a wrong supply reading, it is good too or the trip names the cause. */
+/* test_rig_motor.c: motors of any torque line on an imitated rotor. With the settings of the motor, a run ends with a
+ * good result. With other settings, or a wrong supply reading, the result is good or the trip names the cause. */
 #include <string.h>
 
 #include "core/angle.h"
@@ -15,13 +15,13 @@
 static wh_rig rig;
 static wh_rig_config config;
 static wh_conf conf;
-static wh_rig_motor motor; /* the real one */
+static wh_rig_motor motor; /* the true motor */
 static rotor_kind kind;
 static rotor_state rotor;
-static wh_real supply_V;            /* the real one, */
-static wh_real reads;               /* and its divider's reading */
-extern const wh_scene rig_observed; /* the firmware's */
-static wh_pulse pulse[4];           /* the last ones */
+static wh_real supply_V;            /* the true supply voltage */
+static wh_real reads;               /* the reading of the supply, as a factor */
+extern const wh_scene rig_observed; /* the observer's model, as in the firmware */
+static wh_pulse pulse[4];           /* the last pulses */
 static uint64_t seed;
 
 static wh_real between(wh_real least, wh_real most) {
@@ -96,7 +96,7 @@ static wh_refusal run(wh_real target_rpm) {
     return WH_ALLOWED;
 }
 
-/* No-load speed 400 to 900 rpm, stall torque half to twice the standard's, rated 12 to 36 V. */
+/* Draws a motor: no-load speed 400 to 900 rpm, stall torque half to twice the standard's, rated for 12 to 36 V. */
 static void draw_motor(void) {
     motor = (wh_rig_motor){.stall_Nm = WH_RIG_STALL_NM * between(WH_R(0.5), WH_R(2.0)),
                            .no_load_radps = between(WH_R(400.0), WH_R(900.0)) * RPM,
@@ -108,8 +108,8 @@ static void draw_motor(void) {
     kind.no_load_radps = motor.no_load_radps;
 }
 
-/* No motor trips. A steep line at a low speed may outweigh a third of the rotor's inertia. Its swing fits the angle's model
- * less well, and the result may be doubtful. */
+/* No motor with its own settings trips. A steep torque line at a low speed may have a larger effect than a third of the
+ * rotor's inertia. The model of the angle is then less accurate, and the result may be doubtful. */
 TEST(rig_motor, any_motor_with_its_settings) {
     seed = 61;
     unsigned good = 0;
@@ -168,13 +168,13 @@ TEST(rig_motor, wrong_settings_are_named) {
     TEST_ASSERT_TRUE(named * 20U >= cases && done * 2U > cases);
 }
 
-/* A reversed motor, or swapped sensors, for any motor. */
+/* A reversed motor, or swapped sensors, with any motor: the trip names the wrong order. */
 TEST(rig_motor, a_wrong_order_is_named) {
     seed = 63;
     for (unsigned i = 0; i < draw_cases(60); i++) {
         draw_motor();
         enter(&motor);
-        if (i % 2U == 0) { /* mirrored, sensor 2 is at three quarters */
+        if (i % 2U == 0) { /* mirrored, sensor 2 is at three quarters of a turn */
             kind.mark_rad[1] = WH_R(0.75) * WH_RIG_TWO_PI + kind.mark_rad[0];
         } else {
             const wh_real one = kind.mark_rad[0];
@@ -187,8 +187,8 @@ TEST(rig_motor, a_wrong_order_is_named) {
     }
 }
 
-/* The speed of a coasting rotor, also that of the last turn, is known while the sensors alternate. A sensor that fires twice
- * means that the rotor swings. */
+/* The speed of a coasting rotor, also that of the last turn, is known while the pulses of the sensors alternate. If a
+ * sensor fires twice in succession, the rotor swings. */
 TEST(rig_motor, the_speed_of_a_rotor_that_coasts) {
     seed = 65;
     unsigned known_steps = 0;
@@ -205,7 +205,7 @@ TEST(rig_motor, the_speed_of_a_rotor_that_coasts) {
         while (rig.run.phase == WH_PHASE_RAMP_DOWN) {
             step();
         }
-        step(); /* the search for rest */
+        step(); /* the step that tests for rest */
         while (rig.run.phase == WH_PHASE_OFF && !rig.guard.quiet) {
             step();
             wh_real speed_radps;

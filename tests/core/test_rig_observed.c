@@ -1,5 +1,5 @@
-/* test_rig_observed.c: the rig's controller with an observer on a rotor that turns evenly (even_rig.c): the pulses passed to
- * the observer, and its reset at each run's start. */
+/* test_rig_observed.c: the rig's controller with an observer on an imitated rotor of constant speed (even_rig.c): which
+ * pulses the observer gets, and its restart at the start of each run. */
 #include <string.h>
 
 #include "build/gen/scenes.h"
@@ -12,7 +12,7 @@
 static even_rig even;
 static uint64_t seed;
 
-/* Armed, with an observer to which every mark is good: good_marks counts the marks it gets. */
+/* Arms the rig with an observer that trusts every pulse: good_marks counts the pulses that it gets. */
 static void arm(void) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
@@ -24,7 +24,8 @@ static void arm(void) {
                      WH_OK);
 }
 
-/* While the loop is closed each accepted pulse is passed once, as captured, within two steps, and nothing else is. */
+/* While the loop is closed, the observer gets each accepted pulse once, with its time, within two steps, and nothing
+ * else. */
 TEST(rig_observed, each_pulse_is_told_once) {
     for (unsigned k = 0; k < 3U; k++) {
         static const wh_real targets_rpm[] = {WH_R(330.0), WH_R(200.0), WH_R(270.0)};
@@ -84,7 +85,7 @@ TEST(rig_observed, a_result_says_the_voltage) {
     }
 }
 
-/* A pulse is enough work for a control step: the current turn's work waits for the next one. */
+/* A step that processes a pulse does no work for the turn in progress. */
 TEST(rig_observed, a_step_with_a_pulse_works_on_no_turn) {
     unsigned pulses = 0;
     unsigned works = 0;
@@ -116,7 +117,8 @@ TEST(rig_observed, unfed_nothing_is_observed) {
     TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.marked);
 }
 
-/* When a new set-point ends the feed-forward, the measurement's reference changes in the same step, and when it returns. */
+/* When a new set-point ends or begins gravity compensation, the measurement's model of the angle changes in the same
+ * step. */
 TEST(rig_observed, the_reference_knows_who_is_fed) {
     arm();
     even.config.feeds = WH_COMPENSATION_SLOW;
@@ -125,7 +127,7 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
         const wh_turn_angle *angle = &even.rig.measure.lockin.angle;
         for (unsigned k = 0; k < 6000U && !angle->fed; k++) {
             even.rig.compensation.part =
-                WH_R(1.0); /* faded in, although this is no rotor for the observer */
+                WH_R(1.0); /* fully faded in, although the observer does not fit this rotor */
             even_step(&even);
         }
         TEST_ASSERT_TRUE(angle->fed);
@@ -135,7 +137,7 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
         TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f,
-                                 (float)even.rig.compensation.part); /* fades in again */
+                                 (float)even.rig.compensation.part); /* fades in again from zero */
         even_steps(&even, 300);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==
@@ -169,7 +171,7 @@ TEST(rig_observed, a_sensor_that_is_none) {
     }
 }
 
-/* Pending marks wait in order, up to the buffer's size. */
+/* Confirmed pulses wait in order of time, up to the buffer's size. */
 TEST(rig_observed, marks_come_in_their_order) {
     wh_pulses pulses;
     wh_mark mark;
@@ -182,7 +184,8 @@ TEST(rig_observed, marks_come_in_their_order) {
     for (unsigned i = 0; i < 200U; i++) {
         const unsigned running = 1U + draw_one_of(&seed, WH_PULSES_MARKS);
         for (unsigned k = 0; k < running; k++) {
-            ticks += taken % 2U == 0 ? 135000U : 45000U; /* 333 rpm, the sensors a quarter apart */
+            /* 333 rpm; the sensors are a quarter of a turn apart */
+            ticks += taken % 2U == 0 ? 135000U : 45000U;
             wh_pulses_take(&pulses, taken % 2U == 0 ? 0U : 1U, ticks);
             taken++;
         }

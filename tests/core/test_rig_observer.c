@@ -1,5 +1,5 @@
-/* test_rig_observer.c: the observer on a rotor that it sees only by its marks (rotor.c): the nominal one, and rotors with other
- * inertia, weight, friction, stage or sensor angles. */
+/* test_rig_observer.c: the observer on a rotor of which it gets only the pulses (rotor.c): the nominal one, and rotors
+ * with another inertia, weight, friction, drive stage or sensor position. */
 #include "build/gen/scenes.h"
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
@@ -27,7 +27,7 @@ static void check_below(wh_real bound, wh_real value) { TEST_ASSERT_TRUE(value <
 
 /* --- the nominal rotor ------------------------------------------------------------------------------ */
 
-/* The made-up rotor equals the scene, integrated by another method. */
+/* The imitated rotor has the motion of the scene, integrated by another method. */
 TEST(rig_observer, the_rotor_is_the_scenes) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
@@ -52,8 +52,8 @@ TEST(rig_observer, the_rotor_is_the_scenes) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)state.real[0], (float)other.speed_radps);
 }
 
-/* The error of the angle is below 0.02 degrees at any speed, with gravity's swing (up to 18 %) or with compensation. Speed
- * and friction are accurate too. */
+/* The error of the angle is below 0.02 degrees at any speed, with gravity's ripple (up to 18 %) or with compensation.
+ * Speed and friction torque are accurate too. */
 TEST(rig_observer, the_rotor_it_knows_is_followed) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {
@@ -74,7 +74,8 @@ TEST(rig_observer, the_rotor_it_knows_is_followed) {
     }
 }
 
-/* Marks with jitter move the angle by less than twice their error, or hardly more than their error alone. */
+/* The jitter of the pulses causes an error of the angle of less than twice the jitter, or little more than the
+ * jitter. */
 TEST(rig_observer, jitter_is_not_amplified) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -104,10 +105,10 @@ TEST(rig_observer, without_corrections_it_is_lost) {
 
 /* --- other rotors ------------------------------------------------------------------------------------- */
 
-/* Random rotors: half to six times the inertia, weight 30 % off, up to 0.2 N m of friction, sensors up to 3 degrees off,
- * jitter. The stage brakes or freewheels, and the observer may not know which. Speeds are 80 to 400 rpm; below 170 the motor
- * gets the exact gravity compensation, after a start at 150 rpm or more. In nine of ten cases the error stays below 0.3 rad;
- * fewer than 1 % of the valid angles are wrong. */
+/* Random rotors: half to six times the inertia, weight wrong by up to 30 %, up to 0.2 N m of friction, sensor positions
+ * wrong by up to 3 degrees, jitter. The stage brakes or freewheels, and the observer may be configured for the wrong
+ * one. Speeds are 80 to 400 rpm; below 170 rpm gravity is compensated exactly, after a start at 150 rpm or more. In
+ * nine of ten cases the error stays below 0.3 rad; fewer than 1 % of the valid angles are wrong. */
 TEST(rig_observer, drawn_rotors_are_followed) {
     uint64_t seed = UINT64_C(0x5eed0b5e);
     unsigned fine = 0;
@@ -148,8 +149,8 @@ TEST(rig_observer, drawn_rotors_are_followed) {
 
 /* --- valid or not --------------------------------------------------------------------------------------- */
 
-/* The observer starts at the second mark and is valid three marks later. It bridges a lost mark of either sensor. After more
- * than a turn without marks it is invalid, and two turns later valid again. */
+/* The observer starts at the second pulse and is valid three pulses later. It stays valid if one pulse of either sensor
+ * is lost. After more than a turn without pulses it is invalid, and two turns later valid again. */
 TEST(rig_observer, marks_make_it_valid) {
     begin(3, WH_R(330.0));
     unsigned marks = 0;
@@ -177,7 +178,7 @@ TEST(rig_observer, marks_make_it_valid) {
     check_below(DEG, fed.worst_rad);
 }
 
-/* A mark at another angle makes the observer invalid at once; within 2 s it is valid again. */
+/* A pulse at a wrong angle makes the observer invalid at once; within 2 s it is valid again. */
 TEST(rig_observer, a_false_mark_is_noticed) {
     begin(3, WH_R(330.0));
     for (unsigned i = 0; i < 20; i++) {
@@ -196,7 +197,7 @@ TEST(rig_observer, a_false_mark_is_noticed) {
     TEST_ASSERT_TRUE(fed.observer.innovation_rad == before);
 }
 
-/* The second mark starts the observer, at the mean speed since the first. Both may come anywhere within a step. */
+/* The second pulse starts the observer, at the mean speed since the first. Both may come at any time within a step. */
 TEST(rig_observer, two_marks_set_it_out) {
     static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
     for (unsigned i = 0; i < 8; i++) {
@@ -213,7 +214,7 @@ TEST(rig_observer, two_marks_set_it_out) {
             }
         }
         wh_observer_mark(&fed.observing, &fed.observer, second, from + 1300U + took);
-        /* 43 rpm is a turn in 1.4 s; slower rotors are not followed */
+        /* at 43 rpm a turn takes 1.4 s; the observer does not start for slower rotors */
         TEST_ASSERT_TRUE(fed.observer.runs == (!slow || first == second));
         if (!slow) {
             const wh_real speed = turned[first][second] * WH_RIG_TWO_PI / WH_R(0.1013);
@@ -226,7 +227,7 @@ TEST(rig_observer, two_marks_set_it_out) {
     }
 }
 
-/* Without marks the observer stays valid for slightly more than a turn, and not after the rotor stops. */
+/* Without pulses the observer stays valid for slightly more than a turn, but no longer after the rotor has stopped. */
 TEST(rig_observer, a_missed_turn_is_noticed) {
     for (unsigned i = 0; i < 2; i++) {
         begin(3, WH_R(250.0));
@@ -234,7 +235,7 @@ TEST(rig_observer, a_missed_turn_is_noticed) {
         while (fed.rotor.marks == 0 || fed.rotor.mark_sensor[0] != 0) {
             fed_rotor_run(&fed, WH_R(250.0), FED_STEP_S);
         }
-        if (i == 1U) { /* the rotor would hang at the bottom */
+        if (i == 1U) { /* where the rotor would hang */
             fed.observer.state.real[0] = WH_R(5.0);
         }
         const wh_real drive = i == 0 ? fed.voltage : WH_R(0.0);
@@ -249,7 +250,7 @@ TEST(rig_observer, a_missed_turn_is_noticed) {
     }
 }
 
-/* Control steps are no multiple of the scene's step: the remainder is kept for the next one. */
+/* If control steps are no multiples of the scene's step, the remainder is added to the next control step. */
 TEST(rig_observer, uneven_steps_lose_no_time) {
     begin(3, WH_R(330.0));
     fed_rotor_hold(&fed, WH_R(330.0));
@@ -296,7 +297,7 @@ TEST(rig_observer, it_begins_anew) {
         TEST_ASSERT_FALSE(fed.observer.valid);
         TEST_ASSERT_FALSE(fed.observer.runs);
         TEST_ASSERT_TRUE(fed.observer.torque_Nm == WH_R(0.0));
-        fed.rotor.ticks = fed.observer.ticks; /* the rotor stood still for as long */
+        fed.rotor.ticks = fed.observer.ticks; /* the rotor was at rest for this time */
         fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
         TEST_ASSERT_TRUE(fed.observer.valid);
         const wh_real seen = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
@@ -304,7 +305,8 @@ TEST(rig_observer, it_begins_anew) {
     }
 }
 
-/* Neither a rotor that shivers at a sensor nor one that hardly moves starts the observer. */
+/* The observer starts neither for a rotor that hangs at a sensor and gives pulses by jitter, nor for one that hardly
+ * moves. */
 TEST(rig_observer, shivers_set_nothing_going) {
     static const uint32_t apart[] = {1, 500, 5000, 60000, 1000000, 1490000, 1600000};
     for (unsigned i = 0; i < 7; i++) {

@@ -1,5 +1,5 @@
-/* test_rig_off.c: rotors with the motor off run out, swing, or are driven by a fault, on random benches: supply, inertia,
- * friction, stuck stages, dead sensors, every off state. */
+/* test_rig_off.c: rotors with the motor off coast, swing, or are driven by a fault, with random supply, inertia,
+ * friction, stuck stages and dead sensors, in every state with the motor off. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
@@ -22,10 +22,10 @@ typedef struct bench {
     rotor_kind open; /* the same with open motor leads */
     rotor_state rotor;
     bool stuck; /* the stage ignores its voltage, */
-    bool deaf;  /* and its enable */
+    bool deaf;  /* and ignores its enable */
     wh_real share;
-    unsigned dead; /* sensor; 2: neither */
-    /* The rotor's real turns while the motor must not drive: */
+    unsigned dead; /* number of the dead sensor; 2: none */
+    /* The rotor's true turns while the motor must not drive: */
     unsigned step;
     unsigned begun;   /* start step of the current turn */
     unsigned turns;   /* turns since the motor went off */
@@ -33,7 +33,7 @@ typedef struct bench {
     wh_real before_s; /* durations of the last two turns */
     wh_real last_s;
     unsigned rises;
-    wh_real first_s; /* the turn before they rose */
+    wh_real first_s; /* duration of the turn before the turns got faster */
     unsigned
         undriven_at; /* first step in which turns with the enable on showed a drive; 0: none did */
     unsigned faster_at; /* the same for three turns with the enable off */
@@ -46,7 +46,7 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (wh_real)draw_one_of(&seed, 10001) / WH_R(10000.0);
 }
 
-/* 1 to 12, roughly log-uniform by three draws. */
+/* A random number from 1 to 12, roughly log-uniform, from three draws. */
 static wh_real drawn_inertia(void) {
     static const wh_real parts[] = {WH_R(0.5), WH_R(0.7), WH_R(1.0), WH_R(1.4),
                                     WH_R(2.0), WH_R(2.8), WH_R(4.0), WH_R(6.0)};
@@ -58,7 +58,7 @@ static bool may_drive(void) {
     return wh_run_drives(&b.rig.run) && b.rig.guard.trip == WH_TRIP_NONE;
 }
 
-/* Whole turns at the bottom, forwards. */
+/* Counts whole turns forwards, at the bottom. */
 static void see_turn(wh_real from_rad) {
     const bool around =
         from_rad > WH_R(0.75) * WH_RIG_TWO_PI && b.rotor.angle_rad < WH_R(0.25) * WH_RIG_TWO_PI;
@@ -150,7 +150,7 @@ static void order(wh_rig_event event, wh_real value) {
 
 typedef enum place { IDLE, ARMED, TARE, STOPPED, COMMANDED, TRIPPED, RESET, PLACES } place;
 
-/* Goes towards a set-point for a random time. */
+/* Drives towards a set-point for a random time. */
 static void drive(void) {
     const wh_real most_rpm = (b.inputs.supply_V - WH_R(1.0)) / WH_RIG_RATED_V * WH_R(600.0);
     order(WH_EVENT_START, between(170, most_rpm < WH_R(360.0) ? most_rpm : WH_R(360.0)) * RPM);
@@ -160,7 +160,7 @@ static void drive(void) {
     steps_on(draw_one_of(&seed, 9U * STEPS_PER_S));
 }
 
-/* Goes to a state in which the motor is off, now or in the next step. */
+/* Brings the rig to a state in which the motor is off, now or in the next step. */
 static void go_to(place where) {
     steps_on(STEPS_PER_S * 8U / 5U);
     if (where == IDLE) {
@@ -188,13 +188,14 @@ static void go_to(place where) {
 
 /* --- no false trips ----------------------------------------------------------------------------------------------------- */
 
-/* An emulated board takes seconds for each. */
+/* Number of random benches. On an emulated board each takes seconds. */
 #ifndef OFF_BENCHES
 #define OFF_BENCHES (__STDC_HOSTED__ && !WH_DOUBLE ? 360U : 24U)
 #endif
-#define OFF_ALL (OFF_BENCHES >= 360U) /* enough for some of each kind */
+#define OFF_ALL (OFF_BENCHES >= 360U) /* enough benches for some of each kind */
 
-/* Healthy rotors braked or coasting, some turning back near the top, some swinging about the bottom: no trip. */
+/* Healthy rotors that are braked or coast; some reverse near the top, some swing about the bottom. The rig must not
+ * trip. */
 TEST(rig_off, healthy_rotors_run_out) {
     unsigned brakes = 0;
     unsigned swings = 0;
@@ -218,8 +219,8 @@ TEST(rig_off, healthy_rotors_run_out) {
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
 }
 
-/* One false pulse of either sensor while a rotor coasts causes no trip, except for some rotors that are about to turn back at
- * the top. */
+/* One false pulse of either sensor while a rotor coasts causes no trip, except for some rotors that are about to
+ * reverse at the top. */
 TEST(rig_off, one_invented_pulse_is_no_drive) {
     unsigned benches = 0;
     unsigned trips = 0;
@@ -229,7 +230,7 @@ TEST(rig_off, one_invented_pulse_is_no_drive) {
         b.config.stop_brakes = false;
         go_to(COMMANDED);
         if (b.rig.guard.trip != WH_TRIP_NONE) {
-            continue; /* no bench for this set-point */
+            continue; /* this bench cannot run at this set-point */
         }
         steps_on(draw_one_of(&seed, 2U * STEPS_PER_S));
         wh_rig_pulse(&b.config, &b.rig, draw_one_of(&seed, 2),
@@ -252,7 +253,7 @@ TEST(rig_off, a_hand_may_turn_the_rotor) {
         go_to(draw_one_in(&seed, 2) ? IDLE : ARMED);
         for (unsigned k = 0; k < 10U; k++) {
             const wh_real rpm = between(10, 58);
-            b.kind.weight_Nm = WH_R(0.0); /* the hand holds it */
+            b.kind.weight_Nm = WH_R(0.0); /* a hand stops the rotor */
             b.kind.stall_Nm = WH_R(50.0);
             b.stuck = b.deaf = true;
             b.share = rpm / WH_R(600.0) * WH_RIG_RATED_V / b.inputs.supply_V;
@@ -260,7 +261,7 @@ TEST(rig_off, a_hand_may_turn_the_rotor) {
         }
         b.share = WH_R(0.0);
         steps_on(STEPS_PER_S);
-        b.stuck = false; /* it lets go */
+        b.stuck = false; /* the stage drives no more */
         steps_on(30U * STEPS_PER_S);
         TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
     }
@@ -274,7 +275,7 @@ TEST(rig_off, a_hand_may_turn_the_rotor) {
 TEST(rig_off, a_stage_that_drives_is_found) {
     unsigned shown[PLACES] = {0};
     unsigned told =
-        /* runs with the enable on that tripped; not counted: stages that ignore the enable, with a dead sensor */
+        /* number of tripped runs with the enable on; without stages that ignore the enable while a sensor is dead */
         0;
     unsigned untold = 0;
     unsigned on_shown[3] = {0};
@@ -283,10 +284,10 @@ TEST(rig_off, a_stage_that_drives_is_found) {
     for (unsigned i = 0; i < draw_cases(OFF_BENCHES); i++) {
         draw_bench();
         const unsigned drawn = draw_one_of(&seed, 2U * PLACES);
-        const place where = drawn < PLACES ? (place)drawn : COMMANDED; /* the one that brakes */
+        const place where = drawn < PLACES ? (place)drawn : COMMANDED; /* the motor brakes */
         go_to(where);
         if (where != TRIPPED && b.rig.guard.trip != WH_TRIP_NONE) {
-            continue; /* no bench for this set-point */
+            continue; /* this bench cannot run at this set-point */
         }
         steps_on(draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, STEPS_PER_S));
         b.dead = draw_one_of(&seed, 3);

@@ -1,5 +1,5 @@
-/* test_rig_parts.c: the rig's smaller parts against their headers: angles and polar form, least squares, the turn's angle,
- * pulses with the motor off, doubts, a record's first turn, a swing's verdict. */
+/* test_rig_parts.c: the smaller functions of the rig, as their headers describe them. These are angles and polar form,
+ * least squares, the angle within a turn, pulses, turns of a record, and the outcome of a swing. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
@@ -66,7 +66,8 @@ TEST(rig_parts, polar_of_every_size) {
     }
 }
 
-/* wh_turn_angle_split() returns how far the mark was from the shape before its correction, whichever parameter it corrects. */
+/* wh_turn_angle_split() returns the error of the angle at sensor 2's pulse before the correction, whichever parameter
+ * it corrects. */
 TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
@@ -134,7 +135,8 @@ TEST(rig_parts, normal_equations_hold) {
     }
 }
 
-/* The squared deviation of an unknown is the unknown itself when the right side is its unit vector. For weak and strong rows. */
+/* The squared deviation of an unknown is its component of the solution for the unit vector. Tested for measurements of
+ * small and large weight. */
 TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
     seed = 14;
     for (unsigned i = 0; i < 100U; i++) {
@@ -164,7 +166,8 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
 
 /* --- pulses -------------------------------------------------------------------------------------------- */
 
-/* With the motor off a rotor is no faster than its mean over the last undriven interval, one that began after the switch-off. */
+/* With the motor off a rotor is at most as fast as its mean over the last undriven interval. That interval must have
+ * begun after the switch-off. */
 TEST(rig_parts, the_last_interval_bounds_what_coasts) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
@@ -199,7 +202,7 @@ TEST(rig_parts, doubt_grows_by_two_and_shrinks_by_one) {
         unsigned due = 0;
         for (unsigned i = 0; i < 200U; i++) {
             unsigned sensor = due;
-            if (draw_one_in(&seed, 8)) { /* a false one */
+            if (draw_one_in(&seed, 8)) { /* a false pulse */
                 ticks += 1000U + draw_one_of(&seed, 40000);
                 sensor = draw_one_of(&seed, 2);
             } else {
@@ -221,7 +224,7 @@ TEST(rig_parts, doubt_grows_by_two_and_shrinks_by_one) {
     TEST_ASSERT_TRUE(grown > 100U && shrunk > 100U);
 }
 
-/* Before the speed is known, a pulse that comes too early is a suspect. Any other is accepted. */
+/* Before a speed is known, a pulse that comes too early is a suspect. Any other pulse is accepted. */
 TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
     seed = 9;
     for (unsigned i = 0; i < 500U; i++) {
@@ -245,7 +248,8 @@ TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
 
 /* --- turns --------------------------------------------------------------------------------------------- */
 
-/* A record's drift is measured from its first counted turn to its last, whatever turns are left out. */
+/* The drift of a record is measured from the first turn that counts to the last, whichever turns between them are left
+ * out. */
 TEST(rig_parts, first_and_last_turn_of_those_that_count) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -278,7 +282,8 @@ TEST(rig_parts, first_and_last_turn_of_those_that_count) {
 
 /* --- verdicts ------------------------------------------------------------------------------------------- */
 
-/* Each limit is inclusive, and the next number beyond is refused. One quantity is at its limit, the others are nominal. */
+/* A quantity exactly at its limit is accepted, and the next number beyond is refused. One quantity is at its limit, the
+ * others have nominal values. */
 TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     wh_result_config config = wh_rig_standard.measure.result;
     config.amplitude_wrong = WH_R(0.25); /* so that products with 64 N are exact */
@@ -288,7 +293,8 @@ TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     config.inertia_off = WH_R(0.5);
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
     rotor.inertia_kgm2 = WH_R(0.25);
-    const wh_turn_angle level = {.whole_rad = WH_R(0.0)}; /* nothing visible in the second order */
+    /* no ripple, so nothing is expected in the second order */
+    const wh_turn_angle level = {.whole_rad = WH_R(0.0)};
     const wh_merge merge = {.samples = 1000, .swing_rad = WH_R(0.01), .split_turns = 12};
     const wh_measured right = {.turns = 12,
                                .amplitude_N = WH_R(64.0),
@@ -328,8 +334,8 @@ TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     }
 }
 
-/* The verdict on a swing follows from its last pass. It needs enough half swings with at most a quarter of them stray,
- * passages of sensor 2, and a narrow interval. */
+/* The outcome of a swing follows from its last pass: enough half swings, at most a quarter of them impossible, passages
+ * of sensor 2, and a narrow interval. */
 TEST(rig_parts, verdict_of_a_swing) {
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     unsigned times[WH_SWING_WHYS] = {0};
@@ -338,7 +344,8 @@ TEST(rig_parts, verdict_of_a_swing) {
         wh_swing_config config = wh_rig_standard.swing;
         const wh_real zero[N] = {WH_R(0.0)};
         wh_swing swing = {.result = {.why = WH_SWING_WORKS}, .piece = WH_SWING_ENDS};
-        wh_normal_start(&swing.normal, zero); /* no measurement: every deviation is the guess's */
+        /* no measurement: the deviations are those of the guess */
+        wh_normal_start(&swing.normal, zero);
         swing.fits = 8U + draw_one_of(&seed, 20);
         swing.strays = draw_one_of(&seed, 2) * (swing.fits / 4U + draw_one_of(&seed, 2));
         swing.fits_of[1] = draw_one_of(&seed, 3);
@@ -357,7 +364,7 @@ TEST(rig_parts, verdict_of_a_swing) {
         TEST_ASSERT_TRUE(swing.result.why == wanted);
         TEST_ASSERT_EQUAL_UINT(swing.fits_of[0], swing.result.swings);
         for (unsigned k = 0; k < WH_SWING_SENSORS;
-             k++) { /* without misfit, the normal distribution's */
+             k++) { /* without misfit, the factor of the normal distribution */
             const wh_real deviation = WH_R(1.96) * swing.within[WH_SWING_PLACE + k];
             const wh_real half =
                 WH_SQRT(deviation * deviation + config.floor_rad * config.floor_rad);

@@ -1,4 +1,5 @@
-/* test_rig_pulses.c: true slot pulses of a rotor that gravity swings, among jitter, disturbances, losses and bounces. */
+/* test_rig_pulses.c: finds the true slot pulses of a rotor with gravity's ripple among jitter, disturbances, losses and
+ * bounces. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -9,11 +10,12 @@
 #define RPM EVEN_RPM
 #define STEP_TICKS EVEN_STEP_TICKS
 #define TRAIN_PULSES 24U
-#define SETTLED 6U    /* from this mark on the speed must be right */
+#define SETTLED 6U    /* from this pulse on the speed must be right */
 #define DISTURBED 12U /* the false pulse follows this one */
 #define MOST_PULSES (TRAIN_PULSES * 5U)
 #define JITTER_TICKS 60U
-/* A pulse this close to a true one of the same sensor may replace it: a pulse's time is uncertain by four jitters. */
+/* A false pulse within this time of a true one of the same sensor may replace it, because a pulse's time is uncertain
+ * by four times the jitter. */
 #define TELLING_TICKS (4U * JITTER_TICKS)
 
 static const wh_real speeds_rpm[] = {WH_R(100.0), WH_R(140.0), WH_R(170.0),
@@ -24,14 +26,14 @@ static wh_rig rig;
 static wh_rig_config config;
 static uint64_t seed;
 
-/* True pulses, starting with sensor 0; they cross the timer's wrap. */
+/* The true pulses, starting with sensor 0; the timer wraps between them. */
 static wh_pulse train[TRAIN_PULSES];
 static wh_real mean_radps;
 
 static wh_pulse given[MOST_PULSES];
 static unsigned given_count;
 
-/* Below WH_RIG_TARGET_MIN_RPM gravity is compensated; here it is zero, so that the rotor turns evenly. */
+/* Below WH_RIG_TARGET_MIN_RPM gravity is compensated; here gravity is zero instead, so the speed is constant. */
 static rotor_kind kind_at(wh_real rpm) {
     rotor_kind kind = rotor_nominal();
     kind.jitter_s = WH_R(1e-6) * (wh_real)JITTER_TICKS;
@@ -72,7 +74,7 @@ static uint32_t apart(uint32_t a_ticks, uint32_t b_ticks) {
     return ticks >> 31 != 0 ? 0U - ticks : ticks;
 }
 
-/* The train without `lost` pulses from DISTURBED on. */
+/* Puts the train into the input, without `lost` pulses from DISTURBED on. */
 static void give_train(unsigned lost) {
     given_count = 0;
     for (unsigned i = 0; i < TRAIN_PULSES; i++) {
@@ -82,7 +84,7 @@ static void give_train(unsigned lost) {
     }
 }
 
-/* Adds a pulse to the train, before or after others of the same time. */
+/* Adds a pulse to the input, before (or, if `behind`, after) others of the same time. */
 static void give(unsigned sensor, uint32_t ticks, bool behind) {
     TEST_ASSERT_TRUE(given_count < MOST_PULSES);
     unsigned at = given_count++;
@@ -110,12 +112,12 @@ static void stand_in(wh_rig_phase phase) {
 typedef struct outcome {
     unsigned marks;
     unsigned gaps;
-    unsigned strange;   /* marks that belong to no true pulse, or have a wrong position */
-    uint32_t off_ticks; /* the worst mark */
-    wh_real off_rpm;    /* the worst speed */
+    unsigned strange;   /* confirmed pulses that are no true pulse, or have a wrong position */
+    uint32_t off_ticks; /* largest error of a confirmed pulse's time */
+    wh_real off_rpm;    /* largest error of the speed */
 } outcome;
 
-/* The train's pulse of a mark, searched from the one after the previous mark's. */
+/* The true pulse that a confirmed one belongs to, searched from the one after the previous. */
 static unsigned true_pulse(const wh_mark *mark, unsigned from) {
     unsigned best = from;
     for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
@@ -127,7 +129,7 @@ static unsigned true_pulse(const wh_mark *mark, unsigned from) {
     return best;
 }
 
-/* Runs all input in control steps with times up to `early` after the pulses'. */
+/* Processes all input in control steps, whose own times are up to `early` before the pulses'. */
 static outcome play(uint32_t early) {
     outcome out = {.marks = 0};
     uint32_t now = train[0].ticks - 1000U;
@@ -155,7 +157,8 @@ static outcome play(uint32_t early) {
                                ? 1U
                                : 0U;
             out.off_ticks = off > out.off_ticks ? off : out.off_ticks;
-            TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0); /* the next may revoke it */
+            /* the next pulse may reject it */
+            TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0);
             out.marks++;
         }
         wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, 0);
@@ -169,8 +172,8 @@ static outcome play(uint32_t early) {
     return out;
 }
 
-/* All true pulses become marks at their place, and nothing else does. A false pulse within `off_ticks` of a true one is
- * indistinguishable from it. */
+/* Checks that all true pulses are confirmed at their positions, and nothing else is. A false pulse within `off_ticks`
+ * of a true one is indistinguishable from it. */
 static void check_marks(const outcome *out, uint32_t off_ticks) {
     TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->marks);
     TEST_ASSERT_EQUAL_UINT(0, out->strange + out->gaps);
@@ -196,7 +199,7 @@ TEST(rig_pulses, a_train_is_its_marks) {
 
 /* --- false pulses --------------------------------------------------------------------------------- */
 
-/* Distance from the next true pulse of its sensor. */
+/* Time from a pulse to the nearest true one of its sensor. */
 static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     uint32_t least = UINT32_MAX;
     for (unsigned i = sensor; i < TRAIN_PULSES; i += 2U) {
@@ -206,10 +209,10 @@ static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     return least;
 }
 
-#define RAMP_FASTER WH_R(1.14) /* a turn is short by the ramp's window, 0.12 of the turn */
+#define RAMP_FASTER WH_R(1.14) /* a turn is shorter by the window of the ramp, 0.12 of the turn */
 
-/* The false pulse is rejected or revoked, so the marks are the true pulses. If it lies within the jitter of a true one,
- * either may become the mark. */
+/* Adds a false pulse. It must be rejected, so that the confirmed pulses are the true ones. Within the jitter of a true
+ * pulse, either may be confirmed. */
 static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool behind) {
     give_train(0);
     give(sensor, ticks, behind);
@@ -218,7 +221,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
     const uint32_t near = apart_from_its_own(sensor, ticks);
     check_marks(&out, near < TELLING_TICKS ? near : 0);
     TEST_ASSERT_EQUAL_UINT32(1, rig.pulses.rejected);
-    /* late on the ramp, a pulse as early as the window allows means over-speed, until the true pulse comes */
+    /* late on the ramp, a pulse as early as the window allows counts as over-speed until the true pulse comes */
     const bool over = phase == WH_PHASE_RAMP && rig.guard.trip == WH_TRIP_OVERSPEED &&
                       RAMP_FASTER * mean_radps > config.guard.limit_radps;
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE || over);
@@ -227,8 +230,8 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 
 #define PLACES 60U
 
-/* In the record a wrong speed stops the run. During settling, a pulse that is early within the window changes the speed until
- * the true one comes. */
+/* In the record a wrong speed stops the run. While the rig settles, a pulse that is early within the window gives a
+ * wrong speed until the true pulse comes. */
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);
@@ -268,7 +271,7 @@ TEST(rig_pulses, a_pulse_too_many_while_it_settles) { check_places(WH_PHASE_SETT
 
 TEST(rig_pulses, a_pulse_too_many_on_the_ramp) { check_places(WH_PHASE_RAMP); }
 
-/* Two false pulses with a given number of true pulses between them: both are found. */
+/* Two false pulses with a given number of true pulses between them: both are rejected. */
 TEST(rig_pulses, two_pulses_too_many) {
     seed = 7;
     for (unsigned i = 0; i < draw_cases(240); i++) {
@@ -292,7 +295,7 @@ TEST(rig_pulses, two_pulses_too_many) {
 
 /* --- missing pulses ------------------------------------------------------------------------------- */
 
-/* One lost pulse is bridged. After several the position restarts, and the speed stays. */
+/* One lost pulse is bridged. After several lost pulses the count of positions restarts, and the speed stays. */
 TEST(rig_pulses, lost_pulses) {
     seed = 3;
     for (unsigned i = 0; i < SPEEDS; i++) {
@@ -334,7 +337,7 @@ TEST(rig_pulses, stamps_from_the_future) {
     }
 }
 
-/* The edge of a slot fires repeatedly. The repetitions are counted and harmless, but too many stop the rig. */
+/* The edge of a slot fires repeatedly. The repetitions are counted and do no harm, but too many stop the rig. */
 TEST(rig_pulses, bounces) {
     seed = 5;
     for (unsigned each = 1; each <= 4; each++) {
@@ -358,7 +361,7 @@ TEST(rig_pulses, bounces) {
     }
 }
 
-/* Random pulses of both sensors, some twenty times the normal rate. */
+/* Random pulses of both sensors, at some twenty times the normal rate, stop the rig. */
 TEST(rig_pulses, a_storm_stops_the_rig) {
     seed = 6;
     for (unsigned i = 0; i < SPEEDS; i++) {

@@ -1,4 +1,4 @@
-/* test_rig_pulses_fast.c: how soon the pulses show a runaway. */
+/* test_rig_pulses_fast.c: how soon a runaway motor is detected from the pulses. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -24,7 +24,7 @@ static void stand_in(wh_rig_phase phase, uint32_t now_ticks) {
     wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
 }
 
-/* Applies full voltage to the rotor, whatever is ordered. Returns the time until the rig trips, s. */
+/* Applies full voltage to the rotor, whatever the command. Returns the time until the rig trips, s. */
 static wh_real run_away(rotor_state *rotor) {
     const rotor_kind kind = rotor_nominal();
     const uint32_t begin = rotor->ticks;
@@ -38,7 +38,7 @@ static wh_real run_away(rotor_state *rotor) {
         wh_rig_load(&config, &rig, rotor->ticks, step % 2U == 0 ? 3000 : -3000, WH_LOAD_OK);
         (void)wh_rig_step(&config, &rig, &inputs);
     }
-    /* from rest it looks like a motor faster than its settings */
+    /* from rest, the runaway looks like a motor that is faster than its settings */
     TEST_ASSERT_TRUE(rig.guard.trip ==
                      (rig.record.phase == WH_PHASE_SPIN_UP ? WH_TRIP_FASTER : WH_TRIP_OVERSPEED));
     return (wh_real)(rotor->ticks - begin) / (wh_real)WH_RIG_TICKS_PER_S;
@@ -49,7 +49,7 @@ TEST(rig_pulses_fast, a_runaway_is_seen_at_any_place) {
     const rotor_kind kind = rotor_nominal();
     const wh_real drive =
         nominal_radps / kind.no_load_radps + kind.drag_Nms * nominal_radps / kind.stall_Nm;
-    for (unsigned place = 0; place < 46U; place++) { /* 4 ms each: a turn */
+    for (unsigned place = 0; place < 46U; place++) { /* at intervals of 4 ms over a turn */
         rotor_state rotor = {
             .ticks = UINT32_MAX - 2000000U, .speed_radps = nominal_radps, .seed = draw_bits(&seed)};
         stand_in(WH_PHASE_SETTLE, rotor.ticks);
@@ -61,13 +61,15 @@ TEST(rig_pulses_fast, a_runaway_is_seen_at_any_place) {
         }
         rig.run.since_ticks = rig.run.band_ticks = rig.run.ample_ticks = rotor.ticks;
         TEST_ASSERT_TRUE(run_away(&rotor) <= WH_R(0.25));
-        TEST_ASSERT_TRUE(rotor.speed_radps < WH_R(475.0) * EVEN_RPM); /* as docs/rig.md has it */
+        /* the limit that docs/rig.md states */
+        TEST_ASSERT_TRUE(rotor.speed_radps < WH_R(475.0) * EVEN_RPM);
     }
 }
 
 TEST(rig_pulses_fast, a_runaway_from_rest_is_seen) {
     seed = 8;
-    for (int place = -2; place <= 2; place++) { /* hanging, within a few degrees of friction */
+    for (int place = -2; place <= 2; place++) {
+        /* within a few degrees of the hanging position, in which friction may hold it */
         rotor_state rotor = {.ticks = UINT32_MAX - 100000U,
                              .angle_rad = place < 0 ? WH_RIG_TWO_PI + WH_R(0.04) * (wh_real)place
                                                     : WH_R(0.04) * (wh_real)place,
@@ -91,8 +93,8 @@ static void go_on(const rotor_kind *kind, rotor_state *rotor, unsigned steps) {
     }
 }
 
-/* A friction of up to 0.1 N m vanishes at some instant, and the rotor speeds up. With at least 0.7 times the inertia this is
- * no trip: the loop handles it. */
+/* A friction of up to 0.1 N m vanishes at some instant, and the rotor becomes faster. With at least 0.7 times the
+ * inertia the rig must not trip: the control loop corrects the speed. */
 TEST(rig_pulses_fast, a_load_that_goes_away_is_no_runaway) {
     seed = 9;
     for (unsigned trial = 0; trial < 60U; trial++) {

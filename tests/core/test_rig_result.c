@@ -1,4 +1,4 @@
-/* test_rig_result.c: merged turns against recomputed sums, the condition of each doubt, and the tare. */
+/* test_rig_result.c: merged turns, compared with sums computed here; the condition of each doubt; and the tare. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
@@ -15,15 +15,15 @@ static wh_merge merge;
 static wh_turn_angle angle;
 static wh_measured measured;
 static wh_rotor_config rotor;
-static wh_result_config bench; /* with a calibration */
+static wh_result_config bench; /* configuration with a calibration */
 
-/* Uniform about 0, of standard deviation 1. */
+/* A random number, uniform about 0, of standard deviation 1. */
 static wh_real scatter(void) {
     return ((wh_real)(scattered() >> 40) / WH_R(16777216.0) - WH_R(0.5)) * WH_R(3.4641016);
 }
 
-/* The second order of a rotor's force relative to the first, for a speed swing of this size and direction. By energy a rotor
- * without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
+/* The second order of a rotor's force relative to the first, for a speed ripple of this size and direction. By energy a
+ * rotor without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
 static void put_second(wh_lockin_turn *turn, wh_real swing_rad, wh_real lag_rad) {
     wh_real size_N;
     wh_real phase_rad;
@@ -144,7 +144,8 @@ TEST(rig_result, the_interval_is_students) {
     }
 }
 
-/* With floors alone, the intervals are the floors as entered. The defaults are 0.5 % and 0.5 degrees. */
+/* With the calibration uncertainties alone, the intervals are these uncertainties. The defaults are 0.5 % and 0.5
+ * degrees. */
 TEST(rig_result, floors_are_kept) {
     begin();
     for (unsigned i = 0; i < 10; i++) {
@@ -167,7 +168,8 @@ TEST(rig_result, floors_are_kept) {
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.5f, (float)(measured.phase_half_rad / DEG));
 }
 
-/* Jitter's standard deviation follows from the second differences of both sensors, but not across a turn that does not count. */
+/* The standard deviation of the jitter follows from the second differences of both sensors' pulses, but not across a
+ * turn that does not count. */
 TEST(rig_result, jitter_is_found) {
     scattered_state = UINT64_C(0x5eed0032);
     begin();
@@ -188,7 +190,7 @@ TEST(rig_result, jitter_is_found) {
     conclude(&bench);
     TEST_ASSERT_EQUAL_UINT32(399, measured.turns);
     TEST_ASSERT_EQUAL_UINT32(1, measured.left_out);
-    /* 399 turns in two rows: 397 differences of one sensor, 395 of the other's marks */
+    /* 399 turns in two series: 397 differences of one sensor's pulses, 395 of the other's */
     TEST_ASSERT_EQUAL_UINT32(397 + 395, merge.jitters);
     TEST_ASSERT_FLOAT_WITHIN(5.0f, 60.0f, (float)(measured.jitter_s * WH_R(1e6)));
 }
@@ -241,14 +243,14 @@ TEST(rig_result, every_reason_has_its_case) {
                          WH_WHY_NONE); /* 4 */
     }
     wh_lockin_turn odd = plain;
-    odd.force_N.at[1] = WH_R(20.0); /* alternating, from turn to turn */
+    odd.force_N.at[1] = WH_R(20.0); /* the sign alternates from turn to turn */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_UNSURE);
     odd.force_N.at[1] = WH_R(5.0);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_WIDE);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 9, 4) == WH_WHY_LEFT_OUT);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 9, 3) == WH_WHY_NONE);
     odd = plain;
-    odd.outliers = 1; /* of 91 */
+    odd.outliers = 1; /* of 91 samples */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_OUTLIERS);
     odd = plain;
     odd.residual_N = WH_R(11.0);
@@ -257,16 +259,17 @@ TEST(rig_result, every_reason_has_its_case) {
     odd.mean_N = WH_R(-5.0);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_MEAN);
     odd = plain;
-    odd.split_seen = true; /* that is, unknown */
+    odd.split_seen = true; /* seen, but the turn's part is unknown */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_ROTOR);
-    for (unsigned i = 0; i < 4; i++) { /* an inertia unlike the rotor's */
+    for (unsigned i = 0; i < 4; i++) { /* inertias that differ from the rotor's */
         static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         angle.inertia_kgm2 = rotor.inertia_kgm2 * times[i];
         conclude(&bench);
         TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
     }
-    for (int side = -1; side <= 1; side += 2) { /* gravity fed forward, and its remainder */
+    for (int side = -1; side <= 1; side += 2) {
+        /* gravity is compensated, except for a remaining part */
         for (unsigned i = 0; i < 2; i++) {
             TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
             const wh_real part = WH_ABS(merge.swing_rad) / angle.whole_rad;
@@ -281,7 +284,7 @@ TEST(rig_result, every_reason_has_its_case) {
         }
     }
     for (unsigned i = 0; i < 8U;
-         i++) { /* the second order of another swing: larger, smaller, earlier, later */
+         i++) { /* the second order of another ripple: larger, smaller, earlier, later */
         static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.swing_off_rad);
@@ -302,10 +305,10 @@ TEST(rig_result, every_reason_has_its_case) {
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
     for (unsigned i = 0; i < 2U;
-         i++) { /* the repeatable part, and the expected noise of this many samples */
+         i++) { /* the repeating residual, and the noise that is expected from this many samples */
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
         merge.repeats.samples = 910;
-        merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* of a newton */
+        merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* noise of a newton */
         conclude(&bench);
         merge.repeats_N2 = (i == 0 ? WH_R(0.98) : WH_R(1.02)) * measured.repeats_limit_N *
                            measured.repeats_limit_N;
@@ -319,7 +322,7 @@ TEST(rig_result, every_reason_has_its_case) {
     TEST_ASSERT_TRUE(why_of(nan, WH_R(0.0), plain, 10, 0) == WH_WHY_AMPLITUDE);
 }
 
-/* The remaining share of gravity is reported if gravity is compensated and the plane is not level; otherwise it is 0. */
+/* The remaining part of gravity is reported if gravity is compensated and the plane is not level; otherwise it is 0. */
 TEST(rig_result, what_is_left_of_gravity) {
     for (unsigned i = 0; i < 4U; i++) {
         begin();
@@ -338,7 +341,8 @@ TEST(rig_result, what_is_left_of_gravity) {
     }
 }
 
-/* A single turn has no scatter, and a zero load has no phase. The result then has no interval, and no number is NaN. */
+/* A single turn has no scatter, and a zero load has no phase. The result then has no interval, and no number in it is
+ * NaN. */
 TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
     for (unsigned turns = 0; turns <= 3U; turns++) {
         for (unsigned loads = 0; loads < 2U; loads++) {
@@ -378,13 +382,13 @@ TEST(rig_result, the_mount_decides_what_is_expected) {
 static wh_tare tare_of(wh_real noise_N, wh_real hum_N, wh_real hum_Hz, wh_real swing_N,
                        wh_real swing_Hz, wh_real drift_N) {
     wh_tare tare = {.count = 0};
-    const wh_real begins[] = {scatter(), scatter()}; /* rad */
+    const wh_real begins[] = {scatter(), scatter()}; /* phases, rad */
     for (unsigned i = 0; i < 250; i++) {
         const wh_real part = (wh_real)i / WH_R(250.0);
         wh_real hum;
         wh_real swing;
         wh_real unused;
-        const wh_real turn = WH_R(0.5) * WH_RIG_TWO_PI * part; /* of 1 Hz */
+        const wh_real turn = WH_R(0.5) * WH_RIG_TWO_PI * part; /* a turn of 1 Hz */
         wh_sincos(wh_phase_from_rad(hum_Hz * turn + begins[0]), &hum, &unused);
         wh_sincos(wh_phase_from_rad(swing_Hz * turn + begins[1]), &swing, &unused);
         wh_tare_add(&tare, WH_R(56.0) + noise_N * scatter() + hum_N * hum + swing_N * swing +
@@ -397,7 +401,8 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (WH_R(0.5) + scatter() / WH_R(3.4641016));
 }
 
-/* Noise (up to 3 N) and hum (up to 5 N, 45 to 65 Hz) are not taken for motion if the mean is known. */
+/* Noise (up to 3 N) and hum (up to 5 N, 45 to 65 Hz) do not count as motion if the error of the mean is small
+ * enough. */
 TEST(rig_result, noise_and_hum_are_no_motion) {
     static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
     scattered_state = UINT64_C(0x5eed0033);
@@ -431,7 +436,7 @@ TEST(rig_result, motion_is_seen_through_noise_and_hum) {
     }
 }
 
-/* Noise that leaves the mean uncertain by 0.25 N is too much. Too few samples give no result. */
+/* Noise that makes the mean uncertain by 0.25 N refuses the tare. So do too few samples. */
 TEST(rig_result, a_tare_that_is_not_known) {
     scattered_state = UINT64_C(0x5eed0036);
     wh_tare tare = {.count = 0};

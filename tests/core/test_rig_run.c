@@ -1,4 +1,4 @@
-/* test_rig_run.c: the rig's whole run on a made-up rotor that turns evenly, and disturbances of it. */
+/* test_rig_run.c: a whole run of the rig on an imitated rotor of constant speed, with disturbances. */
 #include "draw.h"
 #include "even_rig.h"
 
@@ -19,8 +19,8 @@ static void check_trip(wh_trip trip) {
     TEST_ASSERT_TRUE(trip == WH_TRIP_NONE || even.rig.state == WH_RIG_TRIPPED);
 }
 
-/* The made-up load is found as accurately as by the lock-in in test_lockin.c. The rotor's turns are even to one tick, 6e-6 of
- * a turn. */
+/* The imitated load is measured as accurately as by the lock-in in test_lockin.c. The speed within a turn is constant
+ * to one tick, 6e-6 of a turn. */
 static void check_measured(unsigned turns_wanted) {
     check_trip(WH_TRIP_NONE);
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -45,15 +45,16 @@ TEST(rig_run, a_faultless_run_finds_the_load) {
 
 /* --- slot pulses -------------------------------------------------------------------------------- */
 
-/* From the middle of the record on, one or both sensors lose pulses: as many as the guard tolerates, but never two in a row.
- * A turn without a known start or end is left out. */
+/* From the middle of the record on, one or both sensors lose pulses: as many as the guard tolerates, but never two in
+ * succession. A turn whose begin or end is unknown is left out. */
 TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
             even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U};
             failing.lose[sensor] = lost;
             run(WH_R(330.0), failing);
-            if (sensor == 0 && lost > 1) { /* too many turns are then between them */
+            if (sensor == 0 && lost > 1) {
+                /* otherwise there would be too many turns between them */
                 TEST_ASSERT_TRUE(even.rig.result.force.quality == WH_DOUBTFUL);
                 TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
             } else {
@@ -65,7 +66,7 @@ TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     }
 }
 
-/* After two lost pulses in a row the count of turns restarts, and the turns of the gap are left out. */
+/* After two lost pulses in succession the count of turns restarts, and the turns in the gap are left out. */
 TEST(rig_run, a_gap_in_the_record_costs_its_turns) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose = {1, 1}});
     check_measured(8);
@@ -80,7 +81,7 @@ TEST(rig_run, a_gap_before_the_record_is_bridged) {
     TEST_ASSERT_EQUAL_UINT32(2, even.rig.result.lost);
 }
 
-/* A disturbance that looks like a pulse, anywhere in a turn of the record, is rejected or revoked. */
+/* A false pulse anywhere in a turn of the record is rejected. */
 TEST(rig_run, a_pulse_too_many_spoils_no_result) {
     for (unsigned part = 0; part < 40U; part++) {
         even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U + part / 2U * 9000U};
@@ -91,7 +92,7 @@ TEST(rig_run, a_pulse_too_many_spoils_no_result) {
     }
 }
 
-/* The rotor hangs and shivers with its slot at sensor 1. */
+/* The rotor hangs with its slot at sensor 1, and gives pulses by jitter. */
 TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
     for (uint32_t after = 0; after <= 490000U; after += 490000U) {
         run(WH_R(330.0),
@@ -100,7 +101,7 @@ TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
     }
 }
 
-/* With swapped cables or a reversed motor the phase would be wrong. */
+/* With swapped cables or a reversed motor the phase would be wrong: the rig trips. */
 TEST(rig_run, sensors_in_the_wrong_order_trip) {
     static const wh_real targets_rpm[] = {WH_R(170.0), WH_R(240.0), WH_R(330.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -120,7 +121,7 @@ TEST(rig_run, a_dead_sensor_trips) {
     }
 }
 
-/* The load of a jammed rotor stands still as well, but the trip must not blame the cell. */
+/* The load of a jammed rotor is constant, too, but the trip must not name the cell as the cause. */
 TEST(rig_run, a_jammed_rotor_trips_for_its_pulses) {
     for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
@@ -136,12 +137,12 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 65535) / WH_R(65535.0);
 }
 
-/* Jitter of up to 150 us (standard deviation, uniform) is no motion: the run settles, records, and its intervals hold. The
- * phase's interval covers the middle of the delay too. */
+/* Jitter of up to 150 us (standard deviation, uniform) does not count as a change of speed: the run settles and
+ * records, and its intervals contain the true values. The phase's interval also covers the mean delay. */
 TEST(rig_run, jitter_settles) {
     seed = 61;
     for (unsigned i = 0; i < 60U; i++) {
-        /* the made-up load is for 330 rpm */
+        /* the load is that of 330 rpm */
         const wh_real target_rpm =
             i % 2U == 0 ? between(WH_R(324.0), WH_R(336.0)) : between(WH_R(170.0), WH_R(360.0));
         const wh_real jitter_s = i < 10U ? WH_R(120e-6) : between(WH_R(0.0), WH_R(150e-6));
@@ -163,7 +164,8 @@ TEST(rig_run, jitter_settles) {
     }
 }
 
-/* A speed that hunts by 1 rpm or more in 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle, with any jitter. */
+/* A speed that oscillates by 1 rpm or more with a period of 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle,
+ * with any jitter. */
 TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
     unsigned unsettled = 0;
     seed = 62;
@@ -182,12 +184,13 @@ TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
         TEST_ASSERT_TRUE(even.rig.guard.trip != WH_TRIP_NONE && !even.rig.has_result);
         unsettled += even.rig.guard.trip == WH_TRIP_UNSETTLED ? 1U : 0U;
     }
-    TEST_ASSERT_TRUE(unsettled >= 20U); /* in the others the drive's voltage reached its limit */
+    /* in the other runs the drive's voltage reached its limit */
+    TEST_ASSERT_TRUE(unsettled >= 20U);
 }
 
 /* --- load cell ---------------------------------------------------------------------------------- */
 
-/* In every state that needs the cell, the run ends within 10 sample periods and a step. */
+/* A cell that stops giving samples: in every state that needs it, the run ends within 10 sample periods and a step. */
 TEST(rig_run, a_load_cell_that_falls_silent_trips) {
     for (wh_rig_phase in = WH_PHASE_TARE; in <= WH_PHASE_RAMP_DOWN; in++) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
@@ -215,10 +218,11 @@ TEST(rig_run, samples_missing_in_the_record) {
     }
     run(WH_R(330.0),
         (even_failure){.in = WH_PHASE_SETTLE, .after_ticks = 700000U, .lose_samples = 9});
-    check_result(); /* outside the record nothing is measured */
+    check_result(); /* outside the record a missing sample has no effect on the result */
 }
 
-/* The converter flags its samples. The flags of a disconnected cell stop the run; late samples do not count. */
+/* The converter gives each sample a status. The status of a disconnected cell stops the run; late samples do not
+ * count. */
 TEST(rig_run, the_converters_word_counts) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
         run(WH_R(330.0),
@@ -235,7 +239,7 @@ TEST(rig_run, the_converters_word_counts) {
 /* A dead cell shows only the converter's noise. In half a turn, a live load changes by far more. */
 TEST(rig_run, a_dead_load_cell_trips) {
     for (wh_rig_phase in = WH_PHASE_RAMP; in <= WH_PHASE_RECORD; in++) {
-        run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* 0.3 N, either way */
+        run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* 0.3 N, in either direction */
         check_trip(WH_TRIP_LOAD_CELL);
     }
 }
@@ -273,10 +277,10 @@ TEST(rig_run, a_rotor_that_does_not_start_trips) {
     TEST_ASSERT_TRUE(even_is_over(&even));
 }
 
-/* Slow changes are not noise: a creeping load, or a pulse, which shows that the rotor does not hang still. Noise is no
- * motion, even at a hundred times the converter's. */
+/* Slow changes refuse the tare: a drift of the load, or a pulse, which shows that the rotor is not hanging at rest.
+ * Noise does not, even a hundred times that of the converter. */
 TEST(rig_run, a_moving_rig_gets_no_tare) {
-    run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N in all */
+    run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N altogether */
     check_trip(WH_TRIP_MOVING);
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 8});
     check_trip(WH_TRIP_NONE);
@@ -285,18 +289,18 @@ TEST(rig_run, a_moving_rig_gets_no_tare) {
     begin(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .shows = 20});
     go_on_until(WH_PHASE_SPIN_UP);
     TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_SPIN_UP);
-    /* 0.2 N either way, 250 times */
+    /* 0.2 N in either direction, 250 times */
     TEST_ASSERT_FLOAT_WITHIN(2e-4f, 0.01267f, (float)wh_tare_error_N(&even.rig.measure.tare));
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE,
-                                    .shows = 500}); /* a mean uncertain by more than 0.25 N */
+                                    .shows = 500}); /* the mean is uncertain by more than 0.25 N */
     check_trip(WH_TRIP_MOVING);
 }
 
-/* The rig is healthy but its numbers cannot be right: the run is done, and the result is not good. */
+/* The rig works but its numbers cannot be right: the run is completed, and the result is not good. */
 TEST(rig_run, what_cannot_be_is_not_called_good) {
     begin(WH_R(330.0), (even_failure){.in = EVEN_NEVER});
     even.config.measure.cell.newton_per_count =
-        -even.config.measure.cell.newton_per_count; /* the reversed cell */
+        -even.config.measure.cell.newton_per_count; /* a cell mounted in reverse */
     go_on_until(EVEN_NEVER);
     TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_POLARITY);
     static const wh_real gains[] = {WH_R(0.5),  WH_R(0.9), WH_R(0.96),
@@ -323,7 +327,7 @@ TEST(rig_run, what_cannot_be_is_not_called_good) {
                                                        : i < 3 ? WH_WHY_PHASE_OFF
                                                                : WH_WHY_PHASE));
     }
-    /* a cell that freezes for 0.1 s, and one that loses its tare */
+    /* a cell that freezes for 0.1 s, and one whose zero drifts */
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .creeps = 500});
     TEST_ASSERT_TRUE(even.rig.result.force.quality != WH_GOOD);
 }

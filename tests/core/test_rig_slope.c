@@ -1,5 +1,5 @@
-/* test_rig_slope.c: the load's second order shows a motor's unknown torque slope. Rotors with random slopes are integrated over
- * their angle and measured by a lock-in with the configured slope. */
+/* test_rig_slope.c: the second order of the load shows that the motor's torque slope differs from the configured one.
+ * Rotors with random slopes are integrated over their angle and measured by a lock-in with the configured slope. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
@@ -30,21 +30,21 @@ static wh_wave wave_of(wh_real rad) {
 }
 
 typedef struct plant {
-    wh_real speed_radps; /* about its mean */
+    wh_real speed_radps; /* deviation of the speed from its mean */
     wh_real inertia_kgm2;
     wh_real slope_Nms;
     wh_real gravity_rad;
-    uint32_t late_ticks; /* age of samples beyond their stamps */
-    wh_real gain;        /* of the cell */
+    uint32_t late_ticks; /* delay of the samples that their time stamps do not contain */
+    wh_real gain;        /* gain of the cell */
 } plant;
 
-/* Its steady turn: values at STEPS equal angles from sensor 1's mark. */
-static wh_real part_at[STEPS + 1U]; /* of the turn's time */
+/* The steady turn: values at STEPS equal angles from sensor 1's pulse. */
+static wh_real part_at[STEPS + 1U]; /* part of the turn's time */
 static wh_real force_N[STEPS + 1U];
 static wh_real turn_s;
-static wh_real along_rad;  /* of the angle's deviation from even motion over time: its sine part, */
+static wh_real along_rad;  /* component of the angle's ripple over time: the sine part, */
 static wh_real across_rad; /* and its cosine part */
-/* the load's first order over the angle is S <w^2>, in line with the masses */
+/* S <w^2>, the first order of the load over the angle, in line with the masses */
 static wh_real truth_N;
 
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
@@ -58,7 +58,7 @@ static wh_real bend(const plant *p, wh_real theta, wh_real speed) {
     return acceleration(p, theta, speed) / speed;
 }
 
-/* The speed at the end of a turn that begins at this speed. */
+/* The speed at the end of a turn that begins with `speed`. */
 static wh_real turn(const plant *p, wh_real speed) {
     const wh_real h = WH_RIG_TWO_PI / (wh_real)STEPS;
     const wh_real from = rotor.mark_rad[0];
@@ -89,7 +89,7 @@ static wh_real turn(const plant *p, wh_real speed) {
     return speed;
 }
 
-/* The periodic turn, by secants; then the swing of its angle over time. */
+/* Finds the periodic turn by secants; then the ripple of its angle over time. */
 static void integrate(const plant *p) {
     wh_real speed = p->speed_radps;
     for (unsigned round = 0; round < 6U; round++) {
@@ -103,7 +103,7 @@ static void integrate(const plant *p) {
         part_at[i] /= turn_s;
     }
     part_at[STEPS] = WH_R(1.0);
-    /* trapezoids; base makes the mean of the rest vanish */
+    /* by the trapezoidal rule; `base` makes the mean of the ripple zero */
     wh_real base = WH_R(0.0);
     const wh_real from = rotor.mark_rad[0];
     for (unsigned pass = 0; pass < 2U; pass++) {
@@ -148,9 +148,9 @@ static void measure(const plant *p) {
         .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
     const uint32_t turn_ticks = (uint32_t)(turn_s * (wh_real)WH_RIG_TICKS_PER_S);
     const uint32_t split_ticks = (uint32_t)(part_at[STEPS / 4U] * (wh_real)turn_ticks);
-    const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U; /* of the first turn */
+    const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U; /* begin of the first turn */
     wh_merge merge = {.turns = 0};
-    uint32_t due = 0; /* ticks since then: of the next mark, */
+    uint32_t due = 0; /* ticks from then on to the next pulse, */
     uint32_t marks = 0;
     unsigned done = 0;
     wh_lockin_start(&rotor, &lockin);
@@ -185,7 +185,7 @@ static void believe(wh_real gravity, wh_real gravity_rad) {
     rotor.gravity_rad = gravity_rad;
 }
 
-/* 165 to 360 rpm, the arms' plane upright or inclined, and `line` times the configured slope. */
+/* Draws 165 to 360 rpm and an arms' plane that is upright or inclined, with `line` times the configured slope. */
 static plant draw_plant(wh_real line) {
     believe(draw_one_in(&seed, 2) ? WH_R(1.0) : drawn_between(WH_R(0.5), WH_R(1.0)),
             drawn_between(WH_R(-0.05), WH_R(0.05)));
@@ -197,7 +197,7 @@ static plant draw_plant(wh_real line) {
                    .gain = WH_R(1.0)};
 }
 
-/* The difference between the lock-in's and the rotor's swing, as a vector. */
+/* The difference between the lock-in's ripple and the rotor's, as a vector. */
 static wh_real arrow_off(void) {
     const wh_wave lag = wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
     const wh_real along = lockin.angle.swing_rad * lag.cosine - along_rad;
@@ -205,9 +205,9 @@ static wh_real arrow_off(void) {
     return WH_SQRT(along * along + across * across);
 }
 
-/* The configured slope is multiplied by 0.2 to 1.6. The swing found from the second order is that of the integrated rotor, up
- * to terms of third order in the swing, which the model of the angle omits. Good results are right, and a right slope raises
- * no doubt. */
+/* The rotor's slope is 0.2 to 1.6 times the configured one. The ripple found from the second order is that of the
+ * integrated rotor, except for terms of third order in the ripple, which the model of the angle omits. Good results are
+ * right, and with the right slope no result is doubtful. */
 TEST(rig_slope, the_load_tells_of_another_slope) {
     unsigned good = 0;
     unsigned doubted = 0;
@@ -236,7 +236,7 @@ TEST(rig_slope, the_load_tells_of_another_slope) {
     TEST_ASSERT_TRUE(good >= 15U && doubted >= 8U && would_lie >= 4U);
 }
 
-/* A delay and the cell's gain neither look like a slope nor hide one. */
+/* Neither a delay nor the cell's gain looks like a wrong slope, and neither hides one. */
 TEST(rig_slope, calibration_does_not_matter) {
     seed = 52;
     for (unsigned run = 0; run < 16U; run++) {
@@ -253,13 +253,13 @@ TEST(rig_slope, calibration_does_not_matter) {
             WH_RIG_TWO_PI * (wh_real)p.late_ticks / (wh_real)WH_RIG_TICKS_PER_S / turn_s;
         TEST_ASSERT_FLOAT_WITHIN(1e-3f + 0.06f * (float)late_rad, (float)-late_rad,
                                  (float)(measured.phase_rad - phase_rad));
-        /* the delay shifts the angle of a swinging rotor by a swinging amount, of which half shows */
+        /* the delay changes the angle of a rotor with ripple by a varying amount, of which half is visible */
         const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
         TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.swing_off_rad);
     }
 }
 
-/* Arms in a level plane do not swing, and there is nothing to compare. */
+/* Arms in a level plane have no ripple, so there is nothing to compare. */
 TEST(rig_slope, a_level_plane_says_nothing) {
     seed = 53;
     for (unsigned run = 0; run < 4U; run++) {

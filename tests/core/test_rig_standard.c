@@ -1,4 +1,5 @@
-/* test_rig_standard.c: the standard rig's settings (reasons: docs/rig.md). A change needs an entry here and in CHANGELOG.md. */
+/* test_rig_standard.c: the standard rig's settings (reasons: docs/rig.md). Whoever changes one must also change it here
+ * and add it to CHANGELOG.md. */
 #include "core/rig/rig.h"
 
 #include "tests/suites.h"

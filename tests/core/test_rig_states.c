@@ -1,4 +1,4 @@
-/* test_rig_states.c: the life cycle of the rig, the trips, and random orders. */
+/* test_rig_states.c: the life cycle of the rig, its trips, and random orders. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -6,7 +6,7 @@
 #include "tests/suites.h"
 
 /* === rig states ============================================================================== */
-/* The rig's life cycle: every state and event, every named refusal, and how `arm` ends. */
+/* Every pair of state and event, every named refusal, and the ends of the state armed. */
 
 static even_rig even;
 static even_rig stood;
@@ -21,7 +21,7 @@ static void stand_tripped(void) {
     TEST_ASSERT_TRUE(even.rig.rested);
 }
 
-/* Only the state can refuse an order. */
+/* Puts the rig into this state with all other conditions fulfilled: only the state can refuse an order. */
 static void stand_in(wh_rig_state state) {
     switch (state) {
     case WH_RIG_IDLE:
@@ -41,7 +41,7 @@ static void stand_in(wh_rig_state state) {
  * Refusals: - not armed, a armed, r running, s stopping, t tripped, n no trip, x not running. */
 typedef struct expectation {
     wh_rig_event event;
-    bool is_order; /* from outside; otherwise refused when posted */
+    bool is_order; /* an order from outside; other events are refused when posted */
     const char *becomes;
 } expectation;
 
@@ -86,7 +86,7 @@ TEST(rig_states, the_table_has_every_pair) {
                              (is_state(letter) ? state_of(letter) : (wh_rig_state)state));
         }
     }
-    static const int strange[] = {-1, 100, 200, INT16_MAX}; /* none of them 0 in a byte */
+    static const int strange[] = {-1, 100, 200, INT16_MAX}; /* the low byte of each is not 0 */
     for (unsigned i = 0; i < 4; i++) {
         const wh_rig_transition event =
             wh_rig_transition_of(WH_RIG_ARMED, (wh_rig_event)strange[i]);
@@ -157,14 +157,15 @@ TEST(rig_states, what_arm_asks_for) {
         even = stood;
         even.inputs.supply_V = supplies_V[i];
         check_refused(arm(), WH_REFUSED_SUPPLY, WH_RIG_IDLE);
-        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE); /* idle: not needed */
+        /* the cell is not needed in the state idle */
+        TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE);
     }
     even = stood;
     even.fails = (even_failure){.in = WH_PHASE_NONE, .lose_samples = EVEN_ALWAYS};
     even_steps(&even, 11);
     check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     for (unsigned minute = 0; minute < 160U;
-         minute++) { /* silent for more than two wraps of the clock */
+         minute++) { /* without a pulse for more than two wraps of the timer */
         even.inputs.now_ticks += 60U * WH_RIG_TICKS_PER_S;
         check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     }
@@ -173,12 +174,12 @@ TEST(rig_states, what_arm_asks_for) {
         even.fails = (even_failure){.in = WH_PHASE_NONE, .status = status};
         check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     }
-    even = stood; /* a trip as well, after the orders */
+    even = stood; /* the case of a trip after the orders */
     even.inputs.watchdog_has_cut = true;
     check_refused(arm(), WH_REFUSED_WATCHDOG, WH_RIG_TRIPPED);
-    even_start(&even); /* rest is not known yet */
+    even_start(&even); /* it is not known yet that the rotor rests */
     check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
-    even = stood; /* a single pulse */
+    even = stood; /* the case of a single pulse */
     even.fails = (even_failure){.in = WH_PHASE_NONE, .adds = {true, false}};
     check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
     even_steps(&even, 740);
@@ -219,7 +220,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
     TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, slowest) == WH_ALLOWED);
     TEST_ASSERT_FALSE(even.rig.fed);
     for (unsigned never = 0; never < 2;
-         never++) { /* slower ones need an observer and a permitted feed-forward */
+         never++) { /* slower set-points need an observer and permitted gravity compensation */
         stand_in(WH_RIG_ARMED);
         even.rig.observer.status = WH_OK;
         even.config.feeds = never == 1 ? WH_COMPENSATION_NEVER : WH_COMPENSATION_SLOW;
@@ -227,13 +228,13 @@ TEST(rig_states, what_start_and_set_ask_for) {
                          (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
         TEST_ASSERT_TRUE(even.rig.fed == (never == 0));
     }
-    stand_in(WH_RIG_ARMED); /* the stop input disarms before the order is processed */
+    stand_in(WH_RIG_ARMED); /* the stop input disarms the rig before the order is processed */
     even.inputs.stop_pressed = true;
     check_refused(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM), WH_REFUSED_NOT_ARMED,
                   WH_RIG_IDLE);
 }
 
-/* Four orders a step are taken, and the fifth is refused at once. All five get their answers, in order. */
+/* Four orders per step are accepted; a fifth is refused at once. All five are answered, in order. */
 TEST(rig_states, too_many_orders) {
     stand_in(WH_RIG_IDLE);
     for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
@@ -270,7 +271,7 @@ TEST(rig_states, armed_lasts_a_minute) {
     TEST_ASSERT_TRUE(arm() == WH_ALLOWED);
 }
 
-/* A hand turns the rotor, slowly or fast: no trip, and no start. */
+/* A hand turns the armed rig's rotor, slowly or fast: no trip, but the rig is disarmed and cannot start. */
 TEST(rig_states, armed_ends_when_the_rotor_turns) {
     static const wh_real hands_rpm[] = {WH_R(20.0), WH_R(60.0), WH_R(100.0), WH_R(140.0)};
     for (unsigned i = 0; i < 4; i++) {
@@ -282,7 +283,7 @@ TEST(rig_states, armed_ends_when_the_rotor_turns) {
             TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
         }
         TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
-        /* two pulses are a shiver; the third comes after a turn */
+        /* two pulses may come by jitter; the third comes after a turn */
         TEST_ASSERT_TRUE((float)steps <= 60.0f / (float)hands_rpm[i] * 500.0f + 2.0f);
         even_steps(&even, 2000);
         TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
@@ -294,8 +295,8 @@ TEST(rig_states, armed_ends_when_the_rotor_turns) {
 }
 
 /* === rig states trips ======================================================================== */
-/* A tripped or stopped rig stays stopped. Trips in each phase, their record through a reset,
- * `clear`, `stop`, the stop input, a lost host, a rotor that turns at the controller's start. */
+/* A tripped or stopped rig stays off. Tests trips in each phase, their record through a reset, `clear`, `stop`, the
+ * stop input, a lost host, and a rotor that turns when the controller starts. */
 
 static void check_off(void) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
@@ -309,7 +310,7 @@ static void check_tripped(wh_trip trip) {
     check_off();
 }
 
-/* Each order but `clear` and `stop` is refused by the trip, and nothing moves. */
+/* Checks that each order except `clear` and `stop` is refused because of the trip, and that nothing moves. */
 static void check_latched(wh_trip trip) {
     static const wh_rig_event orders[] = {WH_EVENT_ARM, WH_EVENT_START, WH_EVENT_SET};
     for (unsigned i = 0; i < 3; i++) {
@@ -325,7 +326,8 @@ static void check_latched(wh_trip trip) {
 
 static wh_refusal clear(void) { return even_order(&even, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* `clear` waits for rest and leads to idle only: the next run needs `arm` and `start`. */
+/* Checks that `clear` is refused until the rotor rests, and leads only to idle: the next run needs `arm` and
+ * `start`. */
 static void check_clears(void) {
     for (unsigned i = 0; i < 20000U && !even.rig.rested; i++) {
         TEST_ASSERT_TRUE(i % 1000U != 0 || clear() == WH_REFUSED_TURNING);
@@ -343,7 +345,7 @@ static void check_clears(void) {
 
 /* --- trips ------------------------------------------------------------------------------------------ */
 
-/* Causes that trip the rig in any state, and what they change. */
+/* Causes of a trip in any state, switched on and off. */
 static void break_supply(bool broken) {
     even.inputs.supply_V = broken ? WH_R(9.0) : WH_RIG_RATED_V;
 }
@@ -357,7 +359,7 @@ static void break_cell(bool broken) {
 typedef struct fault {
     void (*breaks)(bool broken);
     wh_trip trip;
-    wh_refusal while_broken; /* `clear` of a rig at rest */
+    wh_refusal while_broken; /* the answer to `clear` while the cause persists, at rest */
 } fault;
 
 static const fault faults[] = {
@@ -378,7 +380,7 @@ static void check_record(const wh_trip_record *record, wh_trip trip, wh_rig_phas
                      (phase >= WH_PHASE_RAMP && drives));
 }
 
-/* The record goes through a reset, at another timer value, and is latched again. */
+/* The record survives a reset, with another value of the timer, and the trip is latched again. */
 static void check_reset(wh_trip trip) {
     const wh_trip_record record = even.rig.record;
     const uint32_t now = even.inputs.now_ticks + 12345678U;
@@ -394,7 +396,7 @@ static void check_reset(wh_trip trip) {
     even_step(&even);
     check_tripped(trip);
     check_latched(trip);
-    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* the rotor's motion is unknown */
+    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* it is not known whether the rotor moves */
 }
 
 /* In each phase of a run, and armed, a trip switches the motor off in the same step. It stays latched, also through a reset,
@@ -431,7 +433,7 @@ TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
     TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
 }
 
-/* Implausible pulses cannot show that the rotor rests, so after that trip `clear` depends on time alone. */
+/* Unreliable pulses cannot show that the rotor rests. After that trip, `clear` is allowed after a time. */
 TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
@@ -443,12 +445,13 @@ TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_steps(&even, 20U * 500U - 1U);
     TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING && !even.rig.rested);
     even_step(&even);
-    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING); /* unknown */
+    /* rest is assumed, not known */
+    TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING);
     even_steps(&even, 100U * 500U);
     TEST_ASSERT_TRUE(clear() == WH_ALLOWED && even.rig.state == WH_RIG_IDLE);
 }
 
-/* The wait is over, but `clear` is still refused while the rotor turns. */
+/* The waiting time is over, but `clear` is still refused while the rotor turns. */
 TEST(rig_states_trips, a_turning_rotor_is_not_cleared) {
     even_arm(&even);
     break_supply(true);
@@ -475,7 +478,8 @@ static void stop(stop_way way) {
     }
 }
 
-/* In every phase the motor is off in the same step until the rotor rests. Then `arm` is allowed unless stop is still pressed. */
+/* In every phase `stop` switches the motor off in the same step, until the rotor rests. Then `arm` is allowed, unless
+ * the stop input is still pressed. */
 TEST(rig_states_trips, stop_is_at_once) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
         even_reach(&even, phase);
@@ -488,7 +492,7 @@ TEST(rig_states_trips, stop_is_at_once) {
                 check_off();
                 TEST_ASSERT_TRUE(even.rig.state == WH_RIG_STOPPING &&
                                  even.rig.run.phase == WH_PHASE_OFF);
-                /* a stop never switches the enable on */
+                /* `stop` never switches the enable on */
                 const bool enabled = phase != WH_PHASE_TARE && phase != WH_PHASE_OFF;
                 TEST_ASSERT_TRUE(even.command.way == (brakes == 1 && enabled && way != STOP_INPUT
                                                           ? WH_MOTOR_BRAKES
@@ -507,7 +511,8 @@ TEST(rig_states_trips, stop_is_at_once) {
             }
         }
     }
-    for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) { /* no longer armed */
+    for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) {
+        /* each way also ends the state armed */
         even_arm(&even);
         stop(way);
         check_off();
@@ -515,7 +520,7 @@ TEST(rig_states_trips, stop_is_at_once) {
     }
 }
 
-/* As configured, a run without a host goes on to its end. */
+/* If so configured, a run whose host is lost goes on to its end. */
 TEST(rig_states_trips, a_run_may_outlive_its_host) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         even_reach(&even, phase);
@@ -529,7 +534,7 @@ TEST(rig_states_trips, a_run_may_outlive_its_host) {
 
 /* --- the controller's start -------------------------------------------------------------------------- */
 
-/* A reset while the rotor turns causes no trip. `arm` is refused, and the rotor is watched. */
+/* A reset while the rotor turns causes no trip. `arm` is refused until the rotor rests. */
 TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
     static const wh_real speeds_rpm[] = {WH_R(60.0), WH_R(170.0), WH_R(330.0), WH_R(390.0)};
     for (unsigned i = 0; i < 4; i++) {
@@ -545,11 +550,12 @@ TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
         even_rest(&even);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
     }
-    even_start(&even); /* faster than the shaft can take */
+    even_start(&even); /* faster than the shaft's limit */
     even_turn_by_hand(&even, WH_R(410.0));
     even_steps(&even, 1000);
     check_tripped(WH_TRIP_OVERSPEED);
-    even_start(&even); /* from rest, with the motor off: a stage drives it */
+    /* accelerating from rest with the motor off: a stuck stage drives the rotor */
+    even_start(&even);
     even_rest(&even);
     even_turn_by_hand(&even, WH_R(300.0));
     even_steps(&even, 1000);
@@ -558,9 +564,10 @@ TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
 
 /* --- a rotor turned by hand -------------------------------------------------------------------------- */
 
-/* An armed rig tolerates two pulses, because the rotor may shiver. The third means that a hand turns it. */
+/* An armed rig tolerates two pulses, because a hanging rotor may give them by jitter. The third shows that a hand turns
+ * the rotor. */
 TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
-    for (unsigned i = 0; i < 8U; i++) { /* of either sensor */
+    for (unsigned i = 0; i < 8U; i++) { /* pulses of either sensor */
         even_arm(&even);
         for (unsigned pulses = 1; pulses <= 3U; pulses++) {
             wh_rig_pulse(&even.config, &even.rig, i >> (pulses - 1U) & 1U, even.inputs.now_ticks);
@@ -570,8 +577,8 @@ TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
     }
 }
 
-/* After a rest of any length, a hand's pulses must not be compared with pulses from before it. The timer wraps after 72
- * minutes, and half of its range means the future. */
+/* After the rotor has been at rest for any time, pulses by a hand must not be compared with those before the rest. The
+ * timer wraps after 72 minutes; differences of more than half of that are negative. */
 TEST(rig_states_trips, rest_may_last_any_time) {
     for (unsigned i = 0; i < 24U; i++) {
         even_start(&even);
@@ -585,7 +592,7 @@ TEST(rig_states_trips, rest_may_last_any_time) {
         TEST_ASSERT_FALSE(even.rig.pulses.speed.running);
         const uint32_t wakes =
             last + (i % 3U == 0 ? UINT32_C(0x80000000) : 0U) + UINT32_C(5000) * i;
-        for (unsigned s = 0; s < 4294U; s++) { /* a second each */
+        for (unsigned s = 0; s < 4294U; s++) { /* one second each */
             even.inputs.now_ticks += 1000000U - EVEN_STEP_TICKS;
             even_step(&even);
             if (s > 5U && wakes - even.inputs.now_ticks < 2000000U) {
@@ -602,17 +609,16 @@ TEST(rig_states_trips, rest_may_last_any_time) {
 }
 
 /* === rig states random ======================================================================= */
-/* The rig's controller under random orders and inputs, new set-points, and a result that
- * outlives a trip. */
+/* The rig's controller under random orders and inputs; a new set-point; a result that survives a trip. */
 
 static uint32_t result_end_ticks;
 static uint64_t seed;
 
-/* A new set-point in any phase before the result: the run settles at it, and the record restarts. */
+/* A new set-point in any phase before the result: the rig settles at it, and the record restarts. */
 TEST(rig_states_random, another_set_point_while_it_runs) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
-        even_steps(&even, 100); /* the earlier record is dropped */
+        even_steps(&even, 100); /* the record so far is dropped */
         TEST_ASSERT_TRUE(even.rig.run.phase == phase);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
         TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));
@@ -632,8 +638,8 @@ TEST(rig_states_random, another_set_point_while_it_runs) {
     }
 }
 
-/* The next run counts lost and rejected pulses from zero. It forgets the counts that the last run noted when its loop was
- * closed (lost_before, rejected_before). */
+/* The next run counts lost and rejected pulses from zero. It does not use the counts from the last run's closing of the
+ * loop (lost_before, rejected_before). */
 TEST(rig_states_random, the_run_before_does_not_count) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -646,7 +652,7 @@ TEST(rig_states_random, the_run_before_does_not_count) {
     TEST_ASSERT_TRUE(even_is_done(&even));
 }
 
-/* If the speed leaves the band during the record, the run trips without a result, even if there was an earlier one. */
+/* If the speed leaves the band during the record, the run trips without a result, even if an earlier run had one. */
 TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
@@ -750,9 +756,9 @@ static void check_what_always_holds(wh_rig_state before, asked of) {
                       rig->run.phase >= WH_PHASE_SPIN_UP && rig->run.phase <= WH_PHASE_RAMP_DOWN));
     TEST_ASSERT_TRUE(rig->state != WH_RIG_TRIPPED || command->way == WH_MOTOR_COASTS);
     TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
-    TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* NaN is not */
+    TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* also refuses NaN */
     TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
-    /* allowed sequences */
+    /* only allowed sequences of states */
     TEST_ASSERT_TRUE(rig->state != WH_RIG_ARMED || before == WH_RIG_ARMED || of.arm);
     TEST_ASSERT_TRUE(rig->state != WH_RIG_RUNNING || before == WH_RIG_RUNNING ||
                      (of.start && (before == WH_RIG_ARMED || of.arm)));
@@ -761,13 +767,13 @@ static void check_what_always_holds(wh_rig_state before, asked of) {
     TEST_ASSERT_TRUE(before != WH_RIG_STOPPING || rig->state != WH_RIG_RUNNING);
 }
 
-#define SEQUENCES 500U /* from each phase */
+#define SEQUENCES 500U /* sequences that begin in each phase */
 #define STEPS 24U
 
 static void go_through_anything(void) {
     const wh_rig_phase phase = even.rig.run.phase;
     stood = even;
-    unsigned left = 0; /* sequences that ended elsewhere, or not at all */
+    unsigned left = 0; /* number of sequences that ended in another phase, or not at all */
     unsigned drove = 0;
     for (unsigned sequence = 0; sequence < SEQUENCES; sequence++) {
         even = stood;
@@ -783,11 +789,12 @@ static void go_through_anything(void) {
         left += even.rig.run.phase != phase ? 1U : 0U;
     }
     const bool runs = phase > WH_PHASE_NONE && phase < WH_PHASE_OFF;
-    TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U)); /* the drawn sequences were not idle */
+    /* enough of the sequences had an effect */
+    TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U));
     TEST_ASSERT_TRUE(!runs || phase == WH_PHASE_TARE || drove > SEQUENCES);
 }
 
-/* A result belongs to the last start, from its record's end on, and its age grows with the clock. */
+/* A result belongs to the last start, exists from the end of its record on, and its age grows with the clock. */
 static void check_result(const wh_rig *before) {
     const wh_rig *rig = &even.rig;
     const uint32_t now = even.inputs.now_ticks;
@@ -824,7 +831,7 @@ TEST(rig_states_random, what_holds_whatever_is_ordered) {
     go_through_anything();
 }
 
-/* Long sequences, so that runs get far. */
+/* Long random sequences, so that some runs reach their result. */
 TEST(rig_states_random, what_holds_for_hours) {
     seed = 12;
     even_start(&even);

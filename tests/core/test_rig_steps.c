@@ -1,4 +1,5 @@
-/* test_rig_steps.c: the rig's run step by step: each phase's exact duration and end by docs/rig.md, and a full record's result. */
+/* test_rig_steps.c: the rig's run step by step: the exact duration and end of each phase (docs/rig.md), and the result
+ * of a full record. */
 #include <stddef.h>
 
 #include "even_rig.h"
@@ -22,7 +23,7 @@ static void begin(void) {
     wh_run_start(&rig.run, WH_R(330.0) * RPM, inputs.now_ticks);
 }
 
-/* Puts the rig into this phase now, at the target's speed, with all guards satisfied. */
+/* Puts the rig into this phase at the target speed, such that no check of the guard trips. */
 static void stand_in(wh_rig_phase phase) {
     begin();
     rig.state = phase == WH_PHASE_NONE       ? WH_RIG_IDLE
@@ -31,7 +32,7 @@ static void stand_in(wh_rig_phase phase) {
     rig.run.phase = phase;
     rig.pulses.speed.known = true;
     rig.pulses.speed.running = true;
-    rig.pulses.alternate = WH_GUARD_COASTS; /* it turns */
+    rig.pulses.alternate = WH_GUARD_COASTS; /* the rotor turns */
     rig.pulses.speed.turn_radps = WH_R(330.0) * RPM;
     rig.run.drive.setpoint_radps = rig.run.drive.target_radps = rig.run.target_radps;
     rig.run.off_radps = WH_R(330.0) * RPM;
@@ -52,19 +53,20 @@ static void step(void) {
     command = wh_rig_step(&config, &rig, &inputs);
 }
 
-/* A step with the pulse that the guard expects. */
+/* Does a step with the pulse that the guard expects. */
 static void step_on(void) {
     rig.pulses.speed.ticks = inputs.now_ticks + STEP_TICKS;
     step();
 }
 
-/* Does `steps` steps, with regular pulses and loads, as long as the phase stays. */
+/* Does at most `steps` steps, with regular pulses and loads, until the phase changes. Returns their number. */
 static unsigned stay(wh_real speed_rpm, unsigned steps) {
     const wh_rig_phase phase = rig.run.phase;
     unsigned done = 0;
     while (done < steps && rig.run.phase == phase) {
         rig.pulses.speed.turn_radps = speed_rpm * RPM;
-        rig.pulses.speed.taken += done < WH_RUN_TURNS ? 1U : 0U; /* the mean equals this speed */
+        /* so that the mean over WH_RUN_TURNS equals this speed */
+        rig.pulses.speed.taken += done < WH_RUN_TURNS ? 1U : 0U;
         wh_rig_load(&config, &rig, inputs.now_ticks + STEP_TICKS, done % 2U == 0 ? 0 : 450,
                     WH_LOAD_OK);
         step_on();
@@ -94,7 +96,7 @@ static const char *turn_text(int number) { return wh_turn_text((wh_turn_fault)nu
 static const char *quality_text(int number) { return wh_quality_text((wh_quality)number); }
 static const char *swing_text(int number) { return wh_swing_text((wh_swing_why)number); }
 
-/* Number 1 is not a trip. */
+/* The words of a trip's number. Number 1 is none. */
 static const char *trip_text(int number) {
     return wh_trip_text(number == 0 ? WH_TRIP_NONE : (wh_trip)(number + 1));
 }
@@ -127,16 +129,17 @@ TEST(rig_steps, the_tare_takes_its_samples) {
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SPIN_UP);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f,
-                             (float)rig.measure.tare.mean_N); /* of 0 and 450 counts */
+                             (float)rig.measure.tare.mean_N); /* mean of 0 and 450 counts */
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 9.6f, (float)command.volts);
-    TEST_ASSERT_FALSE(rig.pulses.speed.running); /* earlier samples are discarded */
-    begin();                                     /* invalid samples do not count */
+    TEST_ASSERT_FALSE(rig.pulses.speed.running); /* the pulses so far are discarded */
+    /* the case of invalid samples, which do not count */
+    begin();
     for (unsigned i = 0; i < 500; i++) {
         wh_rig_load(&config, &rig, inputs.now_ticks, 9, WH_LOAD_LATE);
     }
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000));
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f, (float)rig.measure.tare.mean_N);
-    for (unsigned pulses = 2; pulses <= 3; pulses++) { /* the hanging rotor's shiver, or more */
+    for (unsigned pulses = 2; pulses <= 3; pulses++) { /* as many as jitter gives, or more */
         begin();
         for (unsigned i = 0; i < pulses; i++) {
             inputs.now_ticks += 100000U;
@@ -164,12 +167,12 @@ TEST(rig_steps, the_loop_takes_over_at_its_speed) {
     TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(150.1), 1));
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 330.0f, (float)(rig.run.drive.target_radps / RPM));
 
-    stand_in(WH_PHASE_SPIN_UP); /* the limit of eight seconds */
+    stand_in(WH_PHASE_SPIN_UP); /* the spin-up takes at most eight seconds */
     TEST_ASSERT_EQUAL_UINT(8U * STEPS_PER_S + 1U, stay(WH_R(100.0), 10000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_STALLED);
 }
 
-/* Starts at 9.6 V and rises 2 V a second to the rated voltage and the supply's. */
+/* The voltage starts at 9.6 V and rises by 2 V per second, up to the rated voltage and to the supply. */
 TEST(rig_steps, spin_up_asks_for_more_and_more) {
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -184,7 +187,7 @@ TEST(rig_steps, spin_up_asks_for_more_and_more) {
     }
 }
 
-/* 60 rpm a second: three seconds from 150 to 330. */
+/* The ramp has 60 rpm per second: three seconds from 150 to 330 rpm. */
 TEST(rig_steps, the_ramp_takes_its_time) {
     stand_in(WH_PHASE_RAMP);
     rig.run.drive.setpoint_radps = WH_R(150.0) * RPM;
@@ -201,12 +204,12 @@ TEST(rig_steps, the_speed_settles_within_its_band) {
         TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S / 2U, stay(inside_rpm[i], 10000));
         TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_RECORD);
     }
-    for (unsigned i = 0; i < 2; i++) { /* a mean out of range restarts the time */
+    for (unsigned i = 0; i < 2; i++) { /* a mean outside the band restarts the time */
         stand_in(WH_PHASE_SETTLE);
         TEST_ASSERT_EQUAL_UINT(1000, stay(WH_R(330.0), 1000));
         TEST_ASSERT_EQUAL_UINT(WH_RUN_TURNS, stay(outside_rpm[i], WH_RUN_TURNS));
         TEST_ASSERT_EQUAL_UINT(5U * STEPS_PER_S / 2U, stay(WH_R(330.0), 10000));
-        stand_in(WH_PHASE_SETTLE); /* twenty seconds suffice */
+        stand_in(WH_PHASE_SETTLE); /* within twenty seconds the rig must settle */
         TEST_ASSERT_EQUAL_UINT(20U * STEPS_PER_S + 1U, stay(outside_rpm[i], 20000));
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_UNSETTLED);
     }
@@ -222,7 +225,8 @@ TEST(rig_steps, the_speed_stays_while_it_is_recorded) {
     }
 }
 
-/* 1.5 s without a pulse count as rest. The rig waits for rest for at most two minutes, or 20 s after a trip. */
+/* A rotor without a pulse for 1.5 s counts as at rest. The rig waits for rest for at most two minutes, or 20 s after a
+ * trip. */
 TEST(rig_steps, rest_is_waited_for) {
     for (unsigned i = 0; i < 4; i++) {
         const bool trips = i % 2U == 1;
@@ -235,7 +239,7 @@ TEST(rig_steps, rest_is_waited_for) {
         const wh_rig_state state = rig.state;
         uint32_t steps = 0;
         for (; steps < 70000U && rig.state == state && !rig.rested; steps++) {
-            if (pulses ? steps % 150U == 0 : steps == 0) { /* 200 rpm */
+            if (pulses ? steps % 150U == 0 : steps == 0) { /* pulses at 200 rpm */
                 wh_rig_pulse(&config, &rig, 0, inputs.now_ticks + STEP_TICKS);
             }
             step();
@@ -250,7 +254,7 @@ TEST(rig_steps, rest_is_waited_for) {
             TEST_ASSERT_TRUE(trips ? rig.rested : rig.state == WH_RIG_IDLE);
         }
     }
-    stand_in(WH_PHASE_OFF); /* no pulse at all: the phase's own time counts */
+    stand_in(WH_PHASE_OFF); /* without any pulse, the time is counted from the begin of the phase */
     rig.pulses.speed.running = false;
     unsigned steps = 0;
     for (; steps < 20000U && rig.state == WH_RIG_STOPPING; steps++) {
@@ -263,7 +267,7 @@ TEST(rig_steps, rest_is_waited_for) {
 /* Time differences wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
 TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
-                             WH_TRIP_PULSES}; /* the second waits only for its time */
+                             WH_TRIP_PULSES}; /* the second trip waits only for the time */
     for (unsigned i = 0; i < 2; i++) {
         stand_tripped(trips[i]);
         const uint32_t begins = inputs.now_ticks;
@@ -272,20 +276,21 @@ TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
             step();
         }
         TEST_ASSERT_TRUE(waited > STEPS_PER_S && waited < 70000U);
-        for (unsigned k = 0; k < 9000U; k++) { /* a bit more than a second each: 2.6 hours */
+        for (unsigned k = 0; k < 9000U; k++) { /* slightly more than a second each: 2.6 hours */
             inputs.now_ticks += 1048573U - STEP_TICKS;
             step();
             TEST_ASSERT_TRUE(rig.rested && rig.guard.quiet);
         }
         inputs.now_ticks = begins - STEP_TICKS;
-        for (unsigned k = 0; k < 3000U; k++) { /* and just after the next wrap, step by step */
+        for (unsigned k = 0; k < 3000U; k++) { /* step by step just after the next wrap */
             step();
             TEST_ASSERT_TRUE(rig.rested && rig.guard.quiet);
         }
     }
 }
 
-/* In any phase a late controller or over-speed ends the run. With the motor off, over-speed has another reason. */
+/* In any phase a late controller or over-speed ends the run. With the motor off, over-speed trips for another
+ * reason. */
 TEST(rig_steps, what_trips_in_which_phase) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
@@ -296,7 +301,7 @@ TEST(rig_steps, what_trips_in_which_phase) {
         TEST_ASSERT_FALSE(rig.rested);
         for (unsigned unknown = 0; unknown < 2; unknown++) {
             stand_in(phase);
-            rig.run.drive.setpoint_radps = WH_R(0.0); /* stays on the ramp */
+            rig.run.drive.setpoint_radps = WH_R(0.0); /* the set-point stays on the ramp */
             rig.run.off_radps = unknown == 1 ? config.guard.limit_radps : WH_R(0.0);
             rig.pulses.speed.turn_radps = WH_R(401.0) * RPM;
             step_on();
@@ -310,7 +315,7 @@ TEST(rig_steps, what_trips_in_which_phase) {
 
 /* --- the record ------------------------------------------------------------------------------------------ */
 
-/* Turns of a known load, given to the run like a lock-in's results; the record ends after its time. */
+/* Turns with a known load are given to the run as results of the lock-in; the record ends after its time. */
 TEST(rig_steps, what_a_record_comes_to) {
     stand_in(WH_PHASE_SETTLE);
     rig.measure.tare.mean_N = WH_R(0.4);
@@ -347,13 +352,13 @@ TEST(rig_steps, what_a_record_comes_to) {
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.4f, (float)result->tare_N);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 10.0f, (float)result->low_N);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 28.0f, (float)result->high_N);
-    /* half a sample before the turn's first sample, and before its 23rd */
+    /* time of sensor 1's pulse: half a sample before the turn's first; of sensor 2's: half a sample before its 23rd */
     TEST_ASSERT_FLOAT_WITHIN(2e-3f, 10.2f, (float)result->force.at_mark_N[0]);
     TEST_ASSERT_FLOAT_WITHIN(2e-3f, 19.0f, (float)result->force.at_mark_N[1]);
-    /* 2 (0 + ... + 45) 0.4 / 91 of them */
+    /* mean of the load: 2 (0 + ... + 45) 0.4 / 91 */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 10.0f + 9.0989f, (float)result->force.mean_N);
     TEST_ASSERT_TRUE(result->force.quality ==
-                     WH_REFUSED); /* 8 N against the masses: not the rig's */
+                     WH_REFUSED); /* 8 N is not the force of these masses */
     TEST_ASSERT_EQUAL_UINT32(2, result->lost);
     TEST_ASSERT_EQUAL_UINT32(4, result->rejected);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 200.0f, (float)(rig.run.drive.target_radps / RPM));
@@ -364,7 +369,7 @@ TEST(rig_steps, a_record_without_turns_trips) {
     stand_in(WH_PHASE_RECORD);
     TEST_ASSERT_EQUAL_UINT(1009, stay(WH_R(330.0), 5000));
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_RECORD);
-    stand_in(WH_PHASE_RECORD); /* a lock-in that waits for missing samples */
+    stand_in(WH_PHASE_RECORD); /* the lock-in waits for samples that do not come */
     rig.measure.lockin.stage = WH_LOCKIN_SUMS;
     rig.measure.lockin.next.begin_ticks = inputs.now_ticks + 100000000U;
     TEST_ASSERT_EQUAL_UINT(1259, stay(WH_R(330.0), 5000));

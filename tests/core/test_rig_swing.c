@@ -1,5 +1,5 @@
-/* test_rig_swing.c: sensor angles from the swing of a made-up rotor (rotor.c) that comes to rest. Covers named refusals, false
- * pulses, the equation of motion and the regression. */
+/* test_rig_swing.c: sensor positions from the free swing of an imitated rotor (rotor.c) that comes to rest. Also named
+ * refusals, false pulses, the equation of motion and the regression. */
 #include "core/rig/free_swing.h"
 
 #include "core/angle.h"
@@ -22,8 +22,8 @@ static uint64_t seed;
 typedef struct drawn {
     rotor_kind kind;
     wh_real place_rad[2];
-    unsigned lose; /* every nth pulse, 0: none */
-    unsigned add;  /* a false pulse after every nth */
+    unsigned lose; /* every nth pulse is lost; 0: none */
+    unsigned add;  /* a false pulse comes after every nth pulse */
 } drawn;
 
 /* Passages of sensor 1 since the rotor began to swing, with their speeds. */
@@ -78,7 +78,7 @@ static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *s
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
 }
 
-/* Swings from some turns to rest; evaluates the swing. */
+/* The rotor swings after some turns until it rests; evaluates the swing. */
 static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool rests) {
     rotor_state state = {.ticks = UINT32_MAX - 3000000U,
                          .seed = seed,
@@ -99,7 +99,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     for (uint32_t i = 0; i < 100000U && wh_swing_works(&swing); i++) {
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
         if (swing.piece == WH_SWING_GOES &&
-            swing.pass != pass) { /* pulses gain weight from pass to pass */
+            swing.pass != pass) { /* the weight of the pulses grows from pass to pass */
             TEST_ASSERT_TRUE(swing.pass == 0 || swing.soft_rad2 <= WH_R(0.5) * soft_rad2);
             pass = swing.pass;
             soft_rad2 = swing.soft_rad2;
@@ -156,8 +156,8 @@ TEST(rig_swing, rough_pulses_have_wide_intervals) {
     TEST_ASSERT_TRUE(told * 3U >= runs && covered * 100U >= told * 90U);
 }
 
-/* A pass skips swings near the top if enough swings follow. Near the top times depend strongly on the amplitude, so the guess
- * is uncertain. */
+/* A pass omits swings near the top if enough swings follow. Near the top the amplitude has a steep effect on the times,
+ * so the guess is uncertain. */
 TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     const wh_rig_config config = standard();
     unsigned near_top = 0;
@@ -167,7 +167,7 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
         const drawn rotor = draw_rotor(WH_R(0.004), WH_R(0.012));
         const wh_swung swung = swing_out(&config, &rotor, true);
         const wh_real root = WH_SQRT(rotor.kind.weight_Nm / rotor.kind.inertia_kgm2);
-        const wh_real first = passed_radps[0] / root; /* 2: it would reach the top */
+        const wh_real first = passed_radps[0] / root; /* 2: such a rotor would reach the top */
         if (first > WH_R(1.92) && first < WH_R(2.0) && passed > 20U && passed < PASSED_MOST) {
             near_top++; /* 147 degrees and more */
             unsigned at = 0;
@@ -183,7 +183,7 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     TEST_ASSERT_TRUE(near_top * 15U > runs);
 }
 
-/* A lost or false pulse is left out or makes the swing invalid. It never moves a sensor. */
+/* A lost or false pulse is left out or makes the swing invalid. It never changes a found position. */
 TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
     const wh_rig_config config = standard();
     unsigned found = 0;
@@ -220,7 +220,7 @@ TEST(rig_swing, what_is_no_free_swing_is_refused_by_name) {
     TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_NOT_FREE);
 }
 
-/* Random pulses of any sensor: no angle is found, and the work ends. */
+/* Random pulses: no position is found, and the work ends. */
 TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
     const wh_rig_config config = standard();
     uint32_t works = 0;
@@ -249,7 +249,8 @@ TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
 
 static even_rig even;
 
-/* If requested, the run's end coasts. A later `stop` keeps the enable off, and the rotor swings on. */
+/* If so configured, a run ends with the motor off. A `stop` after that keeps the enable off, and the rotor goes on
+ * swinging. */
 TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
     for (unsigned swings = 0; swings < 2U; swings++) {
         even_arm(&even);
@@ -272,7 +273,7 @@ TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
     }
 }
 
-/* A misplaced sensor makes a good result doubtful and changes nothing else. */
+/* A sensor away from its configured position makes a good result doubtful and changes nothing else. */
 TEST(rig_swing, a_good_result_is_doubtful_where_sensor_1_stands_off) {
     const wh_rig_config config = standard();
     for (int deg10 = -30; deg10 <= 30; deg10++) {
@@ -307,7 +308,8 @@ static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
     return rotor;
 }
 
-/* The sensitivity to each cause is checked forwards and backwards through several turning points. */
+/* The derivatives with respect to each parameter equal differences, forwards and backwards, through several
+ * reversals. */
 TEST(rig_swing, derivatives_are_what_differences_show) {
     const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
                                             WH_R(3e-3)};
@@ -335,7 +337,7 @@ TEST(rig_swing, derivatives_are_what_differences_show) {
     }
 }
 
-/* Without drag, energy falls by friction's work; steps backwards restore it. */
+/* Without viscous friction, energy falls by the work of Coulomb friction; steps backwards restore it. */
 TEST(rig_swing, steps_back_undo_steps) {
     const wh_real cause[WH_FREE_CAUSES] = {WH_R(0.0), WH_R(-11.0), WH_R(60.0), WH_R(5.0),
                                            WH_R(0.1)};

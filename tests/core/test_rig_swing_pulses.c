@@ -1,5 +1,5 @@
-/* test_rig_swing_pulses.c: a swing's stored pulses, first guess, work per step and turning points. The references are the
- * pulses' story, the rotor (rotor.c) and many small steps. */
+/* test_rig_swing_pulses.c: the stored pulses of a swing, the first guess, the work per control step, and steps in which
+ * the rotor reverses. The references are the drawn sequence of pulses, the rotor (rotor.c) and many small steps. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
@@ -23,8 +23,8 @@ static bool near(wh_real found, wh_real wanted, wh_real most) {
 
 /* --- stored pulses ------------------------------------------------------------------------------------------- */
 
-/* A rotor that turns and then swings: its pulses in order. `first` is the first pulse backwards past sensor 1, `passed`
- * counts the passages of sensor 1 from then on. */
+/* The pulses of a rotor that turns and then swings, in order. `first` is the index of the first pulse that passes
+ * sensor 1 backwards, `passed` counts the passages of sensor 1 from then on. */
 #define STORY_MOST 120U
 typedef struct story {
     uint32_t ticks[STORY_MOST];
@@ -41,7 +41,8 @@ static void tell(story *of, unsigned sensor) {
     of->ticks[of->pulses++] = before + 40000U + draw_one_of(&seed, 60000);
 }
 
-/* The rotor turns fully. Then it swings, past sensor 2 and back while the swing is wide enough. */
+/* Draws the pulses: full turns, then swings past sensor 1, and past sensor 2 and back while the swing is wide
+ * enough. */
 static void draw_story(story *of, unsigned turns) {
     *of = (story){.pulses = 0};
     for (unsigned i = 0; i < turns; i++) {
@@ -72,14 +73,14 @@ static void give(const story *of, unsigned lost) {
         if (i != lost) {
             wh_swing_pulse(&swing, of->sensor[i], of->ticks[i]);
         }
-        if (draw_one_in(&seed, 8)) { /* of a nonexistent sensor */
+        if (draw_one_in(&seed, 8)) { /* of a sensor that does not exist */
             wh_swing_pulse(&swing, WH_SWING_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
         }
     }
 }
 
-/* Stored are the last pulses before the first return, the returning pulse, as many later ones as fit, and the last one of
- * sensor 1. */
+/* Checks the stored pulses: the last ones before the first return, the first return, as many later ones as there is
+ * room for, and the last ones of sensor 1. */
 static void check_kept(const story *of) {
     const unsigned turning = of->first < WH_SWING_TURNING ? of->first : WH_SWING_TURNING;
     const unsigned from = of->first - turning;
@@ -110,7 +111,8 @@ TEST(rig_swing_pulses, what_is_kept_of_a_swing) {
     }
 }
 
-/* A pulse lost while the rotor still turns looks like the first return. Later turns correct it: the stored swing is the same. */
+/* A pulse that is lost while the rotor still turns looks like the first return. Later turns correct this: the stored
+ * swing is the same. */
 TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
     static story told;
     seed = 2;
@@ -123,7 +125,8 @@ TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
 
 /* --- the guess ------------------------------------------------------------------------------------------- */
 
-/* A rotor with open motor leads runs out, from some full turns to rest. Returns its speed at the first return past sensor 1. */
+/* A rotor with open motor leads turns some more times and swings until it rests. Returns its speed at the first return
+ * past sensor 1. */
 static wh_real swing_out(const rotor_kind *kind) {
     const wh_rig_config *config = &wh_rig_standard;
     const wh_real over_radps = WH_R(2.0) * WH_SQRT(kind->weight_Nm / kind->inertia_kgm2);
@@ -148,8 +151,8 @@ static wh_real swing_out(const rotor_kind *kind) {
     return first_radps;
 }
 
-/* The guess contains the speed at the first return, and gravity and friction divided by inertia. All are within its
- * uncertainty, the first two within some 10 %. */
+/* The guess contains the rate at the first return, and gravity and friction divided by the inertia. Each error is
+ * within the stated uncertainty; the first two are within some 10 %. */
 TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
     unsigned told = 0;
     unsigned near_it = 0;
@@ -184,7 +187,8 @@ TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
     TEST_ASSERT_TRUE(told * 2U > draw_cases(60) && near_it * 10U > told * 7U);
 }
 
-/* Half a swing's time relative to a small one's, 2/pi K(k), by the arithmetic-geometric mean; k2 = k^2. */
+/* Reference: the time of half a swing divided by that of a small one, 2/pi K(k), by the arithmetic-geometric mean; k2 =
+ * k^2. */
 static wh_real longer_by(wh_real k2) {
     wh_real a = WH_R(1.0);
     wh_real b = WH_SQRT(WH_R(1.0) - k2);
@@ -196,15 +200,15 @@ static wh_real longer_by(wh_real k2) {
     return WH_R(1.0) / a;
 }
 
-/* A first swing of any width, almost up to the top, is followed by small ones. The width follows from the time of the first
- * alone, by the pendulum's integral. */
+/* The first swing has any amplitude almost up to the top, the others are small. The amplitude must follow from the time
+ * of the first swing alone. */
 TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
         const wh_real near_top = drawn_between(WH_R(0.03), WH_R(0.2));
         const wh_real sine =
             i % 2U == 0 ? drawn_between(WH_R(0.42), WH_R(0.96)) : WH_R(1.0) - near_top * near_top;
-        /* linear between eight points */
+        /* the table has eight points, with linear interpolation */
         const wh_real part = sine > WH_R(0.96)   ? WH_R(0.009)
                              : sine > WH_R(0.55) ? WH_R(0.017)
                                                  : WH_R(0.045);
@@ -229,11 +233,11 @@ TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
 
 /* --- the work -------------------------------------------------------------------------------------------- */
 
-/* Largest number of the equation's steps in a control step of this many ticks. */
+/* Most steps of the equation of motion in one control step. */
 #define EQUATION_STEPS 3
 #define EQUATION_TICKS 8000
 
-/* The pieces that may follow each piece of the work, as bits. */
+/* Which parts of the work may follow each part, as bits. */
 static unsigned may_follow(wh_swing_piece piece) {
     switch (piece) {
     case WH_SWING_GOES: return 1U << WH_SWING_GOES | 1U << WH_SWING_FACTORS;
@@ -247,7 +251,7 @@ static unsigned may_follow(wh_swing_piece piece) {
     return 0;
 }
 
-/* Also checks that the piece has at most three steps of the equation. */
+/* Also checks that a part has at most three steps of the equation. */
 TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
     const wh_rig_config *config = &wh_rig_standard;
     unsigned times[WH_SWING_ENDS + 1] = {0};
@@ -267,8 +271,8 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
             wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, true);
             times[piece]++;
             TEST_ASSERT_TRUE((may_follow(piece) >> swing.piece & 1U) != 0);
-            if (piece ==
-                WH_SWING_PASSES) { /* each pass starts at the first passage and runs to the next pulse */
+            if (piece == WH_SWING_PASSES) {
+                /* each pass starts at the first passage and runs to the next pulse */
                 TEST_ASSERT_TRUE(swing.at == swing.first + 1U);
                 TEST_ASSERT_TRUE(swing.ticks == swing.kept_ticks[swing.first]);
             }
@@ -287,8 +291,8 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
 
 /* --- turning back ----------------------------------------------------------------------------------------- */
 
-/* In the step the rotor turns back, or friction holds it. The step and its sensitivities are compared with small steps, in
- * both directions. */
+/* Steps in which the rotor reverses, or friction keeps it at rest. The step and its derivatives are compared with many
+ * small steps, in both directions. */
 TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),
@@ -318,7 +322,7 @@ TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
         TEST_ASSERT_TRUE(near(one.rate_radps, many.rate_radps, WH_R(1e-3)));
         for (unsigned k = 0; k < WH_FREE_CAUSES; k++) {
             const bool same = near(one.rate_by[k], many.rate_by[k], most[k]);
-            /* near the holding limit the result depends on the last bit */
+            /* near the limit at which friction holds the rotor, the result depends on the last bit */
             TEST_ASSERT_TRUE(same || (holds && WH_ABS(many.rate_radps) < WH_R(1e-3)));
         }
     }

@@ -1,5 +1,6 @@
-/* test_rig_turn_angle.c: derivatives of the angle within a turn by the turn's measurements, which set the intervals. The
- * reference is differences between rotors whose inertia or share of gravity is found by bisection. */
+/* test_rig_turn_angle.c: the derivatives of the angle within a turn with respect to the measurements of the turn, from
+ * which the intervals are computed. The reference is differences between rotors whose inertia or uncompensated part of
+ * gravity is found by bisection. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "draw.h"
@@ -14,7 +15,7 @@ static wh_real drawn_between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
 }
 
-/* A turn: the nominal rotor, its speed, and its inertia or remaining share of gravity. */
+/* A turn: the nominal rotor, its speed, and its inertia or uncompensated part of gravity. */
 typedef struct turn {
     wh_rotor_config rotor;
     wh_real speed_radps;
@@ -37,13 +38,14 @@ static wh_turn_angle shaped(const turn *of, wh_real found) {
     return angle;
 }
 
-/* The rotor's angle beyond sensor 2 at this fraction of the turn's time. */
+/* The rotor's angle beyond sensor 2 after the part `split` of the turn's time. */
 static wh_real beyond(const turn *of, wh_real found, wh_real split) {
     const wh_turn_angle angle = shaped(of, found);
     return wh_turn_angle_at(&angle, split) - of->rotor.mark_rad[1];
 }
 
-/* base_rad if sensor 2's mark comes at this fraction of the turn's time; by bisection on either side of `about`. */
+/* base_rad if sensor 2's pulse comes after the part `split` of the turn's time; by bisection on either side of
+ * `about`. */
 static wh_real base_at(const turn *of, wh_real about, wh_real split) {
     wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
     wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
@@ -67,7 +69,7 @@ static wh_real by_mark(const turn *of, wh_real about, wh_real split) {
     return (base_at(&more, about, split) - base_at(&less, about, split)) / (WH_R(2.0) * LITTLE_RAD);
 }
 
-/* A larger lag is gravity that pulls from further back. */
+/* base_rad for a larger lag psi, which has the effect of another direction of gravity. */
 static wh_real by_lag(const turn *of, wh_real about, wh_real split) {
     turn more = *of;
     turn less = *of;
@@ -80,8 +82,8 @@ static void check_near(wh_real found, wh_real wanted, wh_real most) {
     TEST_ASSERT_TRUE(WH_ABS(found - wanted) <= most);
 }
 
-/* The base's derivatives by sensor 2's mark and by the lag. The split gives the inertia or the remaining share of gravity.
- * Gravity acts along an axis, or some degrees off it. */
+/* The derivatives of base_rad with respect to the quadrature ratio and to the lag. The ratio determines the inertia or
+ * the uncompensated part of gravity. Gravity is along an axis, or some degrees away from one. */
 TEST(rig_turn_angle, derivatives_are_what_differences_show) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
@@ -101,19 +103,21 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
         (void)wh_turn_angle_split(&of.rotor, &angle, split);
         const wh_real swing = WH_ABS(angle.swing_rad);
         const wh_real steep = angle.base_per_quadrature * angle.base_per_quadrature;
-        const wh_real bent = swing * (WH_R(1.0) + steep); /* the differences' second-order terms */
+        /* terms of second order in the differences */
+        const wh_real bent = swing * (WH_R(1.0) + steep);
         check_near(by_mark(&of, about, split), angle.base_per_split,
                    WH_R(0.003) + WH_R(0.25) * bent);
         const wh_real lag = by_lag(&of, about, split);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
-        if (of.fed) { /* a lag adds a swing a quarter turn later, times gravity's share */
+        if (of.fed) {
+            /* a lag adds a ripple a quarter turn later, in proportion to the part of gravity */
             check_near(WH_ABS(lag), swing * WH_ABS(angle.base_per_quadrature),
                        swing * (WH_R(0.003) + WH_R(0.5) * bent) + WH_R(2e-5));
         }
     }
 }
 
-/* A single call from zero has nearly converged; in the program, earlier turns come first. */
+/* One call from zero has nearly converged; the program makes a call in each turn. */
 TEST(rig_turn_angle, a_shape_is_found_at_once) {
     seed = 31;
     wh_real worst = WH_R(0.0);

@@ -1,5 +1,6 @@
-/* test_root.c: the core's square root by definition, in integers: q is the nearest root of x if and only if (q - 1/2)^2 < x <
- * (q + 1/2)^2. No library is used. Double needs 128 bits for that; boards lack them and test the table alone. */
+/* test_root.c: the core's square root by definition, in integers: q is the nearest root of x if and only if (q - 1/2)^2
+ * < x < (q + 1/2)^2. No library is used. Double needs 128-bit integers for the test; boards have none and test the
+ * table alone. */
 #include "core/root.h"
 
 #include "unity.h"
@@ -62,7 +63,7 @@ static word scatter(void) {
     return (word)(state >> (64U - sizeof(word) * 8U));
 }
 
-/* Whether root is the nearest root of x > 0; both taken apart into whole numbers. */
+/* Is `root` the nearest root of x > 0? Both are split into integers. */
 static bool is_root(word x, word root) {
     int exponent = (int)(x >> BITS);
     word fraction = x & (ONE - 1U);
@@ -85,7 +86,7 @@ static bool is_root(word x, word root) {
     return (2U * q - 1U) * (2U * q - 1U) < square && square < (2U * q + 1U) * (2U * q + 1U);
 }
 
-/* All exponents, with random fractions and both ends. */
+/* All exponents, with random fractions and the ends of the range. */
 static void test_all_exponents(void) {
     const unsigned each = WH_TEST_SMALL ? 8U : 2000U;
     for (word exponent = 0; exponent < 2U * BIAS + 1U; exponent++) {
@@ -108,14 +109,14 @@ static void test_subnormals(void) {
     }
 }
 
-/* Near halves: numbers whose roots are closest to a rounding boundary, q^2 + q or one more, q of all sizes. */
+/* Numbers whose roots are closest to the middle between two numbers: q^2 + q, or one more, for q of all sizes. */
 static void test_near_halves(void) {
     const unsigned count = WH_TEST_SMALL ? 2000U : 2000000U;
     for (unsigned i = 0; i < count; i++) {
         const wide q = (scatter() & (ONE - 1U)) | ONE;
         const unsigned places = BITS + ((q * q) >> (2 * BITS + 1) != 0);
         const word fraction = (word)((q * q + q) >> places);
-        const word odd = places - BITS; /* x beyond 2: one exponent more */
+        const word odd = places - BITS; /* x beyond 2: the exponent is larger by one */
         for (word next = 0; next < 2; next++) {
             const word x = (((word)BIAS + odd) << BITS) + (fraction - ONE) + next;
             TEST_ASSERT_TRUE(is_root(x, root_bits(x)));
@@ -124,7 +125,7 @@ static void test_near_halves(void) {
 }
 
 #if !WH_DOUBLE
-/* Every fraction with either exponent. Other exponents only shift. */
+/* Every fraction with an even and an odd exponent. Other exponents only change the exponent of the root. */
 static void test_all_fractions(void) {
     const word step = WH_TEST_SMALL ? 4099U : 1U;
     for (word x = (word)BIAS << BITS; x < (word)(BIAS + 2) << BITS; x += step) {
@@ -157,7 +158,7 @@ static void test_special(void) {
         TEST_ASSERT_TRUE(is_nan(wh_sqrt(real_of(none[i]))));
         TEST_ASSERT_TRUE(is_nan(WH_SQRT(real_of(none[i]))));
     }
-    for (uint32_t whole = 1; whole < 4096U; whole++) { /* squares are exact */
+    for (uint32_t whole = 1; whole < 4096U; whole++) { /* the roots of squares are exact */
         const wh_real square = (wh_real)(whole * whole);
         TEST_ASSERT_TRUE(wh_sqrt(square) == (wh_real)whole);
         TEST_ASSERT_TRUE(WH_SQRT(square * WH_R(0x1p-60)) == (wh_real)whole * WH_R(0x1p-30));

@@ -22,7 +22,7 @@ static wh_status oscillator_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* A free shaft (angle) beside a carriage whose acceleration is the input. */
+/* A shaft that turns freely (angle) and a carriage whose acceleration is the input. */
 static void shaft_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
@@ -91,7 +91,7 @@ static bool steps(const wh_scene *scene, unsigned count) {
 
 /* --- starting ------------------------------------------------------------------------------------- */
 
-/* Many steps in one call equal single steps, up to the last sound one. */
+/* Many steps in one call give the same state as single steps, up to the last good one. */
 static void test_many_steps_are_steps(void) {
     const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.25));
     TEST_ASSERT_TRUE(start(&scene));
@@ -104,7 +104,7 @@ static void test_many_steps_are_steps(void) {
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 16) == WH_OK && state.steps == 16);
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1) == WH_OK);
     TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
-    /* a push so strong that a few steps exceed all bounds */
+    /* an input so large that a few steps exceed the bounds */
     state.input[0] = WH_R(8e14);
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED);
     TEST_ASSERT_TRUE(state.steps > 17 && state.steps < 1000);
@@ -134,7 +134,8 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
         scene.reals = 1;
         scene.advance = first_order_advance;
         TEST_ASSERT_TRUE(start(&scene));
-        scene.method = (wh_method)i; /* even if written after the start */
+        /* the method is checked even if it is changed after the start */
+        scene.method = (wh_method)i;
         const bool has = wh_methods[i].takes == WH_ANY_SYSTEM;
         TEST_ASSERT_TRUE(has == (i != WH_SEMI_IMPLICIT_EULER && i != WH_LEAPFROG));
         const uint64_t before = wh_scene_hash(&scene, &state);
@@ -147,7 +148,7 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
     }
 }
 
-/* An unknown method, as in corrupted memory. */
+/* A number that is no method, as in corrupted memory, is refused. */
 static void test_what_is_no_method_is_refused(void) {
     for (unsigned i = 0; i < 3; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
@@ -199,11 +200,12 @@ static void test_angle_keeps_its_precision_over_many_turns(void) {
     /* 100 rad/s for 10 s. Each step's 0.1 rad is rounded once to a real: that bounds the sum. */
 #if WH_DOUBLE
     const double error = state.angle[0] - 1000.0;
-    TEST_ASSERT_TRUE(WH_ABS(error) < 5.7e-10); /* 10000 sums, each off by up to 2^-44 */
+    TEST_ASSERT_TRUE(WH_ABS(error) < 5.7e-10); /* 10000 sums, each with an error of up to 2^-44 */
 #else
     const int64_t wanted = INT64_C(683565275576); /* 1000 rad * 2^32 / (2 pi), rounded */
     const int64_t error = state.angle[0] - wanted;
-    TEST_ASSERT_TRUE(error < 81487 && error > -81487); /* 1000 rad * 2^-23 */
+    /* 1000 rad * 2^-23, for the round-off of each step */
+    TEST_ASSERT_TRUE(error < 81487 && error > -81487);
 #endif
 }
 
@@ -232,7 +234,7 @@ static void test_compensated_sums_beat_plain_ones(void) {
 static void expect_refused(const wh_scene *scene, int fault) {
     const uint64_t before = wh_scene_hash(scene, &state);
     for (int attempt = 0; attempt < 2;
-         attempt++) { /* a second try does not continue from garbage */
+         attempt++) { /* a second try fails in the same way, with the same state */
         TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_DIVERGED);
         TEST_ASSERT_TRUE(state.fault == fault);
         TEST_ASSERT_TRUE(wh_scene_hash(scene, &state) == before);
@@ -244,9 +246,10 @@ static void test_absurd_rate_keeps_the_last_good_state(void) {
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 3));
     state.input[0] = WH_R(1e30);
-    expect_refused(&scene, 3); /* angle, x, shaft's rate, carriage's rate */
+    /* the order of components: angle, x, shaft's rate, carriage's rate */
+    expect_refused(&scene, 3);
     state.input[0] = WH_R(0.0);
-    TEST_ASSERT_TRUE(steps(&scene, 1)); /* and it continues once the cause is gone */
+    TEST_ASSERT_TRUE(steps(&scene, 1)); /* without the cause of the divergence, the run continues */
     TEST_ASSERT_TRUE(state.steps == 4);
 }
 

@@ -1,7 +1,7 @@
 /* test_sine.c: sine and cosine together.
  *
- * The float build is compared with a reference in integers, which every board can compute. With a libc, both builds are
- * compared with its sine too. WH_TEST_SMALL takes fewer angles. */
+ * The float build is compared with a reference in integers, which every board can compute. If there is a C library,
+ * both builds are also compared with its sine. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"
@@ -16,7 +16,7 @@
 #endif
 
 #define QUARTER (UINT32_C(1) << 30)
-#define SECTOR (UINT32_C(1) << 25) /* of the table behind the sine */
+#define SECTOR (UINT32_C(1) << 25) /* a sector of the sine table */
 
 void suite_sine(void);
 
@@ -50,7 +50,7 @@ static void test_known_values(void) {
     TEST_ASSERT_TRUE(sine_of(PI / 2.0) == 1.0);
     TEST_ASSERT_TRUE(cosine_of(PI) == -1.0);
     TEST_ASSERT_TRUE(sine_of(-PI / 2.0) == -1.0);
-    TEST_ASSERT_TRUE(near(sine_of(PI), 1.2246467991473532e-16, 1e-27)); /* the remainder of pi */
+    TEST_ASSERT_TRUE(near(sine_of(PI), 1.2246467991473532e-16, 1e-27)); /* PI is not exactly pi */
     TEST_ASSERT_TRUE(near(cosine_of(PI / 2.0), 6.123233995736766e-17, 1e-27));
     TEST_ASSERT_TRUE(near(sine_of(PI / 6.0), 0.5, 2.3e-16));
     TEST_ASSERT_TRUE(near(cosine_of(PI / 3.0), 0.5, 2.3e-16));
@@ -92,7 +92,8 @@ static void test_out_of_range_is_nan(void) {
     TEST_ASSERT_FALSE(is_nan(sine_of(5e8)));
     double sine = 0.5;
     double cosine = 0.25;
-    wh_sincos_of_range(1e300, &sine, &cosine); /* only a float's phase needs the check */
+    /* only float needs this check, because its phase cannot represent such numbers */
+    wh_sincos_of_range(1e300, &sine, &cosine);
     TEST_ASSERT_TRUE(sine == 0.5 && cosine == 0.25);
 }
 
@@ -208,7 +209,7 @@ static void test_known_values(void) {
 }
 
 static void test_smallest_angles(void) {
-    /* One phase unit is 1.4629e-9 rad, and its sine has all its digits. */
+    /* One phase unit is 1.4629e-9 rad; its sine is precise to the last digit. */
     TEST_ASSERT_FLOAT_WITHIN(1e-16f, 1.46291808e-9f, sine_of(1));
     TEST_ASSERT_FLOAT_WITHIN(1e-16f, -1.46291808e-9f, sine_of(UINT32_MAX));
     TEST_ASSERT_TRUE(cosine_of(1) == 1.0f);
@@ -225,13 +226,13 @@ static void test_about_quarters_and_sectors(void) {
         expect_good(eighth * (QUARTER / 2) - many / 2, 1, many);
     }
     const uint32_t few = WH_TEST_SMALL ? 4 : 400;
-    for (uint32_t half = 0; half < 256; half++) { /* sectors' middles and edges */
+    for (uint32_t half = 0; half < 256; half++) { /* middles and edges of sectors */
         expect_good(half * (SECTOR / 2) - few / 2, 1, few);
     }
 }
 
 static void test_worst_found(void) {
-    /* Phases of the largest errors by tests/tools/sine_exhaustive.c. */
+    /* The phases with the largest errors, from tests/tools/sine_exhaustive.c. */
     expect_good(UINT32_C(0x48ffebe7), 1, 1);
     expect_good(UINT32_C(0x08ffebe7), 1, 1);
     TEST_ASSERT_GREATER_THAN_INT64(125, error_at(UINT32_C(0x48ffebe7)));
@@ -246,7 +247,7 @@ static void test_unit_circle_and_symmetry(void) {
         float c;
         wh_sincos(phase, &s, &c);
         TEST_ASSERT_TRUE(WH_ABS(s * s + c * c - 1.0f) <= 2.4e-7f);
-        /* Bit for bit: a quarter turn on, and, except on the edge of two sectors, mirrored. */
+        /* The same bits a quarter turn later and, except at the edge of two sectors, mirrored. */
         TEST_ASSERT_TRUE(sine_of(phase + QUARTER) == c);
         TEST_ASSERT_TRUE(cosine_of(phase + QUARTER) == -s);
         if (phase % SECTOR != SECTOR / 2) {

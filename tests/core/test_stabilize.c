@@ -1,5 +1,5 @@
-/* test_stabilize.c: a step's correction of its energy drift (core/step/stabilize.h), for a body of 1 kg that flies with two
- * rates, in closed form. Drifts are made by changing the start's energy in the books. */
+/* test_stabilize.c: a step's correction of its energy drift (core/step/stabilize.h), for a body of 1 kg that flies with
+ * two rates, in closed form. A drift is imitated by changing the start's energy in the ledger. */
 #include "core/step/stabilize.h"
 
 #include "tests/suites.h"
@@ -23,7 +23,7 @@ static const wh_ledger_form books = {
     .levels = flight_levels, .entries = 1, .accounts = 4, .coordinates = 2, .stabilized = true};
 
 typedef struct flight {
-    wh_real real[4]; /* places, rates */
+    wh_real real[4]; /* positions, then rates */
     wh_real carry[4];
     wh_real ledger
         [6]; /* correction so far, its carry, the levels at the start, the largest kinetic energy */
@@ -47,13 +47,13 @@ static bool near(wh_real is, wh_real should, wh_real part) {
     return WH_ABS(is - should) <= part * WH_ABS(should);
 }
 
-/* From `seed` on, in [-1, 1). */
+/* A random number in [-1, 1), by `seed`. */
 static wh_real drawn(uint32_t *seed) {
     *seed = *seed * 1664525U + 1013904223U;
     return (wh_real)(int32_t)(*seed >> 8) / WH_R(8388608.0) - WH_R(1.0);
 }
 
-/* With carries the change has more digits than a rate. */
+/* With compensated sums, the change has more digits than a rate. */
 TEST(stabilize, a_part_of_the_drift_is_given_back) {
     uint32_t seed = 20261128;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -74,7 +74,8 @@ TEST(stabilize, a_part_of_the_drift_is_given_back) {
     }
 }
 
-/* Earlier corrections do not change the drift. Of plain sums only the part that the rates took counts. */
+/* The correction has an entry in the ledger, and earlier corrections do not change the drift. Without compensated sums,
+ * the entry is the change that the rates really had after rounding. */
 TEST(stabilize, it_is_entered) {
     uint32_t seed = 20261129;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -88,7 +89,7 @@ TEST(stabilize, it_is_entered) {
         give_back(&f);
         const wh_real given = (f.ledger[0] - before) + f.ledger[1];
         TEST_ASSERT_TRUE(WH_ABS(given + is / WH_R(1024.0)) <= WH_R(2e-7) * WH_ABS(before));
-        /* and without carries the correction is the change of the rates */
+        /* without compensated sums the entry is the change of the rates */
         set_out(&f, first, second, WH_R(1e-6), false);
         give_back(&f);
         const wh_real took = first * (f.real[2] - first) + second * (f.real[3] - second);
@@ -96,7 +97,8 @@ TEST(stabilize, it_is_entered) {
     }
 }
 
-/* Where a swing turns back, rates change by no larger share than at its fastest. A faster one sets the new measure. */
+/* When a swing reverses, the relative change of the rates is no larger than at its fastest. A faster motion gives a new
+ * maximum of P. */
 TEST(stabilize, the_fastest_so_far_is_the_measure) {
     uint32_t seed = 20261130;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -107,7 +109,7 @@ TEST(stabilize, the_fastest_so_far_is_the_measure) {
         set_out(&f, fast, slow, drift, true);
         give_back(&f);
         const wh_real part = (f.real[3] - slow + f.carry[3]) / slow;
-        /* it turns back this much later; the books agree */
+        /* at a later reversal; the ledger has the same energy */
         const wh_real most = f.ledger[5];
         set_out(&f, WH_R(0.001) * fast, slow, drift, true);
         f.ledger[5] = most;
@@ -123,7 +125,7 @@ TEST(stabilize, the_fastest_so_far_is_the_measure) {
     }
 }
 
-/* Rates change by at most 2^-20 of themselves, in either direction. */
+/* The rates change by at most 2^-20 of their values, in either direction. */
 TEST(stabilize, there_is_a_bound) {
     for (unsigned i = 0; i < 4; i++) {
         flight f;
@@ -135,7 +137,7 @@ TEST(stabilize, there_is_a_bound) {
     }
 }
 
-/* Nothing changes before the first step, at rest, and with books that are NaN or oppose the rates. */
+/* Nothing changes before the first step, at rest, and if the ledger is NaN or P has the wrong sign. */
 TEST(stabilize, where_nothing_is_to_be_given) {
     const wh_real none = WH_R(0.0) * (WH_ABSURD * WH_ABSURD * WH_ABSURD);
     const wh_real drift[] = {WH_R(0.1), WH_R(0.0), (none - none) / (none - none), WH_R(1e20),

@@ -1,5 +1,6 @@
-/* test_stage_turn.c: steps that rotate their sines are as accurate as lookups, to the method's order, for every method, form
- * and speed. They are refused like lookups. Checks the round-off of a small turn. */
+/* test_stage_turn.c: steps that rotate their sines (core/step/stage_turn.h) are as accurate as steps with lookups, to
+ * the method's order, for every method, form and speed. They are refused in the same cases. Also the round-off of a
+ * small rotation. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #define WH_WAVES 3
@@ -15,7 +16,7 @@ static wh_real carry[ANGLES + REALS];
 static wh_real input[1];
 static wh_state state = {.angle = angle, .real = real, .carry = carry, .input = input};
 
-/* The sines of a, of 2 a - b and of a + b: three waves of two angles. The third angle is not in them. */
+/* The sines of three waves of two angles: a, 2 a - b and a + b. The third angle is in no wave. */
 static void sines(const void *model, const wh_phase *phase, wh_sine_parts *parts) {
     (void)model;
     wh_sincos_parts(phase[0], &parts[0]);
@@ -38,9 +39,9 @@ static void rates(const void *model, wh_real scale, const wh_real *rate, wh_real
 
 static const wh_waves waves = {NULL, sines, rates, 3};
 
-static wh_real coupling; /* by terms that grow with rates */
+static wh_real coupling; /* factor of the terms that grow with rates */
 
-/* Pendulums coupled to each other and to a spring; the last turns freely. */
+/* Pendulums that are coupled to each other and to a spring; the last angle turns freely. */
 static void swing_turned(const void *model, const wh_wave *p, const wh_real *linear,
                          const wh_real *rate, const wh_real *u, wh_real *accel) {
     (void)model;
@@ -147,7 +148,8 @@ static bool turns(manner how) {
     return wh_method_takes(how.method, how.form) && wh_method_turns(how.method);
 }
 
-/* The two errors have the same leading term (stage_turn.h). The reference runs use a sixteenth of the step and lookups. */
+/* The errors of rotating and of looking up have the same leading term (stage_turn.h). The reference runs use a
+ * sixteenth of the step and lookups. */
 TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -159,7 +161,7 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
         wh_real looked_up[VALUES];
         wh_real exact[VALUES];
         if (!wh_method_turns(how.method) || (sizeof(wh_real) == 4 && order > 4)) {
-            continue; /* in float fifth order shows only at steps with large leans */
+            continue; /* in float, fifth order is visible only at steps with large shear angles */
         }
         if (!wh_method_takes(how.method, how.form)) {
             start();
@@ -170,7 +172,8 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
         after_1s(how, 2 * count, turned[1]);
         how.turns = false;
         after_1s(how, count, looked_up);
-        how.method = order > 4 ? how.method : WH_RK4; /* its error would not be small enough */
+        /* the error of a method of higher order would not be small enough */
+        how.method = order > 4 ? how.method : WH_RK4;
         after_1s(how, 16 * count, exact);
         const wh_real error = squares(components, turned[0], exact);
         const wh_real ratio = error / squares(components, turned[1], exact);
@@ -181,11 +184,11 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
     }
 }
 
-/* The column .turns follows from the shares, or is absent. */
+/* The column .turns follows from the shares, or is empty. */
 TEST(stage_turn, turns_follow_from_the_shares) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const wh_tableau *by = wh_tableau_of(m);
-        wh_real first = WH_R(0.0); /* of the step */
+        wh_real first = WH_R(0.0); /* distance of stage 1, as a share of the step */
         for (unsigned s = 1; s < by->stages && by->turns[by->stages - 1] > 0; s++) {
             wh_real sum = WH_R(0.0);
             for (unsigned j = 0; j < s; j++) {
@@ -199,7 +202,7 @@ TEST(stage_turn, turns_follow_from_the_shares) {
     }
 }
 
-/* With a single stage, or nothing that turns, rotating equals a lookup. */
+/* With a single stage, or without angles, rotating and looking up give the same bits. */
 TEST(stage_turn, what_does_not_turn_has_the_same_bits) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -215,7 +218,7 @@ TEST(stage_turn, what_does_not_turn_has_the_same_bits) {
     }
 }
 
-/* A caller that asks for the phases gets the last stage's, and the run does not change. */
+/* If the caller asks for the phases, it gets those of the last stage, and the run does not change. */
 TEST(stage_turn, phases_are_told) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
@@ -252,7 +255,7 @@ TEST(stage_turn, phases_are_told) {
     }
 }
 
-/* --- turns of any size ------------------------------------------------------------------------------ */
+/* --- rotations of any size ------------------------------------------------------------------------------ */
 
 static uint64_t chance = 20261122;
 static wh_real between(wh_real low, wh_real high) {
@@ -260,8 +263,8 @@ static wh_real between(wh_real low, wh_real high) {
     return low + (high - low) * (wh_real)(uint32_t)(chance >> 33) * WH_R(4.656612873077393e-10);
 }
 
-/* One step by rotation and one by lookup, [0] and [1], from start() with this input and these rates. The accelerations'
- * contribution to such rates is small. */
+/* Makes one step by rotation [0] and one by lookup [1], from start() with this input and these rates. Compared with
+ * these rates, the change by accelerations is small. */
 static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_status status[2],
                       int fault[2], wh_real value[2][VALUES]) {
     for (int k = 0; k < 2; k++) {
@@ -283,7 +286,8 @@ static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_
     }
 }
 
-/* Up to half a turn per step the lean is small, so both steps agree to round-off. The waves turn up to three times as much. */
+/* Up to half a turn per step the shear angle is small, so both steps agree to round-off. The waves turn up to three
+ * times as fast. */
 TEST(stage_turn, fast_angles_step_as_looking_up_does) {
     const wh_real h = WH_R(0.0009765625);
     const wh_real most = WH_R(3.14) / h;
@@ -315,7 +319,7 @@ TEST(stage_turn, fast_angles_step_as_looking_up_does) {
     TEST_ASSERT_TRUE(taken > 50 * MANNERS);
 }
 
-/* A turn that a lookup refuses (half a turn and more, or NaN) is refused, and the state is unchanged. */
+/* A motion that a step with lookups refuses (half a turn or more, or NaN) is refused, and the state stays unchanged. */
 TEST(stage_turn, what_is_no_turn_is_refused) {
     const wh_real nan = (wh_real)__builtin_nan("");
     const wh_real rates[] = {WH_R(3200.0), WH_R(-1e5), WH_R(1e9), WH_R(-1e14), WH_R(1e30), nan};
@@ -340,7 +344,7 @@ TEST(stage_turn, what_is_no_turn_is_refused) {
     }
 }
 
-/* --- small turns ----------------------------------------------------------------------------------- */
+/* --- small rotations ----------------------------------------------------------------------------------- */
 
 TEST(stage_turn, small_turns_are_sines) {
     const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.8e-16) : WH_R(1.1e-7);
@@ -352,7 +356,7 @@ TEST(stage_turn, small_turns_are_sines) {
         wh_wave turn = wh_sincos_small(d);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
-        /* next to zero they are exact, not only near it */
+        /* near zero, sin d = d exactly */
         const wh_real tiny = d * WH_R(1e-9);
         turn = wh_sincos_small(tiny);
         TEST_ASSERT_TRUE(turn.sine == tiny);
@@ -360,7 +364,8 @@ TEST(stage_turn, small_turns_are_sines) {
     }
 }
 
-/* Up to eight turns the error grows with each doubling. Beyond all turns the result is infinite or NaN, and no step accepts it. */
+/* Up to eight turns the error doubles with each doubling of the angle. For angles that are too large for it the result
+ * is infinite or NaN, and no step accepts that. */
 TEST(stage_turn, far_turns_are_sines) {
     const int32_t each = __STDC_HOSTED__ ? 1 : 9;
     for (int32_t i = -50000; i <= 50000; i += each) {

@@ -1,5 +1,6 @@
-/* test_stage_turn_ledger.c: books with rotated sines (core/step/stage_turn_ledger.h) and stages unrolled by hand. The run's
- * bits are those without books. A torque's work is its energy's change. A refused step enters nothing. */
+/* test_stage_turn_ledger.c: ledgers of steps with rotated sines (core/step/stage_turn_ledger.h), and stages unrolled by
+ * hand. A run with a ledger has the same bits as one without. The work of a torque equals the change of energy. A
+ * refused step makes no entry. */
 #include "core/scene.h"
 #define WH_COORDS 2
 #define WH_WAVES 1
@@ -13,7 +14,7 @@
 enum { STEPS = 128 };
 #define STEP_S WH_R(0.0078125)
 
-/* A pendulum of 1 kg m^2 under a torque, beside a carriage drawn by a force. */
+/* A pendulum of 1 kg m^2 under a torque, and a carriage that a force pulls. */
 static void turned_accel(const void *model, const wh_wave *pair, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
@@ -31,7 +32,7 @@ static void powers(const void *model, const wh_phase *phase, const wh_real *line
     (void)linear;
     wh_sincos(phase[0], &sine, &cosine);
     power[0] = input[0] * rate[0];
-    power[1] = input[0] - sine; /* into the momentum */
+    power[1] = input[0] - sine; /* force on the momentum */
     power[2] = input[1] * rate[1];
     power[3] = input[1];
 }
@@ -109,7 +110,8 @@ static void run(const wh_scene *scene, bool books_too) {
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, STEPS) == WH_OK);
 }
 
-/* The books' residual is the method's error: of order h for Euler's, round-off for the best. */
+/* Allowed residual of the ledger. It is the method's error: of order h for Euler's method, round-off for the best
+ * methods. */
 static wh_real allowed(wh_method method) {
     const wh_real rounding = WH_DOUBLE ? WH_R(1e-9) : WH_R(2e-5);
     const unsigned order = wh_methods[method].order;
@@ -183,7 +185,8 @@ static void turned_slope(const void *model, const wh_wave *pair, const wh_real *
     result[1] = pair[0].cosine;
 }
 
-/* th' = 1/2, x' = cos th: x = 2 sin(t/2) after a second. Each stage refuses half a turn in a step. */
+/* th' = 1/2, x' = cos th, so x = 2 sin(t/2), after a second. A step of half a turn is refused, whichever stage reaches
+ * it. */
 TEST(stage_turn_ledger, first_order_unrolled_by_hand) {
     for (unsigned m = 0; m < 2 * WH_METHODS; m++) {
         const wh_method method = (wh_method)(m / 2);

@@ -1,4 +1,5 @@
-/* test_station.c: the rig's console: each line has its answer, orders act as without it, and a silent host is harmless. */
+/* test_station.c: the rig's console. Each line has its answer, orders at the console act as orders that are posted, and
+ * a host that is lost does no harm. */
 #include "core/station/station.h"
 
 #include <string.h>
@@ -31,7 +32,7 @@ static void period(void) {
     wh_station_step(&station, &even.rig);
 }
 
-/* Pending output, as much as there is room for. */
+/* Reads the waiting output, as much as there is room for. */
 static void hear(void) {
     const unsigned count =
         wh_station_peek(&station, heard + heard_length, (unsigned)sizeof heard - 1U - heard_length);
@@ -40,7 +41,7 @@ static void hear(void) {
     heard[heard_length] = '\0';
 }
 
-/* The answer to a line, without its end. */
+/* Types a line. Returns its answer, without the line end. */
 static const char *ask(const char *line) {
     heard_length = 0;
     type(line);
@@ -52,7 +53,7 @@ static const char *ask(const char *line) {
     TEST_ASSERT_TRUE(heard_length >= 4U);
     TEST_ASSERT_TRUE(heard[heard_length - 2U] == '\r' && heard[heard_length - 1U] == '\n');
     heard[heard_length - 2U] = '\0';
-    TEST_ASSERT_TRUE(strchr(heard, '\n') == NULL); /* one line */
+    TEST_ASSERT_TRUE(strchr(heard, '\n') == NULL); /* the answer is one line */
     return heard;
 }
 
@@ -175,9 +176,9 @@ TEST(station, a_trip_is_told_and_cleared) {
     check_begins("OK trip=0 ended=trip: no fault", ask("fault"));
 }
 
-/* --- readers and typists ------------------------------------------------------------------------------- */
+/* --- slow readers, fast input ------------------------------------------------------------------------------- */
 
-/* Escape overtakes earlier input, even unfinished input. */
+/* Escape is executed before all earlier input, even before a line that is not complete. */
 TEST(station, escape_stops_at_once) {
     for (unsigned i = 0; i < 40; i++) {
         begin();
@@ -218,7 +219,7 @@ TEST(station, lines_wait_for_each_other) {
     for (at = heard; *at != '\0'; at++) {
         lines += *at == '\n' ? 1U : 0U;
     }
-    TEST_ASSERT_EQUAL_UINT(5, lines); /* the empty one needs no answer */
+    TEST_ASSERT_EQUAL_UINT(5, lines); /* an empty line needs no answer */
 }
 
 TEST(station, a_person_sees_what_is_typed) {
@@ -240,7 +241,8 @@ TEST(station, a_person_sees_what_is_typed) {
     TEST_ASSERT_EQUAL_STRING("OK stop", ask("stop"));
 }
 
-/* Without a reader whole answers are dropped and counted; the buffer holds whole lines. Then a reader returns. */
+/* Without a reader, whole answers are dropped and counted, so that the buffer has complete lines when a reader
+ * returns. */
 TEST(station, nobody_reads) {
     begin();
     for (unsigned i = 0; i < 30; i++) {
@@ -257,14 +259,14 @@ TEST(station, nobody_reads) {
     TEST_ASSERT_EQUAL_UINT(30, told + station.lost_answers);
     TEST_ASSERT_TRUE(station.lost_answers > 0 && station.lost_bytes == 0);
     TEST_ASSERT_NULL(strstr(ask("status"), "lost_answers=0"));
-    /* more than can wait */
+    /* more than the ring can store */
     char many[WH_STATION_IN_BYTES + 10U];
     memset(many, 'x', sizeof many);
     wh_station_take(&station, many, sizeof many);
     TEST_ASSERT_EQUAL_UINT32(10, station.lost_bytes);
 }
 
-/* Lines faster than they are processed: a line is obeyed as typed, or refused as too long. */
+/* Lines arrive faster than they are processed. A line is executed as typed, or refused because bytes were lost. */
 TEST(station, no_line_is_obeyed_that_lost_bytes) {
     seed = 12;
     begin();
@@ -288,7 +290,8 @@ TEST(station, no_line_is_obeyed_that_lost_bytes) {
     TEST_ASSERT_TRUE(obeyed > 1000U && refused > 20U && station.lost_bytes > 1000U);
 }
 
-/* Random input, with or without a reader: the rig acts as if the same orders were posted, and each answer is the rig's. */
+/* Random input, with or without a reader: the rig acts as if the same orders were posted, and each answer is that of
+ * the rig. */
 TEST(station, orders_are_those_that_are_posted) {
     static const struct {
         const char *line;
@@ -312,9 +315,9 @@ TEST(station, orders_are_those_that_are_posted) {
         heard_length = 0;
         type(orders[k].line);
         type(draw_one_in(&seed, 2) ? "\r\n" : "\n");
-        period(); /* read, */
+        period(); /* one period reads the line, */
         even_step(&twin);
-        period(); /* then taken and answered */
+        period(); /* the next takes the order and answers */
         const wh_refusal answer = even_order(&twin, orders[k].event, orders[k].value);
         if (!draw_one_in(&seed, 8)) {
             hear();
@@ -334,7 +337,7 @@ TEST(station, orders_are_those_that_are_posted) {
     TEST_ASSERT_TRUE(allowed > 60U);
 }
 
-/* Random bytes: every answer has its end, and there are no more answers than lines. */
+/* Random bytes: every answer has a line end, and there are at most as many answers as lines. */
 TEST(station, any_bytes) {
     static const char *const pieces[] = {"arm",    "start", " 330", "stop",    "\n",
                                          "\r\n",   "\x1b",  "help", " ",       "talk on",
@@ -347,11 +350,10 @@ TEST(station, any_bytes) {
         const char *piece = pieces[draw_one_of(&seed, 15)];
         type(piece);
         lines_in += strpbrk(piece, "\n\x1b") != NULL ? 1U : 0U;
-        even.rig.answers +=
-            station.waits ? 1U : 0U; /* counted as taken: the rig belongs to another test */
+        even.rig.answers += station.waits ? 1U : 0U; /* counts as answered: the test ends here */
         even.rig.orders = 0;
         wh_station_step(&station, &even.rig);
-        station.talks = false; /* an echo is not an answer */
+        station.talks = false; /* without echo, because an echo is no answer */
         heard_length = 0;
         hear();
         TEST_ASSERT_TRUE(heard_length == 0 || heard[heard_length - 1U] == '\n');

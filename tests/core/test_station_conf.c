@@ -1,4 +1,5 @@
-/* test_station_conf.c: settings at the console: in range, in their places, changed in idle only, stored, restored to the bit. */
+/* test_station_conf.c: settings at the console: range, place in the configuration, change only while idle, saving, and
+ * restoring with the same bits. */
 #include <stddef.h>
 #include <string.h>
 
@@ -67,7 +68,8 @@ static void check_begins(const char *with, const char *answer) {
     TEST_ASSERT_EQUAL_STRING_LEN(with, answer, strlen(with));
 }
 
-/* A program without settings has no hash of them. */
+/* Checks that two configurations are equal, except for the hash of the settings, which a program without settings does
+ * not have. */
 static void check_same(const wh_rig_config *one, const wh_rig_config *other) {
     wh_rig_config with_hash = *one;
     with_hash.settings = one->settings == 0 ? other->settings : one->settings;
@@ -75,7 +77,7 @@ static void check_same(const wh_rig_config *one, const wh_rig_config *other) {
     TEST_ASSERT_TRUE(memcmp(one, other, sizeof *one) == 0);
 }
 
-/* Each setting's place and unit: an independent copy. */
+/* Returns the value of a setting in the configuration, in its unit: an independent copy of the table. */
 static wh_real where(const wh_rig_config *c, const char *name) {
     const struct {
         const char *name;
@@ -171,13 +173,13 @@ TEST(station_conf, rows) {
             const wh_conf_row *other = wh_conf_row_of((wh_conf_id)k, &next);
             TEST_ASSERT_TRUE(other->number != row->number);
         }
-        TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(name)); /* the first of this name */
+        TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(name)); /* no earlier setting has this name */
     }
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find("mass"));
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, wh_conf_find(""));
 }
 
-/* Random values: each is in its place, and is saved, loaded and restored. */
+/* Random values: each changes its member of the configuration, and is saved, loaded and restored. */
 TEST(station_conf, values_have_their_places) {
     seed = 21;
     wh_rig_config plain;
@@ -196,7 +198,8 @@ TEST(station_conf, values_have_their_places) {
             const wh_station_error status = wh_conf_set(&conf, id, value);
             TEST_ASSERT_TRUE(status == WH_STATION_FINE || status == WH_STATION_CONF_AGAINST);
             set[id] = set[id] || status == WH_STATION_FINE;
-            for (unsigned i = 0; i < WH_CONF_COUNT; i++) { /* those of the motor follow it */
+            for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
+                /* those that follow from the motor come after it */
                 wanted[i] = set[i] ? wanted[i] : conf.value[i];
             }
             wanted[id] = status == WH_STATION_FINE ? value : wanted[id];
@@ -250,22 +253,23 @@ TEST(station_conf, what_follows) {
         1e-5f, 0.5f, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
 }
 
-/* Another program's settings: unknown numbers, values out of range, contradictory settings. */
+/* Settings that another program saved: unknown numbers, values out of range, settings that contradict each other. */
 TEST(station_conf, what_is_stored_of_others) {
     static const struct {
         uint8_t payload[16];
         unsigned count;
-        wh_conf_id set; /* the only valid one, */
+        wh_conf_id set; /* the only setting that is valid, */
         float to;
-    } rows[] = {/* 18: 10.0, and an unknown one: 200 */
-                {{18, 0, 0, 0x20, 0x41, 200, 0, 0, 0x20, 0x41}, 10, WH_CONF_record_turns, 10.0f},
-                /* 7: 2.0 is out of range; NaN; cut off */
-                {{7, 0, 0, 0, 0x40, 18, 0, 0, 0xC0, 0x7F, 18, 0, 0}, 13, WH_CONF_COUNT, 0.0f},
-                /* 32: 0.5 is not a switch value */
-                {{32, 0, 0, 0, 0x3F}, 5, WH_CONF_COUNT, 0.0f},
-                /* 28: 50 V is above the maximum: none is taken, not even 18 */
-                {{28, 0, 0, 0x48, 0x42, 18, 0, 0, 0x20, 0x41}, 10, WH_CONF_COUNT, 0.0f},
-                {{0}, 0, WH_CONF_COUNT, 0.0f}};
+    } rows[] = {
+        /* setting 18 with 10.0, and the unknown setting 200 */
+        {{18, 0, 0, 0x20, 0x41, 200, 0, 0, 0x20, 0x41}, 10, WH_CONF_record_turns, 10.0f},
+        /* setting 7 with 2.0, which is out of range; 18 with NaN; 18 cut off */
+        {{7, 0, 0, 0, 0x40, 18, 0, 0, 0xC0, 0x7F, 18, 0, 0}, 13, WH_CONF_COUNT, 0.0f},
+        /* setting 32 with 0.5, which is no value of a switch */
+        {{32, 0, 0, 0, 0x3F}, 5, WH_CONF_COUNT, 0.0f},
+        /* setting 28 with 50 V, above its maximum, contradicts others: none is taken, not even 18 */
+        {{28, 0, 0, 0x48, 0x42, 18, 0, 0, 0x20, 0x41}, 10, WH_CONF_COUNT, 0.0f},
+        {{0}, 0, WH_CONF_COUNT, 0.0f}};
     wh_rig_config plain;
     own(&plain);
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -333,7 +337,7 @@ TEST(station_conf, list_has_all_and_can_be_typed) {
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, told);
 }
 
-/* A list begins at 0 or later and before its end, for any typed number. */
+/* `conf list N` begins at a setting between the first and the last, for any typed number. */
 TEST(station_conf, where_a_list_begins) {
     begin();
     unsigned below = 0;
@@ -410,7 +414,7 @@ TEST(station_conf, refusals) {
     check_begins("ERR 114 ", ask("conf list"));
 }
 
-/* Settings act on the measurement: a cell twice as sensitive, masses half as large. */
+/* Two settings change the measurement: a cell that is twice as sensitive, masses half as large. */
 TEST(station_conf, a_run_with_settings) {
     begin();
     check_begins("OK", ask("conf set cell_scale 20"));

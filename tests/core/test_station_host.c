@@ -1,4 +1,4 @@
-/* test_station_host.c: the rig's console, and a host that goes away. */
+/* test_station_host.c: the rig's console, and a host that stops sending. */
 #include "core/station/station.h"
 
 #include <string.h>
@@ -35,8 +35,8 @@ static void obey(const char *line) {
     TEST_ASSERT_TRUE(count > 3U && memcmp(heard, "OK", 2) == 0);
 }
 
-/* A host types now and then, then stops. The run ends, to the step, after the silence that the host or the configuration
- * allows. Without a limit, or while bytes come, it goes on. */
+/* A host types now and then, then stops. The run ends in the step after the silence that the host or the configuration
+ * allows. Without a limit, or while bytes arrive, the run goes on. */
 TEST(station_host, a_host_that_is_gone) {
     seed = 31;
     unsigned ends = 0;
@@ -50,13 +50,14 @@ TEST(station_host, a_host_that_is_gone) {
         even.config.host_loss_stops = i % 3U == 0;
         if (i / 3U % 2U == 0) {
             obey(line);
-        } else { /* or by its setting */
+        } else { /* the limit is that of the setting */
             even.config.host_max_s = limit_s;
         }
         obey("arm");
         obey("start 330");
         even_go_on_until(&even, (wh_rig_phase)(WH_PHASE_TARE + draw_one_of(&seed, 5)));
-        for (unsigned k = draw_one_of(&seed, 5); k > 0; k--) { /* any byte counts */
+        for (unsigned k = draw_one_of(&seed, 5); k > 0; k--) {
+            /* any byte but zero ends the silence */
             type(draw_one_in(&seed, 2) ? "\n" : "\b");
             for (uint32_t step = 0; limit_s > 0 && step < limit_s * STEPS_PER_S; step++) {
                 period();
@@ -73,7 +74,7 @@ TEST(station_host, a_host_that_is_gone) {
             silent++;
             TEST_ASSERT_TRUE(silent < 60U * STEPS_PER_S);
         }
-        /* Set in one step, read in the next. */
+        /* a byte is received in one step and read in the next */
         const uint32_t most = limit_s * STEPS_PER_S + 2U;
         const bool stops = limit_s > 0 && even.config.host_loss_stops;
         TEST_ASSERT_TRUE(!stops || silent <= most);
@@ -84,7 +85,7 @@ TEST(station_host, a_host_that_is_gone) {
         TEST_ASSERT_TRUE(stopped || even_is_done(&even));
         ends += stopped ? 1U : 0U;
         TEST_ASSERT_EQUAL_UINT32(limit_s > 0 ? 1 : 0, station.host_losses);
-        type("\n"); /* after the noise */
+        type("\n"); /* ends the line with the noise */
         period();
         wh_station_drop(&station, WH_STATION_OUT_BYTES);
         obey("arm");

@@ -1,4 +1,4 @@
-/* test_station_line.c: from bytes to lines, words and numbers. */
+/* test_station_line.c: bytes are split into lines, and lines into words and numbers. */
 #include "core/station/line.h"
 #include "core/text.h"
 #include "draw.h"
@@ -20,14 +20,14 @@ TEST(station_line, lines_end_in_each_of_three_ways) {
     static const char *const ends[] = {"\r", "\n", "\r\n"};
     for (unsigned i = 0; i < 9; i++) {
         line = (wh_line){.length = 0};
-        for (unsigned k = 0; k < 3; k++) { /* whatever ended the previous one */
+        for (unsigned k = 0; k < 3; k++) { /* after any end of the previous line */
             TEST_ASSERT_TRUE(take(k == 0 ? "arm" : "start 330") == WH_LINE_NOTHING);
             TEST_ASSERT_TRUE(take(ends[k == 1U ? i % 3U : i / 3U]) == WH_LINE_WHOLE);
             TEST_ASSERT_EQUAL_STRING(k == 0 ? "arm" : "start 330", line.text);
         }
     }
     line = (wh_line){.length = 0};
-    TEST_ASSERT_TRUE(take("\r") == WH_LINE_WHOLE && line.length == 0); /* empty ones are lines */
+    TEST_ASSERT_TRUE(take("\r") == WH_LINE_WHOLE && line.length == 0); /* an empty line is a line */
     TEST_ASSERT_TRUE(take("\n") == WH_LINE_NOTHING);
     TEST_ASSERT_TRUE(take("\n") == WH_LINE_WHOLE);
 }
@@ -60,7 +60,7 @@ TEST(station_line, what_is_no_line_is_refused_whole) {
         bytes[length] = '\n';
         bytes[length + 1U] = '\0';
         TEST_ASSERT_TRUE(take(bytes) == (length <= WH_LINE_MOST ? WH_LINE_WHOLE : WH_LINE_BAD));
-        TEST_ASSERT_TRUE(take("arm\n") == WH_LINE_WHOLE); /* the next one is not */
+        TEST_ASSERT_TRUE(take("arm\n") == WH_LINE_WHOLE); /* the line after a bad one is read */
         TEST_ASSERT_EQUAL_STRING("arm", line.text);
     }
     for (unsigned byte = 1; byte < 256U; byte++) {
@@ -109,7 +109,7 @@ TEST(station_line, words) {
     TEST_ASSERT_EQUAL_STRING("", words.word[0]);
 }
 
-/* The sum of a whole number and a fraction, written as text. */
+/* A whole number and a fraction, written as text, must be read as their sum. */
 TEST(station_line, numbers_drawn) {
     static const uint32_t tens[] = {1, 10, 100, 1000, 10000};
     seed = 7;

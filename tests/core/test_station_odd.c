@@ -1,4 +1,5 @@
-/* test_station_odd.c: the station with a full queue, a trip, long input, a reversed cell, unreadable memory, wrong arithmetic. */
+/* test_station_odd.c: the station with a full queue, a trip, long input, a cell mounted in reverse, memory that cannot
+ * be read, wrong arithmetic. */
 #include <string.h>
 
 #include "core/number/arithmetic.h"
@@ -20,7 +21,8 @@ static void check_begins(const char *with, const char *text) {
     TEST_ASSERT_EQUAL_STRING_LEN(with, text, strlen(with));
 }
 
-/* Other code posts orders too: an order without room is refused with its number, and the next is taken. */
+/* If other code has filled the queue of orders, an order of the console is refused by number, and the next one is
+ * accepted. */
 TEST(station_odd, a_full_queue) {
     for (unsigned posted = 0; posted <= WH_RIG_ORDERS_MOST; posted++) {
         tel_begin();
@@ -62,14 +64,14 @@ TEST(station_odd, lost_while_the_queue_is_full) {
         TEST_ASSERT_EQUAL_UINT(1, told);
         TEST_ASSERT_EQUAL_UINT(1, bench.station.host_losses);
         TEST_ASSERT_EQUAL_UINT(4U + full_steps, first);
-        wh_station_take(&bench.station, "x", 0); /* silence */
+        wh_station_take(&bench.station, "x", 0); /* a byte, then silence */
         TEST_ASSERT_TRUE(bench.station.silent_steps > 0);
         wh_station_take(&bench.station, "x", 1);
         TEST_ASSERT_TRUE(bench.station.silent_steps == 0);
     }
 }
 
-/* Where text is on, a trip is reported with its cause; `fault` shows nothing of another trip's record. */
+/* If telemetry is on as text, a trip is reported with its cause. `fault` prints only the record of the present trip. */
 TEST(station_odd, trips_are_told) {
 #define NAME(name, number, words) name,
     static const wh_trip trips[] = {WH_TRIP_ROWS(NAME)};
@@ -100,7 +102,7 @@ TEST(station_odd, trips_are_told) {
     }
 }
 
-/* Keys without effect are not echoed: beyond the line's room, or a rub-out of nothing. */
+/* Keys without effect are not echoed: characters beyond the line's room, or backspace in an empty line. */
 TEST(station_odd, echo) {
     tel_begin();
     tel_type("talk on");
@@ -130,7 +132,8 @@ static void compute_otherwise(wh_real *result) {
     }
 }
 
-/* Arithmetic is checked in the observer's scene; an observer without one, or no scene, passes. */
+/* The self-test checks the arithmetic of the observer's scene. Without an observer, or without the check in its scene,
+ * it passes. */
 TEST(station_odd, arithmetic_is_tested) {
     wh_scene scene = {.name = "none"};
     for (unsigned i = 0; i <= WH_PROBED_COUNT + 2U; i++) {
@@ -140,7 +143,8 @@ TEST(station_odd, arithmetic_is_tested) {
         scene.arithmetic = i <= 1U ? NULL : compute_otherwise;
         spoilt = (wh_probed)(i >= 2U ? i - 2U : 0U);
         const bool good = i < 2U || spoilt == WH_PROBED_COUNT;
-        bench.seen = (wh_step_inputs){.inputs = bench.even.inputs}; /* no sample, no statement */
+        /* no sample, so the cell's part is not good */
+        bench.seen = (wh_step_inputs){.inputs = bench.even.inputs};
         wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
         tel_type("selftest");
         wh_station_step(&bench.station, &bench.even.rig);
@@ -155,7 +159,7 @@ static void own_turned(wh_rig_config *config) {
     config->measure.cell.newton_per_count = -config->measure.cell.newton_per_count;
 }
 
-/* A board with a reversed cell: that is its standard, and its scale has no sign. */
+/* A board whose cell is mounted in reverse: its own configuration has a negative scale; the setting has none. */
 TEST(station_odd, a_cell_turned_round) {
     static wh_conf conf;
     wh_rig_config config;
@@ -216,12 +220,12 @@ TEST(station_odd, a_memory_that_is_not_read) {
     TEST_ASSERT_TRUE(status == WH_STATION_FINE && failed > 3U);
 }
 
-/* Whole numbers have no point; text is cut at the room, and that is reported. */
+/* Whole numbers are printed without a point; text without room is cut, and `truncated` is set. */
 TEST(station_odd, exact_numbers) {
     bench.seed = 64;
     for (unsigned i = 0; i < 2000U; i++) {
         const uint32_t whole = (uint32_t)draw_bits(&bench.seed) >> draw_one_of(&bench.seed, 32) &
-                               UINT32_C(0xFFFFFF00); /* a float holds it */
+                               UINT32_C(0xFFFFFF00); /* a number that a float represents exactly */
         char bytes[40];
         char wanted[40];
         wh_text text;

@@ -1,5 +1,5 @@
-/* test_station_result.c: a result's run and end. Random sequences of orders, settings, trips, stops and a host that goes away:
- * each answer of the console belongs to the last start. */
+/* test_station_result.c: to which run a result belongs, and how that run ended. Random sequences of orders, settings,
+ * trips, stops and a lost host: each answer of the console is about the last start. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "tests/suites.h"
 
 #define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
-#define FOREVER 60000U /* steps */
+#define FOREVER 60000U /* limit in steps that is never reached */
 
 static even_rig even;
 static wh_station station;
@@ -21,7 +21,7 @@ static char heard[WH_STATION_OUT_BYTES + 1U];
 static unsigned runs;
 static const char *ended;
 static bool has_result;
-static uint32_t result_steps; /* since it was finished */
+static uint32_t result_steps; /* number of steps since the result was finished */
 static wh_real measured_with[WH_CONF_COUNT];
 
 static void own(wh_rig_config *config) { *config = even_config(); }
@@ -68,7 +68,7 @@ static const char *ask(const char *line) {
 
 static bool is_ok(const char *line) { return strncmp(ask(line), "OK", 2) == 0; }
 
-/* " name=", then this word. */
+/* Checks that the answer contains " name=" and this word. */
 static void check_told(const char *name, const char *word) {
     const char *at = strstr(heard, name);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, name);
@@ -176,7 +176,7 @@ static void do_something(void) {
     case 4: stop_by_input(); break;
     case 5: set_something(); break;
     case 6: lose_host(); break;
-    case 7: /* a trip, or a refusal */
+    case 7: /* a trip, or a refused order */
         even.inputs.supply_V = WH_R(0.0);
         period();
         even.inputs.supply_V = WH_RIG_RATED_V;
@@ -208,7 +208,7 @@ TEST(station_result, answers_belong_to_the_last_start) {
     unsigned outdated = 0;
     seed = 71;
     const unsigned rounds = draw_cases(12);
-    /* Some sequences have no result to ask for: continue until enough have. */
+    /* Some sequences have no result: continue until enough sequences have one. */
     for (unsigned round = 0; round < rounds || (round < 8U * rounds && (results < draw_cases(40) ||
                                                                         outdated < draw_cases(8)));
          round++) {
@@ -224,7 +224,7 @@ TEST(station_result, answers_belong_to_the_last_start) {
     TEST_ASSERT_TRUE(results >= draw_cases(40) && outdated >= draw_cases(8));
 }
 
-/* Each setting changes the hash, which depends on the values alone: restored values restore it. */
+/* Each setting changes the hash. The hash depends only on the values: if they are restored, so is the hash. */
 TEST(station_result, any_other_setting_has_another_hash) {
     seed = 72;
     begin();
@@ -249,7 +249,7 @@ TEST(station_result, any_other_setting_has_another_hash) {
     }
 }
 
-/* Hours later: a wrapping capture timer does not rejuvenate a result. */
+/* The age of a result after hours: the timer's wraps do not make it smaller. */
 TEST(station_result, an_age_beyond_the_timer) {
     begin();
     start();
@@ -258,7 +258,7 @@ TEST(station_result, an_age_beyond_the_timer) {
     }
     const uint32_t before_s = wh_rig_result_age_s(&even.rig, even.inputs.now_ticks);
     for (unsigned hour = 0; hour < 3U; hour++) {
-        for (unsigned i = 0; i < 3600U; i++) { /* a step a second */
+        for (unsigned i = 0; i < 3600U; i++) { /* one step per second */
             even.inputs.now_ticks += WH_RIG_TICKS_PER_S - EVEN_STEP_TICKS;
             even_step(&even);
         }
@@ -267,7 +267,8 @@ TEST(station_result, an_age_beyond_the_timer) {
     TEST_ASSERT_TRUE(age_s - before_s >= 3U * 3600U - 1U && age_s - before_s <= 3U * 3600U + 1U);
 }
 
-/* The console prints all doubts of a result, with the largest numbers of a rig. With larger ones the line still has an end. */
+/* The console prints all reasons of a result, with the largest numbers of a rig. With even larger numbers the line
+ * still has its end. */
 TEST(station_result, every_verdict_is_said) {
     static const char other[] = "conf set settle_time 2";
     wh_measured *force = &even.rig.result.force;
@@ -279,7 +280,7 @@ TEST(station_result, every_verdict_is_said) {
     TEST_ASSERT_TRUE(has_result);
     for (unsigned i = 0; i < 4U * WH_WHYS; i++) {
         const char *words = wh_why_text((wh_why)(i % WH_WHYS));
-        const bool is_odd = i >= 2U * WH_WHYS; /* numbers beyond any rig */
+        const bool is_odd = i >= 2U * WH_WHYS; /* numbers larger than those of any rig */
         const wh_real most = is_odd ? WH_R(-1e30) : WH_R(-9999.99);
         if (i == WH_WHYS || i == 3U * WH_WHYS) {
             TEST_ASSERT_TRUE(is_ok(other));

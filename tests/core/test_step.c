@@ -1,5 +1,5 @@
-/* test_step.c: the step of every method in both forms: its order with coupled rates, angles and lengths, and the component that
- * a refused step names, at every place of refusal. */
+/* test_step.c: the step of every method in both forms: its order, with coupled rates, angles and lengths; and the
+ * component that a refused step reports, at every stage. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #include "core/step.h"
@@ -32,7 +32,8 @@ static void clear(void) {
     state.fault = -1;
 }
 
-/* A clock's hand and an oscillator that leans on it, with damping: all three parts of the state are in both equations. */
+/* A pendulum on a shaft and an oscillator coupled to it, with damping: all three parts of the state are in both
+ * equations. */
 static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *u, wh_real *accel) {
     wh_real sine;
@@ -83,7 +84,7 @@ static unsigned after_1s(wh_form form, wh_method method, bool compensated, unsig
     return 1 + reals;
 }
 
-/* Of the differences between runs with halved steps, squared. */
+/* The squared distance between runs with `count` and twice as many steps. */
 static wh_real distance(wh_form form, wh_method method, bool compensated, unsigned count) {
     wh_real coarse[VALUES];
     wh_real fine[VALUES];
@@ -102,7 +103,7 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
         const wh_form form = k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER;
         const bool compensated = k / 2 % 2 != 0;
         const unsigned order = wh_methods[method].order;
-        /* float's round-off leaves coarse steps only */
+        /* in float, only coarse steps have errors above round-off */
         const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 64)
                                : order < 3          ? 32
                                : order < 4          ? 8
@@ -110,7 +111,8 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
                                                     : 2;
         const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.1) : WH_R(2.5);
         if (form == WH_SECOND_ORDER && wh_methods[method].takes == WH_NO_RATES) {
-            continue; /* these have rates: test_methods.c of the host */
+            /* these accelerations depend on rates: tests/host/test_methods.c tests such methods */
+            continue;
         }
         if (!wh_method_takes(method, form)) {
             clear();
@@ -148,7 +150,8 @@ static void moved(const void *model, const wh_phase *phase, const wh_real *x, co
     }
 }
 
-/* The step is refused with this fault, or done if it is negative. A refused step leaves the state unchanged. */
+/* The step is refused with this fault, or succeeds if `fault` is negative. A refused step leaves the state
+ * unchanged. */
 static void expect(wh_form form, wh_method method, bool compensated, wh_real h, int fault) {
     wh_angle angle_before[ANGLES];
     wh_real real_before[2 * COORDINATES];
@@ -181,7 +184,8 @@ static void test_a_refused_step_of_second_order_names_the_component(void) {
         const bool compensated = k % 2 != 0;
         wh_real *linear = real;
         wh_real *rate = real + COORDINATES - ANGLES;
-        for (int i = 0; i < ANGLES; i++) { /* turns too fast; by its acceleration only */
+        for (int i = 0; i < ANGLES; i++) {
+            /* an angle turns too fast, or only its acceleration is too large */
             clear();
             rate[i] = WH_R(3200.0);
             expect(WH_SECOND_ORDER, method, compensated, WH_R(0.001), i);
@@ -193,7 +197,8 @@ static void test_a_refused_step_of_second_order_names_the_component(void) {
             const bool by_new_rates = wh_methods[method].order > 1 || method != WH_EULER;
             expect(WH_SECOND_ORDER, method, compensated, WH_R(0.001), by_new_rates ? i : -1);
         }
-        for (int i = 0; i < COORDINATES - ANGLES; i++) { /* a length beyond all bounds; a rate */
+        for (int i = 0; i < COORDINATES - ANGLES; i++) {
+            /* a position is out of bounds, or a rate */
             clear();
             linear[i] = WH_R(9e14);
             rate[ANGLES + i] = WH_R(9e14);

@@ -1,4 +1,5 @@
-/* test_store.c: settings in two slots: after a write torn at any byte the old or the new ones load, and the next save works. */
+/* test_store.c: settings in two slots: after a write that is cut off at any byte, the old or the new settings load, and
+ * the next save works. */
 #include "core/station/store.h"
 
 #include <string.h>
@@ -11,8 +12,9 @@
 
 static uint8_t flash[WH_STORE_SLOTS][SLOT_BYTES];
 static uint8_t photo[WH_STORE_SLOTS][SLOT_BYTES];
-static uint32_t left;  /* bytes that can still be erased or written before the supply fails */
-static bool scattered; /* a failing erase affects all bytes at once */
+/* number of bytes that can still be erased or written before the supply fails */
+static uint32_t left;
+static bool scattered; /* a failing erase leaves random bytes in the whole slot */
 static bool one_sided; /* writes can only clear bits, like flash */
 static uint64_t seed;
 
@@ -23,7 +25,7 @@ static void start_flash(void) {
     one_sided = true;
 }
 
-/* A byte changing from `was` to `becomes`: some of its bits have changed. */
+/* A byte during its change from `was` to `becomes`: some of its bits have changed. */
 static uint8_t torn(uint8_t was, uint8_t becomes) {
     const uint8_t arrived = (uint8_t)draw_bits(&seed);
     return (uint8_t)((was & ~arrived) | (becomes & arrived));
@@ -70,7 +72,7 @@ static const wh_store_memory memory = {erase, write, read};
 
 typedef struct payload {
     uint8_t bytes[WH_STORE_PAYLOAD_MOST];
-    int count; /* -1: none */
+    int count; /* number of bytes; -1: no record */
 } payload;
 
 static payload draw_payload(void) {
@@ -98,7 +100,7 @@ static bool is_loaded(const payload *p) {
            (count <= 0 || memcmp(bytes + WH_STORE_HEAD_BYTES, p->bytes, (unsigned)count) == 0);
 }
 
-/* The record by the header of store.h, with another implementation of the CRC. */
+/* Writes a record as the head of store.h describes it, with another implementation of the CRC. */
 static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     uint8_t *to = flash[slot];
     uint32_t crc = 0xFFFFFFFFU;
@@ -145,7 +147,7 @@ TEST(store, torn_at_every_byte) {
     for (unsigned round = 0; round < 8U; round++) {
         start_flash();
         payload before = {.count = -1};
-        for (unsigned i = 0; i < round; i++) { /* none, one slot, both */
+        for (unsigned i = 0; i < round; i++) { /* no slot, one slot, or both have a record */
             before = draw_payload();
             TEST_ASSERT_TRUE(save(&before));
         }
@@ -161,7 +163,8 @@ TEST(store, torn_at_every_byte) {
                 left = FOREVER;
                 const bool is_new = is_loaded(&after);
                 TEST_ASSERT_TRUE(is_new || is_loaded(&before));
-                TEST_ASSERT_TRUE(is_new || !said); /* a successful save is there */
+                /* if the save reported success, the new record loads */
+                TEST_ASSERT_TRUE(is_new || !said);
                 TEST_ASSERT_TRUE(at <= all || said);
                 old += is_new ? 0U : 1U;
                 new += is_new ? 1U : 0U;
@@ -173,7 +176,7 @@ TEST(store, torn_at_every_byte) {
     TEST_ASSERT_TRUE(old > 5000U && new >= 8U);
 }
 
-/* A flipped bit in the newest record: the one before counts. */
+/* A flipped bit in the newest record: the previous record loads. */
 TEST(store, every_bit) {
     seed = 5;
     for (unsigned round = 0; round < 4U; round++) {
@@ -217,7 +220,7 @@ TEST(store, sequences_wrap) {
         TEST_ASSERT_TRUE(memcmp(photo[1U - i % 2U], flash[1U - i % 2U], SLOT_BYTES) == 0);
         memcpy(photo, flash, sizeof flash);
         put_by_hand(i % 2U, &three, after_it(second));
-        TEST_ASSERT_TRUE(memcmp(photo, flash, sizeof flash) == 0); /* byte by byte */
+        TEST_ASSERT_TRUE(memcmp(photo, flash, sizeof flash) == 0); /* the documented bytes */
     }
 }
 

@@ -1,8 +1,8 @@
-/* test_table.c: tabulated functions, one polynomial per cell. A lookup at any phase gives the polynomial, and the function to
- * the accuracy of a cell's width. Whole tables and, if the build has them, half tables. */
+/* test_table.c: tabulated functions, one polynomial per cell. A lookup at any phase gives the polynomial, and the
+ * function to the accuracy of a cell's width. For whole tables and, if the build has them, tables of half a turn. */
 #include "core/angle.h"
 #if __STDC_HOSTED__ && !WH_DOUBLE
-#define WH_TABLE_FOLD 1 /* as on boards without an FPU; else the board's own */
+#define WH_TABLE_FOLD 1 /* as on boards without an FPU; other builds take the default */
 #endif
 #include "core/step/table.h"
 
@@ -34,7 +34,7 @@ static wh_phase phase_of(uint32_t units) {
 }
 
 static void fill(unsigned bits) {
-    const wh_real width = TWO_PI / (wh_real)(1U << bits); /* of a cell, rad */
+    const wh_real width = TWO_PI / (wh_real)(1U << bits); /* width of a cell, rad */
     for (uint32_t i = 0; i < 1U << bits; i++) {
         wh_real s;
         wh_real c;
@@ -49,7 +49,7 @@ static void fill(unsigned bits) {
     }
 }
 
-/* The truncation error at half a cell: the next term, and round-off. */
+/* Tests one phase. The tolerance is the next term of the series at half a cell, and round-off. */
 static void check_at(unsigned bits, uint32_t units) {
     const wh_real half = TWO_PI / (wh_real)(2U << bits);
     wh_real s;
@@ -65,14 +65,15 @@ static void check_at(unsigned bits, uint32_t units) {
                      ((units + (UINT32_C(1) << (31U - bits))) >> (32U - bits)) % (1U << bits));
     TEST_ASSERT_TRUE(WH_ABS(sine - s) < half * half * half * half / WH_R(23.9) + rounding);
     TEST_ASSERT_TRUE(WH_ABS(cosine - c) < half * half / WH_R(1.99) + rounding);
-    /* half tables: an even function as it is, an odd one mirrored */
+    /* tables of half a turn: an even function has the same value, an odd one changes its sign */
     const wh_real *from_half = wh_table_half(cells, bits, WIDTH, phase_of(units), &y, &back);
     TEST_ASSERT_TRUE((unsigned)(from_half - cells) < WH_TABLE_HALF(bits) * WIDTH);
     const wh_real odd = wh_table_back(wh_table_cubic(from_half, y), back);
     const wh_real even = wh_table_linear(from_half + WH_TABLE_CUBIC, y);
     TEST_ASSERT_TRUE(WH_ABS(odd - sine) < 2 * rounding);
     TEST_ASSERT_TRUE(WH_ABS(even - cosine) < 2 * rounding);
-    TEST_ASSERT_TRUE(odd != WH_R(0.0) || !__builtin_signbit((double)odd)); /* zero has no sign */
+    /* zero is never negative */
+    TEST_ASSERT_TRUE(odd != WH_R(0.0) || !__builtin_signbit((double)odd));
 }
 
 static void test_tables_hold_what_they_were_made_of(void) {
@@ -87,14 +88,15 @@ static void test_tables_hold_what_they_were_made_of(void) {
             const uint32_t edge = i << (31U - bits);
             check_at(bits, edge + 3U);
             check_at(bits, edge - 3U);
-            if (i % 2U == 0 || !WH_DOUBLE) { /* in double, round-off decides at an end */
+            if (i % 2U == 0 || !WH_DOUBLE) {
+                /* in double, round-off decides to which cell an end belongs */
                 check_at(bits, edge);
             }
         }
     }
 }
 
-/* Cell counts that divide the 128 with constants: the cell number and the distance from the middle only. */
+/* Cells by wh_table_cell() for numbers of cells other than 128: the cell's number and the distance from its middle. */
 static void test_finer_cells_are_parts_of_coarse_ones(void) {
     static const wh_real none[1] = {WH_R(0.0)};
     uint64_t seed = 7;
@@ -107,7 +109,8 @@ static void test_finer_cells_are_parts_of_coarse_ones(void) {
                 (int32_t)((units - (number << (32U - bits))) << bits); /* 2^32: one */
             wh_real y;
             const size_t at = (size_t)(wh_table_cell(none, bits, 1, phase_of(units), &y) - none);
-            if (way < INT32_MAX - 99999 && way > -INT32_MAX + 99999) { /* not just at an end */
+            if (way < INT32_MAX - 99999 && way > -INT32_MAX + 99999) {
+                /* except at the end of a cell */
                 const wh_real off = y * (WH_DOUBLE ? WH_R(0x1p32) : WH_R(1.0)) - (wh_real)way;
                 TEST_ASSERT_TRUE(at == number);
                 TEST_ASSERT_TRUE(WH_ABS(off) <= (WH_DOUBLE ? WH_R(0.4) : WH_R(0.0)));
@@ -117,7 +120,7 @@ static void test_finer_cells_are_parts_of_coarse_ones(void) {
 }
 
 #if WH_DOUBLE
-/* Beyond the exact range of its constants a phase has no value. */
+/* For a phase beyond the range in which the constants are exact, the value is NaN. */
 static void test_phases_too_large_have_none(void) {
     const double far[] = {5.1e8, -5.1e8, 1e300, __builtin_inf(), __builtin_nan("")};
     fill(WH_TABLE_BITS_LEAST);

@@ -8,7 +8,7 @@
 #include "tests/suites.h"
 
 /* === telemetry =============================================================================== */
-/* Frames beside the console's text: all events are in them or counted, and the rig acts as
+/* Frames between lines of the console's text: all events are in frames or counted as dropped, and the rig acts as
  * without telemetry. */
 
 static even_rig twin;
@@ -77,7 +77,8 @@ TEST(telemetry, off_at_first_and_after) {
     TEST_ASSERT_EQUAL_UINT(frames, bench.got.frames);
 }
 
-/* Every sample and pulse, for any converter's status, at each rate and delay, of 12 to 24 bits. */
+/* Every sample and pulse is received, with any status of the converter, at each rate and delay, for converters of 12 to
+ * 24 bits. */
 TEST(telemetry, all_that_was_seen) {
     static const char *const rates[] = {"tel rate 500", "tel rate 250", "tel rate 100",
                                         "tel rate 20"};
@@ -104,7 +105,8 @@ TEST(telemetry, all_that_was_seen) {
     }
 }
 
-/* A 115,200 baud line carries it with room to spare. A slow one does not, and every loss is counted; answers come. */
+/* A line of 115,200 baud transmits everything. On a slow line frames are lost, and each loss is counted; the console's
+ * answers still come. */
 TEST(telemetry, losses_are_counted) {
     static const unsigned baud[] = {115200, 57600, 38400, 19200, 9600, 4800};
     bench.seed = 43;
@@ -114,7 +116,7 @@ TEST(telemetry, losses_are_counted) {
         unsigned asked = 0;
         unsigned credit = 0;
         for (unsigned i = 0; i < 10000U; i++) {
-            credit += baud[k] / 10U; /* a byte is ten bits, a second 500 steps */
+            credit += baud[k] / 10U; /* a byte is ten bits, and a second has 500 steps */
             if (i % 500U == 250U) {
                 tel_type("fault");
                 asked++;
@@ -122,7 +124,8 @@ TEST(telemetry, losses_are_counted) {
             tel_period(true, credit / STEPS_PER_S);
             credit %= STEPS_PER_S;
         }
-        for (unsigned i = 0; i < 20U; i++) { /* the last report is complete once all others are */
+        for (unsigned i = 0; i < 20U; i++) {
+            /* the last count of losses is complete when all other frames have been sent */
             tel_period(true, FREE);
         }
         TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
@@ -138,7 +141,8 @@ TEST(telemetry, losses_are_counted) {
     }
 }
 
-/* A pulse and an end in each step, more than a 115,200 baud line takes: ends are dropped, loads are not. */
+/* A begin and an end of a pulse in each step, more than 115,200 baud can transmit: ends are dropped, samples are
+ * not. */
 TEST(telemetry, ends_give_way) {
     bench.seed = 47;
     tel_begin();
@@ -155,7 +159,8 @@ TEST(telemetry, ends_give_way) {
     TEST_ASSERT_TRUE(bench.tel.dropped[WH_TEL_EVENT] > 1000U);
 }
 
-/* Bytes that the line breaks, loses or invents: each frame is as sent or missing, and text is whole after the next zero. */
+/* The line corrupts, loses or inserts bytes: each frame is received as sent or not at all, and text is complete after
+ * the next zero. */
 TEST(telemetry, a_bad_line) {
     bench.seed = 44;
     tel_begin();
@@ -175,7 +180,7 @@ TEST(telemetry, a_bad_line) {
                 (uint8_t)(fate == 0 ? (uint8_t)bytes[k] ^ 1U << draw_one_of(&bench.seed, 8)
                                     : (uint8_t)bytes[k]);
             if (fate != 1U && wire_take(&bench.heard, byte, &frame)) {
-                tel_hear_frame(&frame); /* its samples are found */
+                tel_hear_frame(&frame); /* the receiver finds its samples */
             }
             if (fate == 2U && wire_take(&bench.heard, (uint8_t)draw_bits(&bench.seed), &frame)) {
                 tel_hear_frame(&frame);
@@ -186,7 +191,8 @@ TEST(telemetry, a_bad_line) {
     TEST_ASSERT_EQUAL_UINT(0, bench.got.dropped);
 }
 
-/* A reader comes, goes, returns and types. A second rig without a reader gives the same commands. */
+/* A terminal is connected, disconnected, connected again, and types. The rig must give the same commands as a second
+ * rig without a terminal. */
 TEST(telemetry, control_is_undisturbed) {
     bench.seed = 45;
     tel_begin();
@@ -267,12 +273,12 @@ TEST(telemetry, states_are_told) {
 }
 
 /* === telemetry ring ========================================================================== */
-/* Telemetry's ring of steps around its trigger, plotter lines, answers and refusals. */
+/* The ring of control steps around a trigger, lines for plotters, answers and refusals. */
 
 static wh_captured truth[4096];
 static uint32_t truth_ticks[4096];
 
-/* Records steps; returns the one with a pulse or a trip, or -1. */
+/* Records one step in the reference if it belongs to the ring, and reads the line. */
 static void note_period(unsigned at, unsigned bytes) {
     tel_period(true, bytes);
     truth_ticks[at] = bench.seen.inputs.now_ticks;
@@ -285,7 +291,7 @@ static void note_period(unsigned at, unsigned bytes) {
                       .stage = (uint8_t)wh_rig_stage(&bench.even.rig)};
 }
 
-/* The read-back has all steps in order, with the trigger in its place. */
+/* Checks that all recorded steps are read back in order, with the trigger at the right place. */
 static void check_read(unsigned end, bool by_pulse) {
     unsigned row = 0;
     unsigned from = end;
@@ -357,7 +363,7 @@ TEST(telemetry_ring, the_ring_has_what_was) {
         TEST_ASSERT_TRUE(bench.tel.capture.state == WH_CAPTURE_FULL);
         TEST_ASSERT_TRUE(by_pulse || bench.tel.capture.count == (wait < 96U ? wait + 96U : 192U));
         check_read(at, by_pulse);
-        check_read(at, by_pulse); /* reading does not empty the record */
+        check_read(at, by_pulse); /* reading does not empty the ring */
     }
 }
 

@@ -1,4 +1,5 @@
-/* test_telemetry_odd.c: telemetry of invalid, too large or untimely values, without room for a line, or without a cell. */
+/* test_telemetry_odd.c: telemetry of values that are invalid, too large or late; without room for a line; and without a
+ * cell. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,7 @@ static wh_real draw_size(void) {
                                          : size;
 }
 
-/* As in telemetry.h: 65535 for none, else 0 to 65534. */
+/* A number as telemetry.h encodes it: 65535 if there is none, else 0 to 65534. */
 static unsigned counted(wh_real number, float each) {
     const float counts = (float)number / each;
     return counts != counts     ? 65535U
@@ -93,7 +94,7 @@ TEST(telemetry_odd, frames_of_odd_numbers) {
     }
 }
 
-/* A line for each valid sample, with the speed if it is known; lines without room are counted. */
+/* There is one line for each valid sample, with the speed if it is known. Lines without room are counted. */
 TEST(telemetry_odd, lines_of_odd_numbers) {
     bench.seed = 62;
     unsigned none = 0;
@@ -151,7 +152,7 @@ static void check_answer(const char *line, const char *answer) {
     memset(&bench.heard, 0, sizeof bench.heard);
 }
 
-/* A board without a cell has no rate. Also checks the reports while telemetry is on. */
+/* A board without a cell refuses a rate of samples. Also the answers while telemetry is on. */
 TEST(telemetry_odd, rates_and_schemas) {
     tel_begin();
     bench.got.blind = true;

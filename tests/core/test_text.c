@@ -90,7 +90,8 @@ static void test_fixed_extremes(void) {
     expect("nan");
 }
 
-/* Excess decimals are cut to the available ones. Slightly more than a half is not a tie. Values below 2^-160 are zero. */
+/* More decimals than possible are limited to the possible number. Slightly more than a half is no tie. Values below
+ * 2^-160 count as zero. */
 static void test_fixed_beyond_its_room(void) {
     expect_fixed("0.500000000000000000", WH_R(0.5), WH_TEXT_DECIMALS_MAX + 1U);
     expect_fixed("-3.250000000000000000", WH_R(-3.25), 1000);
@@ -104,7 +105,8 @@ static void test_fixed_beyond_its_room(void) {
 #endif
 }
 
-/* A minus sign appears only before a nonzero digit. Values: half of the last digit times 2^-30 to 2^4, a tie and neighbours. */
+/* A minus sign appears only if a digit is not zero. The values are half of the last digit times 2^-30 to 2^4, each with
+ * a tie and its neighbours. */
 static void test_fixed_sign(void) {
     uint32_t random = 1;
     unsigned bare = 0;
@@ -153,7 +155,7 @@ static void test_full_buffer_keeps_its_bounds(void) {
 }
 
 #if __STDC_HOSTED__
-/* 200,000 mixed numbers against the C library's conversion. */
+/* 200,000 numbers of all sizes, compared with the C library's conversion. */
 static void test_fixed_agrees_with_printf(void) {
     uint64_t random = UINT64_C(0x9e3779b97f4a7c15);
     unsigned compared = 0;
@@ -173,7 +175,8 @@ static void test_fixed_agrees_with_printf(void) {
         char wanted[80];
         snprintf(wanted, sizeof wanted, "%.*f", (int)decimals, (double)value);
         if (strpbrk(wanted, "123456789") == NULL && wanted[0] == '-') {
-            memmove(wanted, wanted + 1, strlen(wanted)); /* its zero has no sign here */
+            /* the C library prints "-0"; the text has no sign then */
+            memmove(wanted, wanted + 1, strlen(wanted));
         }
         start();
         wh_text_add_fixed(&text, (wh_real)value, decimals);

@@ -1,13 +1,12 @@
-/* test_virtual_rig.c: the whole rig on its model: the dissertation's measurement, and its failures.
- *
- * The virtual rig computes in single precision only, so the double build tests the formula alone. */
+/* test_virtual_rig.c: the whole rig on its model: the measurement of the dissertation, with noise and lost pulses. |
+ * The virtual rig computes in single precision only, so the double build tests only the formula. */
 #include "on_plant.h"
 
 #include "unity.h"
 
 void suite_virtual_rig(void);
 
-/* I.3.2.1's formula in its own units, weights over g, inches: 9.44 lbf at 330 rpm. */
+/* The formula of I.3.2.1 in its own units (weights divided by g, inches): 9.44 lbf at 330 rpm. */
 static void test_unbalance_gives_the_dissertations_force(void) {
     const wh_real omega = WH_R(5.5) * WH_RIG_TWO_PI;
     const wh_real g_inps2 = WH_R(386.0886);
@@ -24,8 +23,9 @@ static void test_unbalance_gives_the_dissertations_force(void) {
 
 static on_plant on;
 
-/* The run is done and measured S <w^2> within 2 rpm. It is within 0.1 % of the value from the mean speed and the speed's swing,
- * by the model's inertia. The phase is 0 within 0.1 degrees, as for every rotor that returns at its speed (docs/rig.md). */
+/* The run is done and its force is S <w^2> within 2 rpm. The force is within 0.1 % of the value computed from the mean
+ * speed and the ripple, with the model's inertia. The phase is 0 within 0.1 degrees, as for every rotor whose speed
+ * repeats each turn (docs/rig.md). */
 static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(plant_is_done(&on));
     const wh_measured *force = &on.rig.result.force;
@@ -34,7 +34,7 @@ static void check_measurement(float target_rpm) {
         WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
     const float wanted_N = WH_RIG_UNBALANCE_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
     TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
-    /* the speed, and the damping's part of the swing */
+    /* from the speed, and the damping's part of the ripple */
     TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);
     TEST_ASSERT_FLOAT_WITHIN(0.001f * wanted_N, force->expected_N, force->amplitude_N);
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
@@ -56,8 +56,8 @@ static void test_measurement_of_the_force(void) {
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 12.604f * 4.4482216f, result->tare_N);
 }
 
-/* The cell's own noise (cell_noise of the model has 0.07 N), and far more: at the tare, under the guard, and in the
- * measurement. The measurement's interval grows with it and contains the error by a good margin. */
+/* The noise of the model's cell (cell_noise, 0.07 N), and much more, at the tare, in the guard's checks, and in the
+ * measurement. The interval grows with the noise and contains the true force with a margin. */
 static void test_a_noisy_cell_is_no_fault(void) {
     static const float noises_N[] = {0.07f, 0.5f, 1.0f, 3.0f};
     float before_N = 0.0f;
@@ -78,8 +78,8 @@ static void test_a_noisy_cell_is_no_fault(void) {
     }
 }
 
-/* Gravity speeds the arms up on the way down: both peaks lie 2 S^2 g / I = 4.2 N off the formula, towards the bottom. Sensor
- * 1's spike sits on the upper peak, sensor 2's near the zero. */
+/* Gravity accelerates the arms on the way down. So both peaks of the load are shifted by 2 S^2 g / I = 4.2 N towards
+ * the bottom. Sensor 1's pulse is at the upper peak, sensor 2's near zero load. */
 static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     const wh_rig_result *result = &on.rig.result;
     TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
@@ -88,7 +88,8 @@ static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_mark_N[1]);
 }
 
-/* Once settled, each pulse's position is the rotor's: the phase at the next step minus the turn since. */
+/* After the rig has settled, each pulse comes when the rotor is at the sensor: at the rotor's phase in the next step
+ * minus the angle turned since the pulse. */
 static void test_pulses_stand_at_their_angles(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RECORD);
@@ -121,10 +122,10 @@ static void test_pulses_stand_at_their_angles(void) {
             pulses++;
         }
     }
-    TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two a turn, 5.5 turns a second */
+    TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two per turn, at 5.5 turns per second */
 }
 
-/* In the middle of the record, where the lock-in's turns lie: each costs its turn and, with the first, the next. */
+/* Pulses are lost in the middle of the record. Each costs its turn and, for sensor 1, also the next one. */
 static void test_lost_pulses_do_not_spoil_the_run(void) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         plant_begin(&on, 330.0f);
@@ -154,7 +155,7 @@ static void test_slowest_and_fastest_set_points_run(void) {
     }
 }
 
-/* The controller's constants and the model are separate: they must agree. */
+/* The constants of the controller are not computed from the model, so they must agree with it. */
 static void test_data_sheet_agrees_with_the_model(void) {
     wh_real output[8];
     wh_state state;
@@ -164,8 +165,9 @@ static void test_data_sheet_agrees_with_the_model(void) {
     state.real[0] = 10.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_UNBALANCE_KGM, output[2]);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]); /* mass on the axis: all of it shows */
-    /* level, the force is S times the change of speed: gravity, and the damping with the speed */
+    /* with the mass on the axis, the cell measures the whole force */
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]);
+    /* with level arms, the force is S times the change of speed, which gravity and the damping cause */
     state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
     state.real[0] = 0.0f;
     state.input[0] = 0.0f;

@@ -1,4 +1,4 @@
-/* test_virtual_rig_faults.c: faults of the virtual rig, and halts at every place of a run. */
+/* test_virtual_rig_faults.c: faults of the virtual rig, and stops in every state and phase of a run. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -6,17 +6,17 @@
 #include "unity.h"
 
 /* === virtual rig faults ====================================================================== */
-/* The whole rig on its model, with failures. */
+/* The whole rig on its model, with faults. */
 
 void suite_virtual_rig_faults(void);
 
-#define RUNAWAY_RPM 470.0f /* highest speed, settled or in the record */
+#define RUNAWAY_RPM 470.0f /* highest speed, whether settled or in the record */
 
 #if !WH_DOUBLE
 
 static on_plant on;
 
-/* Without the limit: the slowest set-point has a reserve and is not mere caution. */
+/* Without the limit on set-points, slower ones end at the top: the limit is necessary, and has a margin. */
 static void test_slower_set_points_end_at_the_top(void) {
     static const float targets_rpm[] = {100.0f, 140.0f, 150.0f};
     for (unsigned i = 0; i < 3; i++) {
@@ -37,12 +37,13 @@ static void test_dead_sensors_stop_the_rig(void) {
         hal_virtual_rig_instance()->faults.dead_sensor[1] = both == 1;
         plant_go_on_to_the_end(&on);
         TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_PULSES);
-        TEST_ASSERT_TRUE(on.fastest_radps < 400.0f * RPM); /* blind, it did not run away */
+        /* without pulses the motor did not run away */
+        TEST_ASSERT_TRUE(on.fastest_radps < 400.0f * RPM);
         plant_check_stopped(&on);
     }
 }
 
-/* Once a pulse is overdue the speed is unknown: the voltage freezes, though the ramp goes on. */
+/* When a pulse is overdue the speed is unknown: the voltage stays constant, although the ramp goes on. */
 static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RAMP);
@@ -66,8 +67,9 @@ static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_PULSES);
 }
 
-/* A drive stage stuck at full supply ignores the voltage: the guard trips, the enable cuts. The rotor's speed depends on the
- * angle at the fault. docs/rig.md: the shaft's safety factor is 2 at 416 rpm and falls with the square, to 1.57 at 470 rpm. */
+/* A drive stage stuck at full supply ignores the voltage: the guard trips and switches the enable off. The rotor's
+ * speed depends on the angle at the fault. docs/rig.md: the shaft's safety factor is 2 at 416 rpm and falls with the
+ * square, to 1.57 at 470 rpm. */
 static void test_runaway_is_caught(void) {
     for (unsigned i = 0; i < 10U; i++) {
         const bool recording = i % 2U == 1;
@@ -79,7 +81,7 @@ static void test_runaway_is_caught(void) {
         on.fastest_radps = 0.0f;
         hal_virtual_rig_instance()->faults.stuck = 1.0f;
         plant_go_on_to_the_end(&on);
-        if (!recording) { /* a record does not wait for over-speed */
+        if (!recording) { /* in the record the rig trips before over-speed */
             TEST_ASSERT_EQUAL_INT(WH_TRIP_OVERSPEED, on.rig.guard.trip);
             TEST_ASSERT_TRUE(on.fastest_radps > 400.0f * RPM);
         }
@@ -90,7 +92,8 @@ static void test_runaway_is_caught(void) {
     }
 }
 
-/* Off by an interrupt, in each driving phase: no later command drives, and the run ends with a reason. */
+/* An interrupt switches the motor off, in each phase in which the motor drives: no later command drives it, and the run
+ * ends with a reason. */
 static void test_off_from_an_interrupt_stays(void) {
     for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         plant_begin(&on, 330.0f);
@@ -109,7 +112,8 @@ static void test_off_from_an_interrupt_stays(void) {
     }
 }
 
-/* Stop for less than a control step, in each driving phase: the stage switches itself off, and the run ends as by stop. */
+/* Stop is pressed for less than a control step, in each phase in which the motor drives. The stage switches itself off,
+ * and the run ends as after stop. */
 static void test_a_short_stop_is_seen(void) {
     for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         plant_begin(&on, 330.0f);
@@ -152,7 +156,7 @@ static uint64_t seed;
 
 /* --- states ------------------------------------------------------------------------------------------- */
 
-enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* then the phases from the tare on */
+enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* then the phases, from the tare on */
 #define PLACES ((unsigned)AT_PHASES + (unsigned)WH_PHASES - (unsigned)WH_PHASE_TARE)
 
 static void stand_at(unsigned place) {
@@ -168,7 +172,7 @@ static void stand_at(unsigned place) {
     stood_rig = *hal_virtual_rig_instance();
 }
 
-/* Brings the rig there again, and some steps on. */
+/* Brings the rig to the state again, and some steps further. */
 static void stand_again(void) {
     on = stood;
     *hal_virtual_rig_instance() = stood_rig;
@@ -182,7 +186,7 @@ static void check_off(void) {
     TEST_ASSERT_TRUE(on.command.way != WH_MOTOR_DRIVES && !(rig->volts > 0.0f));
 }
 
-/* It does not start by itself, nor by orders out of sequence. */
+/* Checks that the rig does not start by itself, nor by orders in a wrong sequence. */
 static void check_stays_off(unsigned steps, wh_rig_state state) {
     for (unsigned i = 0; i < steps; i++) {
         if (i % 100U == 7) {
@@ -201,7 +205,7 @@ static void check_stays_off(unsigned steps, wh_rig_state state) {
 
 /* --- stop -------------------------------------------------------------------------------------------- */
 
-/* Off in the next step, in any state; no start while it is pressed or afterwards. */
+/* The motor is off in the next step, in any state; no start while stop is pressed, or afterwards without new orders. */
 static void test_stop_in_every_state(void) {
     seed = 21;
     for (unsigned place = 0; place < PLACES; place++) {
@@ -227,7 +231,8 @@ static void test_stop_in_every_state(void) {
     }
 }
 
-/* A stage stuck at a share of the supply, with the motor off: the enable is off within 1.5 s; a turning rotor trips by name. */
+/* With the motor off, a stage is stuck at a part of the supply: the enable is off within 1.5 s. If the rotor turns, the
+ * trip names the cause. */
 static void test_a_stuck_stage_in_every_off_state(void) {
     seed = 25;
     for (unsigned i = 0; i < draw_cases(24); i++) {
@@ -265,7 +270,8 @@ static void test_stop_of_a_tripped_rig(void) {
 
 /* --- the supply ------------------------------------------------------------------------------------------ */
 
-/* Supply out of range or missing: `arm` is refused, and an armed or running rig trips in the next step with the reading. */
+/* Supply out of range or missing: `arm` is refused. An armed or running rig trips in the next step, and the record has
+ * the reading. */
 static void test_supplies_out_of_range(void) {
     seed = 24;
     for (unsigned place = 0; place < PLACES; place++) {
@@ -296,7 +302,7 @@ static void test_supplies_out_of_range(void) {
 
 typedef enum breakage { NOTHING, BLIND, DEAF, WEAK, SILENT, BREAKAGES } breakage;
 
-/* A cause of a trip in a run, and perhaps the trip. Returns the latched one. */
+/* Causes a trip in a run, except for NOTHING. Returns the latched trip. */
 static wh_trip break_something(breakage what) {
     hal_virtual_rig *rig = hal_virtual_rig_instance();
     switch (what) {
@@ -345,7 +351,8 @@ static void check_reset(wh_trip trip) {
     check_stays_off(300, tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE);
 }
 
-/* At any instant, with a trip latched or not: off, then idle or tripped as before, and the same after the next reset. */
+/* A reset at any instant, with a trip latched or not: the motor is off, the rig idle or tripped as before, and the same
+ * after another reset. */
 static void test_resets_in_every_state(void) {
     unsigned latched = 0;
     unsigned none = 0;
@@ -364,7 +371,7 @@ static void test_resets_in_every_state(void) {
     TEST_ASSERT_TRUE(latched >= 15U && none >= PLACES);
 }
 
-/* A cleared trip does not return, nor one from before a power-on; `clear` never arms. */
+/* A cleared trip does not return after a reset, nor does a trip from before a power-on; `clear` never arms. */
 static void test_what_is_cleared_is_forgotten(void) {
     stand_at(AT_PHASES + 1);
     seed = 23;
@@ -378,7 +385,7 @@ static void test_what_is_cleared_is_forgotten(void) {
     check_reset(WH_TRIP_NONE);
     stand_at(AT_PHASES + 1);
     TEST_ASSERT_TRUE(break_something(WEAK) == WH_TRIP_SUPPLY);
-    plant_start(&on); /* power-on */
+    plant_start(&on); /* after a power-on */
     TEST_ASSERT_TRUE(hal_reset_cause() == HAL_RESET_POWER_ON);
     TEST_ASSERT_TRUE(on.rig.state == WH_RIG_IDLE && on.rig.guard.trip == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_ALLOWED);
@@ -386,7 +393,8 @@ static void test_what_is_cleared_is_forgotten(void) {
 
 /* --- the host ---------------------------------------------------------------------------------------- */
 
-/* As configured: the motor is off in that step, and the rotor comes to rest; or the run goes on to its result. */
+/* A host is lost. As configured, either the motor is off in that step and the rotor comes to rest, or the run goes on
+ * to its result. */
 static void test_a_lost_host_in_every_phase(void) {
     seed = 24;
     for (unsigned place = AT_PHASES; place + 1U < PLACES; place++) {
@@ -413,7 +421,7 @@ static void test_a_lost_host_in_every_phase(void) {
 
 #endif
 
-/* Every trip, from its bytes: latched with all its data, and `arm` is refused with its name. */
+/* Every trip, read from its bytes, is latched with all its data, and `arm` is refused because of it. */
 static void test_a_record_is_latched_from_its_bytes(void) {
     static const wh_trip trips[] = {
 #define TRIP(name, number, words) name,

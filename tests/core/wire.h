@@ -1,4 +1,5 @@
-/* wire.h: the tests' own decoder of the station's line, from the head of core/station/telemetry.h, with bitwise checksums. */
+/* wire.h: the tests' own decoder of the station's line, written from the description in core/station/telemetry.h, with
+ * bitwise checksums. */
 #ifndef TESTS_CORE_WIRE_H
 #define TESTS_CORE_WIRE_H
 
@@ -17,16 +18,16 @@ typedef struct wire_frame {
     unsigned count;
 } wire_frame;
 
-/* All zeros: no input yet. */
+/* The state of the decoder. All zeros: no input yet. */
 typedef struct wire {
-    uint8_t chunk[WIRE_CHUNK]; /* since the last zero */
+    uint8_t chunk[WIRE_CHUNK]; /* the bytes since the last zero */
     unsigned count;
     bool framed;               /* inside a frame */
     bool text_next;            /* text follows */
     uint8_t whole[WIRE_CHUNK]; /* the last frame, decoded */
     char text[WIRE_TEXT];
     unsigned text_count;
-    unsigned bad; /* chunks that are neither */
+    unsigned bad; /* number of chunks that are neither frame nor text */
 } wire;
 
 static inline uint32_t wire_number(const uint8_t *bytes, unsigned size) {
@@ -49,7 +50,7 @@ static inline bool wire_sum_is_right(const uint8_t *bytes, unsigned count) {
     return count > 2U && rest == wire_number(bytes + count - 2U, 2);
 }
 
-/* Counts down to the next code byte: a code of 255 has no zero. */
+/* Counts down to the next code byte. A code of 255 is followed by no zero. */
 static inline unsigned wire_without_codes(const wire *w, uint8_t *to) {
     unsigned left = 1;
     unsigned length = 0;
@@ -86,13 +87,13 @@ static inline void wire_add(wire *w, uint8_t byte) {
     }
     if (w->text_next && w->count > 0) {
         wire_text(w, (char)byte);
-        w->count = 2; /* not a frame's */
+        w->count = 2; /* too short for a frame */
     } else if (w->count < WIRE_CHUNK) {
         w->chunk[w->count++] = byte;
     }
 }
 
-/* True if this byte ends a good frame: *frame. */
+/* Takes a byte. Returns true if it ends a good frame, which is then in *frame. */
 static inline bool wire_take(wire *w, uint8_t byte, wire_frame *frame) {
     if (byte != 0) {
         wire_add(w, byte);
