@@ -264,12 +264,6 @@ char *derived_written(void (*write)(FILE *out, const image *im, const char *file
     return text;
 }
 
-const char derived_ranged[] =
-    "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\nparameter p = 3 [m]\n"
-    "input push = 1 [N]\ninput pull = 1 [N]\n"
-    "T = 1 [kg*m^2]*a'^2/2 + 2 [kg]*x'^2/2\nQ(x) = push - pull\n"
-    "scene s { range pull = -2 .. 4 [kN], x = -p/2 .. p, a' = 1 .. 2 [rad/s]; until 1 [s] }\n";
-
 void dense_solve(int n, int width, long double *a, long double *x) {
     for (int k = 0; k < n; k++) {
         int best = k;

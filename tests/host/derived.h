@@ -26,8 +26,6 @@ extern const image_settings plainly;
 
 derived derived_text(const char *text);
 derived derived_scene(const char *text, const char *name);
-/* A text with the declared ranges in scene `s`: pull -2 to 4 kN, x -1.5 to 3 m, a' 1 to 2 rad/s. */
-extern const char derived_ranged[];
 derived derived_builtin(const char *name);
 /* Calls `check` for every built-in scene. Returns the sum of its results. */
 typedef int scene_check(const scene *s);
