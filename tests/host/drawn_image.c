@@ -57,12 +57,16 @@ void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix) {
         d->real[im->reals++] = (component){i, 1};
     }
     for (int i = 0; i < im->inputs; i++) {
-        d->input[i] = (image_quantity){
-            .name = input_names[i], .text = "", .unit = {"N", i == 0 ? "N*m" : "N", 1.0, 1.0}};
+        d->input[i] = (image_quantity){.name = input_names[i],
+                                       .text = "",
+                                       .unit = {"N", i == 0 ? "N*m" : "N", 1.0, 1.0},
+                                       .value = drawn_entry(die)};
     }
     const int states = im->angles + im->reals;
     im->matrix =
         (image_matrix){.states = states, .columns = states + im->inputs + 1, .entry = d->entry};
+    im->start_rad = d->entry;
+    im->start_real = d->entry + im->angles;
     const bool has_offset = dice_one_of(die, 2) == 0;
     for (int i = 0; i < states * im->matrix.columns; i++) {
         const bool is_offset = i % im->matrix.columns == im->matrix.columns - 1;

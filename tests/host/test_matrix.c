@@ -293,8 +293,8 @@ TEST(matrix, the_matrix_of_rk4_moves_like_its_stages) {
 }
 
 /* === matrix printed =========================================================================== */
-/* A step's matrix as tables and LaTeX (host/emit/matrix.c), parsed again. Each entry matches to the printed digits
- * and has the names of its row and column. */
+/* A step's matrix as tables, LaTeX and Octave (host/emit/matrix.c), parsed again. Each entry matches to the printed
+ * digits and has the names of its row and column. */
 
 static dice die;
 static drawn_image drawn;
@@ -336,9 +336,9 @@ static const char *read_names(const char *at, int first, int end, bool units) {
             at = said_exactly(at, drawn_image_unit(&drawn, k));
             at = said_exactly(at, "]");
         }
-        at = said_exactly(at, k + 1 < end ? ", " : ")");
+        at = said_exactly(at, k + 1 < end ? ", " : "");
     }
-    return at;
+    return said_exactly(at, ")");
 }
 
 static const char *said_motion(const char *at) {
@@ -448,6 +448,64 @@ TEST(matrix_printed, latex) {
             at = read_latex(at, "g", states + inputs, states + inputs + 1);
         }
         TEST_ASSERT_EQUAL_STRING("\n\\]\n", at);
+        free(text);
+    }
+}
+
+static const char *read_exactly(const char *at, double wanted) {
+    double number;
+    at = said_number(at, &number);
+    TEST_ASSERT_TRUE(number == wanted);
+    return at;
+}
+
+/* "  Phi = [", a row a line, all digits; "zeros(2, 0)" without columns. */
+static const char *read_octave(const char *at, const char *name, int first, int end) {
+    const image_matrix *m = &drawn.im.matrix;
+    char words[60];
+    snprintf(words, sizeof words, first == end ? "  %s = zeros(%d, 0);\n" : "  %s = [\n", name,
+             m->states);
+    at = said_exactly(at, words);
+    for (int i = 0; i < m->states && first < end; i++) {
+        for (int k = first; k < end; k++) {
+            at = read_exactly(at, m->entry[i * m->columns + k]);
+            at = said_exactly(at, k + 1 < end ? "," : ";\n");
+        }
+    }
+    return first == end ? at : said_exactly(at, "  ];\n");
+}
+
+TEST(matrix_printed, octave) {
+    for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
+        drawn_image_draw(&drawn, &die, c % 2 == 0 ? MATRIX_EXACT : MATRIX_RK4);
+        const int states = drawn.im.matrix.states;
+        const int inputs = drawn.im.inputs;
+        char *text = NULL;
+        size_t length = 0;
+        FILE *out = alloc_text(&text, &length);
+        matrix_octave(out, &drawn.im, "x.whirl");
+        alloc_text_end(out);
+        const char *at = said_exactly(text, "function [Phi, Gamma, g0] = drawn()\n");
+        at = read_exactly(strstr(at, "\n% A step of ") + 13, drawn.im.step_s);
+        at = said_motion(said_exactly(at, " s: "));
+        at = said_exactly(at, ".\n% x+ = Phi*x + Gamma*u + g0\n% x = ");
+        at = said_exactly(read_names(at, 0, states, true), "\n% u = ");
+        at = read_names(at, states, states + inputs, true);
+        at = said_exactly(at, "\n%\n% [Phi, Gamma, g0] = drawn;\n% x = [");
+        for (int i = 0; i < states; i++) {
+            at = read_exactly(said_exactly(at, i > 0 ? "; " : ""), drawn.entry[i]);
+        }
+        at = said_exactly(at, "];\n% u = [");
+        for (int i = 0; i < inputs; i++) {
+            at = read_exactly(said_exactly(at, i > 0 ? "; " : ""), drawn.input[i].value);
+        }
+        at = said_exactly(at, inputs > 0 ? "];\n" : "zeros(0, 1)];\n");
+        at = read_exactly(said_exactly(at, "% for k = 1:"), (double)drawn.im.steps);
+        at = said_exactly(at, ", x = Phi*x + Gamma*u + g0; end\n");
+        at = read_octave(at, "Phi", 0, states);
+        at = read_octave(at, "Gamma", states, states + inputs);
+        at = read_octave(at, "g0", states + inputs, states + inputs + 1);
+        TEST_ASSERT_EQUAL_STRING("end\n", at);
         free(text);
     }
 }

@@ -1,5 +1,5 @@
-/* test_octave.c: files for Octave: where values may become complex, and the named form, parsed line by line. Its
- * slopes are the accelerations of the operation lists. Function files: test_octave_drawn.c. Also LaTeX. */
+/* test_octave.c: files for Octave: where values may become complex, and both forms, parsed line by line. Their slopes are
+ * the accelerations of the operation lists. Also LaTeX. */
 #include "test.h"
 
 #include "formula.h"
@@ -46,7 +46,7 @@ typedef struct named_value {
     double value;
 } named_value;
 
-enum { NAMED_MAX = 400, OWN_SEED = 45 };
+enum { NAMED_MAX = 4000, OWN_SEED = 45 };
 
 typedef struct named_file {
     named_value row[NAMED_MAX];
@@ -97,7 +97,9 @@ static void solve_named(named_file *f, const char *x, const char *A, const char 
     }
 }
 
-static void run_named(const char *what, const char *text, named_file *f, int n, double *slope) {
+/* n equations, with so many components in all. */
+static void run_named(const char *what, const char *text, named_file *f, int n, int components,
+                      double *slope) {
     for (const char *line = strstr(text, "\n  ") + 1; strncmp(line, "  ", 2) == 0;
          line = strchr(line, '\n') + 1) {
         char target[80];
@@ -111,7 +113,7 @@ static void run_named(const char *what, const char *text, named_file *f, int n, 
         snprintf(target, sizeof target, "%.*s", (int)(from - line - 2), line + 2);
         from += 3;
         const char *end;
-        if (strcmp(target, "dy") == 0) {
+        if (strcmp(target, "dy") == 0 && *from == '[') {
             for (int i = 0; *from != ']'; i++, from = end) {
                 from += strspn(from, "[; ");
                 slope[i] = formula_value(from, &end, named_lookup, f);
@@ -136,6 +138,38 @@ static void run_named(const char *what, const char *text, named_file *f, int n, 
             }
         }
     }
+    for (int i = 0; strstr(text, "  dy(1) = ") != NULL && i < components; i++) {
+        char element[20];
+        snprintf(element, sizeof element, "dy(%d)", i + 1);
+        slope[i] = named_lookup(f, element, (int)strlen(element));
+    }
+}
+
+/* The head's comments: the components of y in order, and where they start. */
+static void check_head(const derived *d, const char *text) {
+    const char *names = strstr(text, "\n% y = (");
+    const char *starts = strstr(text, "\n% [T, Y] = ode45(@");
+    TEST_ASSERT_TRUE(names != NULL && starts != NULL);
+    names += strlen("\n% y = (");
+    starts = strstr(starts, ", [0 ");
+    TEST_ASSERT_TRUE(strtod(starts + strlen(", [0 "), NULL) == d->image->until_s);
+    starts = strstr(starts, "], [") + strlen("], [");
+    for (int level = 0; level < 8; level++) {
+        for (int i = 0; i < d->equations->count; i++) {
+            const unknown *u = &d->equations->unknowns[i];
+            char name[80];
+            char *end;
+            if (u->order > level) {
+                snprintf(name, sizeof name, "%s%.*s", u->symbol->name, level, "''''''''");
+                TEST_ASSERT_EQUAL_STRING_LEN(name, names, strlen(name));
+                TEST_ASSERT_NOT_NULL_MESSAGE(strchr(",)", names[strlen(name)]), names);
+                names += strlen(name) + 2;
+                TEST_ASSERT_TRUE(strtod(starts, &end) == d->instance->start[i][level]);
+                starts = end + strspn(end, "; ");
+            }
+        }
+    }
+    TEST_ASSERT_EQUAL_STRING_LEN("], options);", starts, 12);
 }
 
 /* "I_r = 0.01125; % [kg*m^2] = M_r*R^2/2: ...": the formula after the unit, given with --set, has that value. Returns
@@ -180,16 +214,14 @@ static int check_written(const derived *d, const char *text) {
 
 static int written; /* values with a formula */
 
-/* dy(y) of the named file against the lists of the image at random states. Returns whether any state was compared. */
-static bool compare_named(const char *name, derived *d) {
+/* dy(y) of a file against the lists of the image at random states. Returns whether any state was compared. */
+static bool compare_form(const char *name, derived *d, language form) {
     const equations *e = d->equations;
-    if (d->image->recovered > 0) {
-        return false;
-    }
-    char *text = printed(d, OCTAVE);
+    char *text = printed(d, form);
     bool compared = false;
     uint64_t seed = OWN_SEED;
-    written += check_written(d, text);
+    check_head(d, text);
+    written += form == OCTAVE ? check_written(d, text) : 0;
     for (int k = 0; k < 3; k++) {
         static named_file f;
         state_values s;
@@ -215,7 +247,7 @@ static bool compare_named(const char *name, derived *d) {
         }
         f.count = 0;
         f.y = y;
-        run_named(name, text, &f, e->count, slope);
+        run_named(name, text, &f, e->count, number, slope);
         compared = true;
         number = 0;
         for (int level = 0; level < 8; level++) {
@@ -231,6 +263,11 @@ static bool compare_named(const char *name, derived *d) {
     }
     free(text);
     return compared;
+}
+
+static bool compare_named(const char *name, derived *d) {
+    return d->image->recovered == 0 && compare_form(name, d, FOLDED) &&
+           compare_form(name, d, OCTAVE);
 }
 
 static int named_scene(const scene *s) {
@@ -249,7 +286,7 @@ static int named_scene(const scene *s) {
 static int named_files;
 static void named_mechanism(const char *name, derived *d) { named_files += compare_named(name, d); }
 
-TEST(octave, files_with_names_compute_the_same) {
+TEST(octave, both_forms_compute_the_same) {
     enum { MECHANISMS = 30 };
     int compared = 0;
     written = 0;
