@@ -1,6 +1,6 @@
 #!/bin/sh
 # emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and double, with gcc and clang. It
-# steps to the interpreter's bits, with a step or many a call: every built-in scene, every file of tests/mechanisms, and
+# steps to the interpreter's bits and outputs, with a step or many a call: every built-in scene, every file of tests/mechanisms, and
 # scenes for rare operations.
 # There are four builds and four parts of the list of scenes, two of them an eighth. `make gate-long` compiles the first
 # part by the usual build, the second by the one that differs most. WHIRL_FULL=rest compiles the other parts by these builds
@@ -385,10 +385,15 @@ int main(void) {
 #endif
         }
         wh_real output[64];
-        if (all[i].scene->observe != NULL && all[i].scene->outputs <= 64) {
+        const unsigned outputs = all[i].scene->observe != NULL && all[i].scene->outputs <= 64 ? all[i].scene->outputs : 0;
+        if (outputs > 0) {
             all[i].scene->observe(all[i].scene, &state, output);
         }
-        printf("%d 0x%016" PRIx64 "\n", all[i].number, wh_scene_hash(all[i].scene, &state));
+        printf("%d 0x%016" PRIx64, all[i].number, wh_scene_hash(all[i].scene, &state));
+        for (unsigned k = 0; k < outputs; k++) {
+            printf(" %.*g", WH_DOUBLE ? 17 : 9, (double)output[k]);
+        }
+        putchar('\n');
     }
     return 0;
 }
@@ -407,8 +412,12 @@ build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD NUMBERS
     verdict $status "$1 $2 compiles $(wc -l <"$6") emitted scenes in $3 without a warning"
     [ $status -eq 0 ] || { grep -E "error|warning|undefined" "$scratch/$1_$3.log" | head -n 5; return; }
     "$scratch/$1_$3" >"$scratch/$1_$3.hashes"
-    while read -r number hash; do
+    while read -r number hash outputs; do
         compared=$((compared + 1))
+        # outputs that the run prints in SI
+        sed -n '/^outputs$/,/^[^ o]/s/^  [^ ]* *\([^ ]*\) *\(.*\)/\1 \2/p' "$scratch/$number.$3" |
+            awk -v all="$outputs" 'BEGIN { split(all, own) }
+                !/mm|cm|km|deg|rev|rpm|min|h$|k[NJW]/ && $1 != own[NR] { exit 1 }' || verdict 1 "$1 $3: outputs of $number: $outputs"
         if ! grep -q "state hash.*$hash" "$scratch/$number.$3"; then
             verdict 1 "$1 $3: $(tr '\n' ' ' <"$scratch/$number.options"): $hash, interpreted $(sed -n 's/^state hash *//p' "$scratch/$number.$3")"
         fi
