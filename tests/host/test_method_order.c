@@ -1,5 +1,5 @@
 /* test_method_order.c: order of the rows of core/method.h by the order conditions: one per rooted tree, for first
- * order, second order, and second order without rates. A wrong digit in a coefficient violates one. */
+ * order, second order, and second order without rates. */
 #define WH_DOUBLE 1
 
 #include "core/step/ledger_step.h"
@@ -196,43 +196,6 @@ TEST(method_order, rows_have_their_order_and_no_more) {
         TEST_ASSERT_TRUE_MESSAGE(row->takes != WH_ANY_SYSTEM || of[FIRST_ORDER] == row->order,
                                  row->word);
     }
-}
-
-TEST(method_order, a_wrong_coefficient_is_noticed) {
-    static forest f;
-    int moved = 0;
-    for (int m = 0; m < WH_METHODS; m++) {
-        const weights right = weights_of(m);
-        const kind of = wh_methods[m].takes == WH_NO_RATES ? NO_RATES : SECOND_ORDER;
-        for (int k = 0; k < right.stages * (2 * right.stages + 3); k++) {
-            weights wrong = right;
-            const int i = k % right.stages;
-            const int part = k / right.stages;
-            long double *at = part < right.stages            ? &wrong.a[part][i]
-                              : part < 2 * right.stages      ? &wrong.reach[part - right.stages][i]
-                              : part == 2 * right.stages     ? &wrong.rates[i]
-                              : part == 2 * right.stages + 1 ? &wrong.positions[i]
-                                                             : &wrong.node[i];
-            if (*at == 0.0L || (of == NO_RATES && part < right.stages)) {
-                continue;
-            }
-            *at *= 1.000001L;
-            tree bare = {.density = 1.0L};
-            f = (forest){.of = wrong};
-            for (int s = 0; s < right.stages; s++) {
-                bare.at[s] = 1.0L;
-            }
-            for (int order = 1; order <= wh_methods[m].order; order++) {
-                grow(&f, order, order - 1, 0, bare);
-            }
-            TEST_ASSERT_TRUE_MESSAGE(order_of(&f, of) < wh_methods[m].order ||
-                                         right.rates[part % right.stages] == 0.0L ||
-                                         wh_methods[m].order == 1,
-                                     wh_methods[m].word);
-            moved++;
-        }
-    }
-    printf("  %d coefficients moved\n", moved);
 }
 
 /* A stage's node is the sum of its shares. A stage that reuses another's position has the same shares. */
