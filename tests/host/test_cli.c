@@ -149,49 +149,7 @@ TEST(counts, counts_are_exact) {
     }
 }
 
-/* --- fractions and times ----------------------------------------------------------------------------- */
-
-/* Round-off from units and sums does not change the step. */
-TEST(counts, steps_are_what_was_written) {
-    const struct {
-        double value;
-        uint64_t numerator, denominator;
-    } known[] = {{0.0, 0, 1},
-                 {1.1 * 1e-3, 11, 10000},
-                 {0.1 + 0.2, 3, 10},
-                 {1.0 / 3.0, 1, 3},
-                 {1.0 / 44100.0, 1, 44100},
-                 {1001.0 / 30000.0, 1001, 30000},
-                 {0x1p-20, 1, 1U << 20U},
-                 {1e-18, 1, UINT64_C(1000000000000000000)},
-                 {1e18, UINT64_C(1000000000000000000), 1},
-                 {86400.0 * 365.0, 31536000, 1}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        const whole_ratio r = ratio_of(known[i].value);
-        TEST_ASSERT_EQUAL_UINT64(known[i].numerator, r.numerator);
-        TEST_ASSERT_EQUAL_UINT64(known[i].denominator, r.denominator);
-    }
-}
-
-/* Any double has a fraction within 2^-51 that fits the core's 64 bits. */
-TEST(counts, every_double_has_a_fraction) {
-    seed_now = UINT64_C(0x5eed0011);
-    for (int i = 0; i < 30000; i++) {
-        /* every second one near a simple number, where fractions are sparse */
-        const double value =
-            i % 2 != 0
-                ? nextafter(1.0 / (1.0 + (double)random_below(2000)), 0.0)
-                : fmin(1e18,
-                       fmax(1e-18, ldexp(1.0 + (double)random_below(UINT64_C(1) << 52) * 0x1p-52,
-                                         (int)random_below(120) - 60)));
-        const whole_ratio r = ratio_of(value);
-        char message[80];
-        snprintf(message, sizeof message, "%.17g is not %" PRIu64 "/%" PRIu64, value, r.numerator,
-                 r.denominator);
-        TEST_ASSERT_TRUE_MESSAGE((r.numerator | r.denominator) >> 60 == 0, message);
-        TEST_ASSERT_TRUE_MESSAGE(fabs(ratio_times(1, r) - value) <= 0x1.8p-51 * value, message);
-    }
-}
+/* --- times ------------------------------------------------------------------------------------------- */
 
 TEST(counts, times_are_rounded_once) {
     seed_now = UINT64_C(0x5eed0012);

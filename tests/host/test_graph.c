@@ -366,34 +366,6 @@ TEST(graph, whole_numbers_stay_whole) {
     }
 }
 
-/* Inverse functions of numbers enclose the long double result within a few units in the last place. */
-TEST(graph, inverse_functions_of_numbers) {
-    for (unsigned c = 0; c < dice_cases(usual_or(200, 60)); c++) {
-        const double u = dice_between(&die, -1.0, 1.0);
-        const double v = dice_between(&die, -30.0, 30.0);
-        const double w = dice_between(&die, -2.0, 2.0);
-        const struct {
-            const char *form;
-            long double value;
-        } cases[] = {{"asin(%.17g)", asinl((long double)u)},
-                     {"acos(%.17g)", acosl((long double)u)},
-                     {"atan(%.17g)", atanl((long double)v)},
-                     {"atan2(%.17g, %.17g)", atan2l((long double)v, (long double)w)}};
-        for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-            char written[80];
-            snprintf(written, sizeof written, cases[i].form, i < 2 ? u : v, w); // NOLINT
-            g_graph = graph_new();
-            const enclosure is = read_number(written);
-            const long double slack = 0x1p-60L;
-            TEST_ASSERT_TRUE_MESSAGE((long double)is.low <= cases[i].value + slack &&
-                                         cases[i].value - slack <= (long double)is.high,
-                                     written);
-            TEST_ASSERT_TRUE_MESSAGE(is.high - is.low <= 1e-6, written);
-            graph_free(g_graph);
-        }
-    }
-}
-
 SUITE(graph) { die = dice_of("graph", 41); }
 
 /* === reader =================================================================================== */
@@ -594,20 +566,6 @@ TEST(reader, worth_reader) {
         close_text();
     }
     TEST_ASSERT_TRUE(numbers > 50);
-}
-
-/* The derivatives' nodes are the given variables. */
-TEST(reader, variables) {
-    static const char *const words[] = {"a", "a'", "b", "a''", "b'"};
-    for (int i = 0; i < MOVING; i++) {
-        char text[400];
-        snprintf(text, sizeof text, HEAD "let e = %s\n", words[i]);
-        open_text(text);
-        const int made = read_node(&r.symbols, r.of->lets[0]->value);
-        TEST_ASSERT_EQUAL_INT(NODE_VARIABLE, r.symbols.graph->node[made].kind);
-        TEST_ASSERT_EQUAL_INT(i, r.symbols.graph->node[made].left);
-        close_text();
-    }
 }
 
 /* --- corners of uncertain numbers ------------------------------------------------------------------------------ */

@@ -336,47 +336,6 @@ TEST(solving, any_regular_system_is_solved) {
     }
 }
 
-/* One equation is a combination of earlier ones, in decimals that are not binary fractions. */
-TEST(solving, the_equation_that_repeats_others_is_named) {
-    uint64_t seed = 47;
-    for (int round = 0; round < 60; round++) {
-        const int n = 2 + round % 4;
-        const int bad = 1 + (int)draw(&seed, (unsigned)n - 1);
-        double share[5];
-        char *text = NULL;
-        size_t size = 0;
-        FILE *to = open_memstream(&text, &size);
-        TEST_ASSERT_NOT_NULL(to);
-        double number[5][5];
-        fputs("mechanism m\n", to);
-        for (int i = 0; i < n; i++) {
-            share[i] = (double)(1 + draw(&seed, 9)) / 10.0;
-            fprintf(to, "state x%d\n", i);
-        }
-        for (int i = 0; i < n; i++) {
-            fputs("equation 1 [s]*(0", to);
-            for (int j = 0; j < n; j++) {
-                number[i][j] = (double)(1 + draw(&seed, 99)) / 10.0 + (i == j ? 20.0 : 0.0);
-                for (int k = 0; k < i && i == bad; k++) {
-                    fprintf(to, " + %g*(%g + sin(x%d))*x%d'", share[k], number[k][j], k, j);
-                }
-                if (i != bad) {
-                    fprintf(to, " + (%g + sin(x%d))*x%d'", number[i][j], i, j);
-                }
-            }
-            fputs(") = 1\n", to);
-        }
-        fclose(to);
-        derived d = derived_text(text);
-        char at[20];
-        snprintf(at, sizeof at, ":%d:", 1 + n + bad + 1);
-        TEST_ASSERT_TRUE_MESSAGE(d.image == NULL, text);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, at), d.errors);
-        derived_free(&d);
-        free(text);
-    }
-}
-
 /* --- long products ---------------------------------------------------------------------------------------- */
 
 TEST(solving, long_products_keep_their_value) {
