@@ -26,19 +26,8 @@ typedef struct sample {
     double start[5];
     bool conserves;
     char text[TEXT_ROOM + 2048];
-    whirl_model *model;
-    instance *instance;
-    equations *equations;
-    image *image;
+    derived of;
 } sample;
-
-static void must(bool good, diags *errors, const char *text) {
-    if (!good) {
-        diags_flush(errors, stdout);
-        puts(text);
-    }
-    TEST_ASSERT_TRUE(good);
-}
 
 /* `outputs` random expressions, `plain` or not. */
 static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
@@ -60,31 +49,15 @@ static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
                       turns ? "rad" : "m");
     }
     sprintf(at, "  step 1 [ms]\n  until %d [ms]\n}\n", STEPS);
-    diags *errors = diags_new();
-    s->model = model_parse("parts.whirl", s->text, strlen(s->text), errors);
-    must(s->model != NULL, errors, s->text);
-    const scene *in = s->model->scenes[0];
-    s->instance = instance_make(in->mechanism, in, NULL, errors);
-    must(s->instance != NULL, errors, s->text);
-    s->equations = equations_derive(s->instance, errors);
-    must(s->equations != NULL, errors, s->text);
-    s->image = image_make(s->equations, in->conserve, &plainly, IMAGE_TO_RUN, errors);
-    must(s->image != NULL, errors, s->text);
-    diags_free(errors);
-    TEST_ASSERT_EQUAL_INT(WAVE_ANGLES, s->image->angles);
-}
-
-static void close_sample(sample *s) {
-    image_free(s->image);
-    equations_free(s->equations);
-    instance_free(s->instance);
-    model_free(s->model);
+    s->of = derived_scene(s->text, "parts_turn");
+    derived_expect(&s->of, s->text);
+    TEST_ASSERT_EQUAL_INT(WAVE_ANGLES, s->of.image->angles);
 }
 
 /* The exact state of the run: float angles are integers, 2^32 per turn. */
 static void exact_state(const sample *s, const engine_kind *kind, void *run, long double *state) {
     static const long double two_pi = 6.28318530717958647692528676655900577L;
-    const image *p = s->image;
+    const image *p = s->of.image;
     double angle_rad[WAVE_ANGLES];
     double real[16];
     TEST_ASSERT_TRUE(p->reals <= 16);
@@ -109,7 +82,7 @@ typedef struct tally {
 static void compare(const sample *s, const engine_kind *kind, void *run, int count, tally *t) {
     long double state[WAVE_SYMBOLS];
     double output[OUTPUTS + 8];
-    TEST_ASSERT_TRUE(s->image->outputs <= OUTPUTS + 8);
+    TEST_ASSERT_TRUE(s->of.image->outputs <= OUTPUTS + 8);
     exact_state(s, kind, run, state);
     kind->outputs(run, output);
     for (int i = 0; i < count; i++) {
@@ -139,8 +112,8 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     double real[16];
     kind->state(run, angle_rad, real);
     const double rounding = kind == &engine_float ? 0x1p-23 : 0x1p-52;
-    const double *start = s->instance->start[WAVE_ANGLES + 1];
-    const double momentum = 3.0 * start[1] + 0.5 * cos(s->start[0]) * s->instance->start[0][1];
+    const double *start = s->of.instance->start[WAVE_ANGLES + 1];
+    const double momentum = 3.0 * start[1] + 0.5 * cos(s->start[0]) * s->of.instance->start[0][1];
     const double time_s = (double)kind->steps(run) * 1e-3;
     const double X =
         start[0] + (momentum * time_s + 0.5 * (sin(s->start[0]) - (double)sinl(state[0]))) / 3.0;
@@ -154,14 +127,14 @@ static void check_sweep(const sample *s, const engine_kind *kind, int count, con
     for (int i = 0; i < count; i++) {
         texts[i] = s->expr[i].text;
     }
-    const scene *in = s->model->scenes[0];
+    const scene *in = s->of.model->scenes[0];
     measures *taken = measures_new(in->mechanism, texts, count, errors);
-    must(taken != NULL, errors, s->text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(taken, s->text);
     grid over = {0};
     overrides none = {0};
     char swept[64];
     snprintf(swept, sizeof swept, "x=%.17g..2:2", s->start[WAVE_ANGLES]);
-    must(grid_add(&over, in->mechanism, swept, errors), errors, s->text);
+    TEST_ASSERT_TRUE_MESSAGE(grid_add(&over, in->mechanism, swept, errors), s->text);
     const sweep of = {.grid = &over,
                       .mechanism = &taken->mechanism,
                       .measures = taken,
@@ -222,7 +195,7 @@ TEST(angle_parts, made_up_outputs) {
         open_sample(&drawn, &seed, false, count);
         keep(&drawn, number);
         for (int k = 0; k < 2; k++) {
-            void *run = kinds[k]->start(drawn.image);
+            void *run = kinds[k]->start(drawn.of.image);
             compare(&drawn, kinds[k], run, count, &tallies[k]);
             for (int step = 0; step < STEPS; step++) {
                 TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
@@ -233,7 +206,7 @@ TEST(angle_parts, made_up_outputs) {
             check_sweep(&drawn, kinds[k], count, output);
             kinds[k]->stop(run);
         }
-        close_sample(&drawn);
+        derived_free(&drawn.of);
         done += count;
     }
     for (int k = 0; k < 2; k++) {
@@ -256,7 +229,7 @@ TEST(angle_parts, float_sines_of_parts) {
     drawn.conserves = false;
     for (int number = 0; number < 40; number++) {
         open_sample(&drawn, &seed, true, OUTPUTS);
-        void *run = engine_float.start(drawn.image);
+        void *run = engine_float.start(drawn.of.image);
         long double state[WAVE_SYMBOLS];
         double output[OUTPUTS + 8];
         exact_state(&drawn, &engine_float, run, state);
@@ -270,7 +243,7 @@ TEST(angle_parts, float_sines_of_parts) {
             }
         }
         engine_float.stop(run);
-        close_sample(&drawn);
+        derived_free(&drawn.of);
     }
     printf("  %d sines of parts of angles in float, to 1e4 turns: worst error %.3g\n", parts,
            worst);

@@ -4,7 +4,6 @@
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "motion.h"
-#include "parsed.h"
 
 static const struct {
     const char *text;
@@ -97,11 +96,9 @@ enum { NEIGHBOURS = 3 };
 static uint64_t run_to(const char *more, const engine_kind *kind, double *output) {
     char text[1200];
     snprintf(text, sizeof text, "%s%s%s", pendulums, more, scene_of_them);
-    parse(text);
-    instantiate(NULL);
-    equations *e = equations_derive(made, said);
-    image *p = image_make(e, NULL, &plainly, IMAGE_TO_RUN, said);
-    TEST_ASSERT_NOT_NULL_MESSAGE(p, more);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, more);
+    const image *p = d.image;
     TEST_ASSERT_EQUAL_INT_MESSAGE(2, p->angles, more);
     void *run = kind->start(p);
     for (int i = 0; i < 200; i++) {
@@ -111,8 +108,7 @@ static uint64_t run_to(const char *more, const engine_kind *kind, double *output
     kind->outputs(run, output);
     const uint64_t hash = kind->hash(run) ^ p->hash;
     kind->stop(run);
-    image_free(p);
-    equations_free(e);
+    derived_free(&d);
     return hash;
 }
 
@@ -137,21 +133,19 @@ TEST(angle_places, outputs_leave_all_else_alone) {
                                      outputs[i]);
         }
     }
-    drop();
 }
 
 /* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the outputs are. */
 TEST(angle_places, recovered_angle) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
-    parse(
+    derived d = derived_scene(
         "mechanism m\ncoordinate th [rad]\ncoordinate ph [rad]\n"
         "T = 0.5 [kg*m^2]*th'^2 + 0.5 [kg*m^2]*(ph' + 0.37*th')^2\nV = -2 [J]*cos(th)\n"
         "output one = sin(ph)\noutput half = cos(ph/2)\noutput both = sin(th/2 + ph)\n"
-        "scene s { conserve ph; start th = 6283, ph = 0.5, th' = 3 [rad/s], ph' = -2 [rad/s] }\n");
-    instantiate(NULL);
-    equations *e = equations_derive(made, said);
-    image *p = image_make(e, made->scene->conserve, &plainly, IMAGE_TO_RUN, said);
-    TEST_ASSERT_NOT_NULL(p);
+        "scene s { conserve ph; start th = 6283, ph = 0.5, th' = 3 [rad/s], ph' = -2 [rad/s] }\n",
+        "s");
+    derived_expect(&d, d.errors);
+    const image *p = d.image;
     TEST_ASSERT_EQUAL_INT(1, p->angles);
     for (int k = 0; k < 2; k++) {
         void *run = kinds[k]->start(p);
@@ -170,23 +164,20 @@ TEST(angle_places, recovered_angle) {
         TEST_ASSERT_TRUE(fabs(output[2] - sin(th / 2.0 + ph)) <= bound);
         kinds[k]->stop(run);
     }
-    image_free(p);
-    equations_free(e);
-    drop();
+    derived_free(&d);
 }
 
 /* A system's state is kept as a turn angle, too. Multiples too large for a phase factor are not. */
 TEST(angle_places, systems_and_large_multiples) {
-    parse(
+    derived d = derived_scene(
         "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
         "equation th' = w*(2 + sin(th))\nequation q' = w*cos(2*th)\n"
         "output half = cos(th/2)\noutput third = sin(th/3 - 1)\n"
         "output large = sin(3e9*th)\noutput larger = cos(-4294967299.25*th)\noutput tiny = sin(-1e-13*th)\n"
-        "scene s { start th = -6283 }\n");
-    instantiate(NULL);
-    equations *e = equations_derive(made, said);
-    image *p = image_make(e, NULL, &plainly, IMAGE_TO_RUN, said);
-    TEST_ASSERT_NOT_NULL(p);
+        "scene s { start th = -6283 }\n",
+        "s");
+    derived_expect(&d, d.errors);
+    const image *p = d.image;
     TEST_ASSERT_EQUAL_INT(1, p->angles);
     void *run = engine_float.start(p);
     for (int i = 0; i < 100; i++) {
@@ -209,9 +200,7 @@ TEST(angle_places, systems_and_large_multiples) {
         TEST_ASSERT_TRUE(fabs(output[4] - sin(-1e-13 * th)) < 2e-9);
     }
     engine_float.stop(run);
-    image_free(p);
-    equations_free(e);
-    drop();
+    derived_free(&d);
 }
 
 /* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation contains half of

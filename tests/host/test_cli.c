@@ -65,33 +65,16 @@ static void expect_count(const duration *step, const duration *until) {
     if (wanted == 0 || wanted >> 63 != 0) {
         return; /* refused: not tested here */
     }
-    diags *errors = diags_new();
-    whirl_model *from = model_parse("x.whirl", text, strlen(text), errors);
-    instance *inst =
-        from != NULL ? instance_make(from->mechanisms[0], from->scenes[0], NULL, errors) : NULL;
-    diags_flush(errors, stdout);
-    TEST_ASSERT_NOT_NULL_MESSAGE(inst, message);
-    if (inst == NULL) { /* for the linter */
-        return;
-    }
-    equations *e = equations_derive(inst, errors);
-    image *p = image_make(e, NULL, &plainly, IMAGE_TO_RUN, errors);
-    char *c = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&c, &length);
-    emit_c(out, p, "x.whirl");
-    fclose(out);
+    derived d = derived_scene(text, "s");
+    derived_expect(&d, message);
+    char *c = derived_written(emit_c, d.image);
     TEST_ASSERT_TRUE_MESSAGE(wanted == number_behind(c, ".steps = UINT64_C("), message);
     const uint64_t numerator = number_behind(c, ".step = {UINT64_C(");
     const uint64_t denominator = number_behind(strstr(c, ".step = {") + 9, "), UINT64_C(");
     TEST_ASSERT_TRUE_MESSAGE((wide)numerator * step->in == (wide)denominator * step->digits,
                              message);
     free(c);
-    image_free(p);
-    equations_free(e);
-    instance_free(inst);
-    model_free(from);
-    diags_free(errors);
+    derived_free(&d);
 }
 
 TEST(counts, counts_are_exact) {

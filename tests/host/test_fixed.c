@@ -21,12 +21,37 @@ typedef struct outcome {
     energy_residual belief;
 } outcome;
 
-static outcome run_of(derived *d, const char *text) {
-    outcome end = {.told = 0};
+/* Result and messages of fixed_plan_make(); `report` to be freed. */
+static fixed_plan *plan_of(const image *im, char **report) {
+    size_t length;
     diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, false, errors);
-    TEST_ASSERT_NOT_NULL_MESSAGE(p, text);
+    fixed_plan *p = fixed_plan_make(im, false, errors);
+    FILE *out = alloc_text(report, &length);
+    diags_flush(errors, out);
+    alloc_text_end(out);
+    diags_free(errors);
+    return p;
+}
+
+/* The image's plan, which it gets; drop() takes it away. */
+static fixed_plan *planned(const derived *d) {
+    char *report;
+    fixed_plan *p = plan_of(d->image, &report);
+    TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
+    free(report);
     d->image->fixed = p;
+    return p;
+}
+
+static void drop(derived *d, fixed_plan *p) {
+    d->image->fixed = NULL;
+    fixed_plan_free(p);
+    derived_free(d);
+}
+
+static outcome run_of(derived *d) {
+    outcome end = {.told = 0};
+    fixed_plan *p = planned(d);
     void *run = engine_fixed.start(d->image);
     books *b = books_open(d->image);
     for (uint64_t k = 0; k <= d->image->steps; k++) {
@@ -42,9 +67,7 @@ static outcome run_of(derived *d, const char *text) {
     engine_fixed.state(run, end.angle, end.real);
     books_close(b);
     engine_fixed.stop(run);
-    d->image->fixed = NULL;
-    fixed_plan_free(p);
-    diags_free(errors);
+    drop(d, p);
     return end;
 }
 
@@ -65,7 +88,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     char *text = alloc_words("mechanism m\n%s", with);
     derived d = derived_scene(text, "s");
     derived_expect(&d, text);
-    const outcome end = run_of(&d, text);
+    const outcome end = run_of(&d);
     const double span = 2.0 * value;
     const double where = kind == 1 ? end.angle[0] : end.real[0];
     /* a start and an input are each rounded once, too */
@@ -79,7 +102,6 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, end.told, text);
         ++*quiet;
     }
-    derived_free(&d);
     free(text);
     free(with);
 }
@@ -118,13 +140,12 @@ TEST(fixed_loss, books_believe_what_is_right) {
                 mass, spring);
             derived d = derived_scene(text, "s");
             derived_expect(&d, text);
-            const outcome end = run_of(&d, text);
+            const outcome end = run_of(&d);
             if (fabs(end.real[0] - cos(5.0 * w)) < 1e-5) {
                 TEST_ASSERT_FALSE_MESSAGE(energy_residual_lost(&end.belief, ENERGY_RESIDUAL_LIMIT),
                                           text);
                 right++;
             }
-            derived_free(&d);
             free(text);
         }
     }
@@ -250,12 +271,7 @@ static double bound_of(const fixed_plan *p, int i) {
 static void check_beside_double(const derived *d, bool declared, const char *text) {
     double fixed[2 * MOST];
     double exact[2 * MOST];
-    diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, false, errors);
-    diags_flush(errors, stderr);
-    diags_free(errors);
-    TEST_ASSERT_NOT_NULL_MESSAGE(p, text);
-    d->image->fixed = p;
+    fixed_plan *p = planned(d);
     for (int i = 0; i < d->image->reals + d->image->inputs; i++) {
         TEST_ASSERT_EQUAL_INT(declared, p->declared[i]);
     }
@@ -273,12 +289,11 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
 
 static void check_saturation(const derived *d, const char *text) {
     double end[2 * MOST];
-    diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, false, errors);
-    const int refused = diags_count(errors);
-    diags_free(errors);
+    char *report;
+    fixed_plan *p = plan_of(d->image, &report);
+    TEST_ASSERT_TRUE_MESSAGE((p == NULL) == (report[0] != '\0'), report);
+    free(report);
     if (p == NULL) { /* it may start outside */
-        TEST_ASSERT_TRUE_MESSAGE(refused > 0, text);
         return;
     }
     d->image->fixed = p;
@@ -329,16 +344,9 @@ TEST(fixed_runs, made_up_mechanisms) {
 
 static void check_refused(const char *text, const char *why) {
     char *report;
-    size_t length;
     derived d = derived_scene(text, "s");
     derived_expect(&d, text);
-    diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d.image, false, errors);
-    FILE *out = alloc_text(&report, &length);
-    diags_flush(errors, out);
-    alloc_text_end(out);
-    diags_free(errors);
-    TEST_ASSERT_NULL_MESSAGE(p, text);
+    TEST_ASSERT_NULL_MESSAGE(plan_of(d.image, &report), text);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, why), report);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, "hint: "), report);
     free(report);
@@ -425,18 +433,6 @@ TEST(fixed_runs, ranges_in_the_language) {
 /* === fixed ranges ============================================================================ */
 /* Ranges and steps of all sizes in fixed point: planning ends, with a step or with a refusal whose
  * hint helps. Coordinates without acceleration still move. */
-
-/* Result and messages of fixed_plan_make(); `report` to be freed. */
-static fixed_plan *plan_of(const image *im, char **report) {
-    size_t length;
-    diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(im, false, errors);
-    FILE *out = alloc_text(report, &length);
-    diags_flush(errors, out);
-    alloc_text_end(out);
-    diags_free(errors);
-    return p;
-}
 
 static bool is_made(const image *im) {
     char *report;
@@ -562,20 +558,15 @@ TEST(fixed_ranges, what_has_no_acceleration_moves) {
             char *text = alloc_words("mechanism m\n%s; step %d [us]; until 2 [s] }\n", with,
                                      (int[]){50, 100, 500, 1000, 5000, 20000}[i % 6]);
             derived d = derived_scene(text, "s");
-            char *report;
             derived_expect(&d, text);
-            fixed_plan *p = plan_of(d.image, &report);
-            TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
-            d.image->fixed = p;
+            fixed_plan *p = planned(&d);
             run_to_end(d.image, angle, real);
             const double end = kinds[k].at < 0 ? angle[0] : real[kinds[k].at];
             const double expected = kinds[k].moves ? value * until_s : value;
             TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(
                 range_bound_of(p, kinds[k].at, kinds[k].rate, until_s) + 1e-9 * value, expected,
                 end, text);
-            fixed_plan_free(p);
-            derived_free(&d);
-            free(report);
+            drop(&d, p);
             free(text);
             free(with);
         }
@@ -586,18 +577,13 @@ TEST(fixed_ranges, what_has_no_acceleration_moves) {
  * declared. */
 TEST(fixed_ranges, small_swings) {
     for (int power = -7; power <= 0; power++) {
-        char *report;
         char *text = alloc_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
                                  "V = -2.3544 [J]*cos(th)\nF = 0.02 [N*m*s]*th'^2\n"
                                  "scene s { start th = %.9g [rad]; step 1 [ms]; until 2 [s] }\n",
                                  pow(10.0, power));
         derived d = derived_scene(text, "s");
         derived_expect(&d, text);
-        fixed_plan *p = plan_of(d.image, &report);
-        TEST_ASSERT_NOT_NULL_MESSAGE(p, report);
-        fixed_plan_free(p);
-        derived_free(&d);
-        free(report);
+        drop(&d, planned(&d));
         free(text);
     }
 }
@@ -731,24 +717,11 @@ static void engine_write_mechanism(char *text, int which) {
     }
 }
 
-static fixed_plan *planned(derived *d, const char *text) {
+static fixed_plan *begin(derived *d, int which, char *text) {
+    engine_write_mechanism(text, which);
     *d = derived_scene(text, "s");
     derived_expect(d, text);
-    diags *errors = diags_new();
-    fixed_plan *p = fixed_plan_make(d->image, false, errors);
-    if (p == NULL) {
-        diags_flush(errors, stdout);
-    }
-    diags_free(errors);
-    TEST_ASSERT_NOT_NULL_MESSAGE(p, text);
-    d->image->fixed = p;
-    return p;
-}
-
-static void drop(derived *d, fixed_plan *p) {
-    d->image->fixed = NULL;
-    fixed_plan_free(p);
-    derived_free(d);
+    return planned(d);
 }
 
 /* Angles, then reals. */
@@ -783,8 +756,7 @@ TEST(engine_fixed, steps) {
         for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
             static char text[ENGINE_TEXT_SIZE];
             derived d;
-            engine_write_mechanism(text, which);
-            fixed_plan *p = planned(&d, text);
+            fixed_plan *p = begin(&d, which, text);
             const image *im = d.image;
             void *fixed = engine_fixed.start(im);
             void *exact = engine_double.start(im);
@@ -821,8 +793,7 @@ TEST(engine_fixed, outputs_and_inputs) {
         double output[4];
         double is[ENGINE_MOST];
         const int which = (int)(c % ENGINE_KINDS);
-        engine_write_mechanism(text, which);
-        fixed_plan *p = planned(&d, text);
+        fixed_plan *p = begin(&d, which, text);
         const image *im = d.image;
         void *run = engine_fixed.start(im);
         for (int k = 0; k < 5; k++) {
@@ -858,8 +829,7 @@ TEST(engine_fixed, asked) {
     for (unsigned c = 0; c < dice_cases(usual_or(5, 5)); c++) {
         static char text[ENGINE_TEXT_SIZE];
         derived d;
-        engine_write_mechanism(text, (int)(c % ENGINE_KINDS));
-        fixed_plan *p = planned(&d, text);
+        fixed_plan *p = begin(&d, (int)(c % ENGINE_KINDS), text);
         void *one = engine_fixed.start(d.image);
         void *other = engine_fixed.start(d.image);
         for (int k = 0; k < 10; k++) {
