@@ -183,36 +183,4 @@ TEST(asked_first, generated_mechanisms) {
     expect_none(wanted);
 }
 
-/* Derives one scene while all other scenes of the program are derived and alive. */
-TEST(asked_first, among_others) {
-    static derived others[3];
-    char *text = NULL;
-    size_t size = 0;
-    const char *const names[] = {"thomson_b", "carriage_stop", "laskowitz_uneven"};
-    char *alone[3];
-    for (int i = 0; i < 3; i++) {
-        others[i] = derived_builtin(names[i]);
-        derived_expect(&others[i], names[i]);
-    }
-    for (int i = 0; i < 3; i++) {
-        FILE *out = open_memstream(&text, &size);
-        emit_c(out, others[i].image, "others.whirl");
-        fclose(out);
-        alone[i] = text;
-    }
-    for (int i = 0; i < 3; i++) {
-        derived again = derived_builtin(names[i]);
-        FILE *out = open_memstream(&text, &size);
-        emit_c(out, again.image, "others.whirl");
-        fclose(out);
-        TEST_ASSERT_EQUAL_STRING(alone[i], text);
-        free(text);
-        derived_free(&again);
-    }
-    for (int i = 0; i < 3; i++) {
-        free(alone[i]);
-        derived_free(&others[i]);
-    }
-}
-
 SUITE(asked_first) { printf("asked_first: seed %" PRIu64 "\n", seed); }

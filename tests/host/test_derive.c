@@ -158,29 +158,6 @@ TEST(derive, power_balances_in_every_mechanism) {
     }
 }
 
-/* The bound has two sides: after a lower cost, check that nothing was lost and enter the new cost here. */
-static void expect_cost(const char *name, int at_least, int at_most, int waves) {
-    derived d = derived_builtin(name);
-    derived_expect(&d, name);
-    const int operations = op_list_operations(d.image->list[IMAGE_STEP]);
-    printf("  %s: %d operations, %d sine pairs\n", name, operations,
-           op_list_count(d.image->list[IMAGE_STEP]).waves);
-    TEST_ASSERT_TRUE_MESSAGE(operations >= at_least && operations <= at_most, name);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(waves, op_list_count(d.image->list[IMAGE_STEP]).waves, name);
-    derived_free(&d);
-}
-
-TEST(derive, right_hand_sides_stay_small) {
-    expect_cost("thomson_a", 50, 54, 2);
-    expect_cost("thomson_a_conserved", 49, 53, 2);
-    expect_cost("epicyclic_from_rest", 8, 14, 1);
-    expect_cost("epicyclic_conserved", 6, 8, 1); /* twice the angle, and nothing of the carriage */
-    expect_cost("thomson_plane_conserved", 25, 38, 2);
-    expect_cost("driven_hinge_from_rest", 10, 20, 1);
-    expect_cost("spherical_flight", 25, 40, 1);
-    expect_cost("two_mass_relative", 8, 20, 0);
-}
-
 TEST(derive, large_but_tame_expressions_are_derived) {
     derived d = derived_text("mechanism m\ncoordinate a\ncoordinate b\ncoordinate c\ncoordinate d\n"
                              "coordinate e\nT = 1 [kg*m^2]*(a'^2 + b'^2 + c'^2 + d'^2 + e'^2)/2\n"

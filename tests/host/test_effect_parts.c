@@ -195,23 +195,7 @@ static derived derive_with(const int *giver, unsigned with) {
         }
     }
     strcat(text, "with ledger\nstart q0 = 0.1 [m]\n}\n");
-    derived d = {0};
-    diags *errors = diags_new();
-    d.model = model_parse("t.whirl", text, strlen(text), errors);
-    if (d.model != NULL) {
-        d.instance = instance_make(d.model->mechanisms[0], d.model->scenes[0], NULL, errors);
-        d.equations = d.instance == NULL ? NULL : equations_derive(d.instance, errors);
-        d.image = d.equations == NULL
-                      ? NULL
-                      : image_make(d.equations, NULL, &plainly, IMAGE_TO_RUN, errors);
-    }
-    size_t size = 0;
-    FILE *out = open_memstream(&d.errors, &size);
-    TEST_ASSERT_NOT_NULL(out);
-    diags_flush(errors, out);
-    fclose(out);
-    diags_free(errors);
-    return d;
+    return derived_scene(text, "s");
 }
 
 TEST(effect_parts, inertia_of_effects) {
@@ -241,19 +225,6 @@ TEST(effect_parts, inertia_of_effects) {
             derived_free(&d);
         }
     }
-}
-
-/* Without any T the mechanism itself is wrong. */
-TEST(effect_parts, no_inertia_anywhere) {
-    derived d =
-        derived_text("mechanism m\ncoordinate x [m]\nV = 1 [N]*x\neffect e { V += 1 [N]*x }\n");
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "mechanism 'm' has no kinetic energy T"),
-                                 d.errors);
-    derived_free(&d);
-    d = derived_text("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nV = 1 [N]*x\n"
-                     "effect e { T += 1 [kg]*x'^2/2 }\n");
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "hint: the effect 'e' gives it one"), d.errors);
-    derived_free(&d);
 }
 
 /* --- noise and inputs of effects -------------------------------------------------------------- */

@@ -144,41 +144,6 @@ TEST(function_rows, operations) {
     }
 }
 
-/* An energy's force at the end of the whole chain: a lost derivative shows here. */
-TEST(function_rows, forces) {
-    uint64_t seed = SEED + 2;
-    for (int f = 0; f < FUNCTIONS; f++) {
-        char text[400];
-        snprintf(text, sizeof text,
-                 "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nparameter a = 1 [m]\n"
-                 "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 1 [J]*%s(x/a%s)\n",
-                 name(f), of_two(f) ? ", y/a" : "");
-        derived d = derived_text(text);
-        derived_expect(&d, text);
-        int compared = 0;
-        for (int i = 0; i < places() / 4; i++) {
-            state_values s = {.instance = d.instance};
-            s.value[0][0] = random_between(&seed, -2.0, 2.0);
-            s.value[1][0] = random_between(&seed, -2.0, 2.0);
-            double accel[2];
-            derived_run(d.image->list[IMAGE_STEP], &d, &s, accel);
-            for (int which = 0; which < 2; which++) {
-                const bool counts = which < function_arguments(at(f));
-                const double x = s.value[0][0];
-                const double y = s.value[1][0];
-                const double slope = counts ? number_slope(at(f), which, x, y) : 0.0;
-                if (isfinite(slope)) {
-                    expect_near(f, -slope, accel[d.image->place[which]],
-                                1e-13 * (1.0 + fabs(slope)), x, y);
-                    compared++;
-                }
-            }
-        }
-        TEST_ASSERT_TRUE_MESSAGE(compared > places() / 10, name(f));
-        derived_free(&d);
-    }
-}
-
 static bool accepted(const char *dimensions, const char *call) {
     char text[400];
     snprintf(text, sizeof text,

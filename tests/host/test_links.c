@@ -9,6 +9,7 @@ typedef struct links {
     int n;
     double mass[LINKS_MOST];   /* kg, at the end of each rod */
     double length[LINKS_MOST]; /* m */
+    double torque[LINKS_MOST]; /* N m, on each link */
 } links;
 
 /* Angles are measured from hanging straight down. Each link adds its own speed and height to those of the link above. */
@@ -21,6 +22,7 @@ static char *written(const links *of) {
         fprintf(out, "coordinate a%d [rad]\n", k);
         fprintf(out, "parameter m%d = %.17g [kg]\n", k, of->mass[k]);
         fprintf(out, "parameter l%d = %.17g [m]\n", k, of->length[k]);
+        fprintf(out, "input M%d = %.17g [N*m]\nQ(a%d) = M%d\n", k, of->torque[k], k, k);
     }
     fputs("let x0 = l0*a0'*cos(a0)\nlet y0 = l0*a0'*sin(a0)\nlet h0 = -l0*cos(a0)\n", out);
     for (int k = 1; k < of->n; k++) {
@@ -53,7 +55,8 @@ static void by_hand(const links *of, const state_values *s, long double *accel) 
     }
     for (int i = 0; i < of->n; i++) {
         const long double angle = (long double)s->value[i][0];
-        m[i][of->n] = -below[i] * (long double)GRAVITY * length[i] * sinl(angle);
+        m[i][of->n] =
+            (long double)of->torque[i] - below[i] * (long double)GRAVITY * length[i] * sinl(angle);
         for (int j = 0; j < of->n; j++) {
             const long double between = angle - (long double)s->value[j][0];
             const long double rate = (long double)s->value[j][1];
@@ -73,6 +76,7 @@ TEST(links, pendulums_of_so_many_links) {
         for (int k = 0; k < n; k++) {
             of.mass[k] = random_between(&seed, 0.2, 2.0);
             of.length[k] = random_between(&seed, 0.1, 0.5);
+            of.torque[k] = random_between(&seed, -3.0, 3.0);
         }
         char *text = written(&of);
         derived d = derived_text(text);

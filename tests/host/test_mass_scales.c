@@ -1,5 +1,5 @@
 /* test_mass_scales.c: singular mass matrices must be found independently of units and mass ratios. Generated
- * matrices, alone and as mechanisms, are compared with exact-order elimination in long double. */
+ * mechanisms are compared with elimination in long double. Matrices alone: test_rank.c. */
 #include "command.h"
 #include "derived.h"
 
@@ -197,52 +197,5 @@ TEST(mass_scales, one_speed_through_sines_is_refused) {
         TEST_ASSERT_NULL_MESSAGE(d.image, text);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, "singular mass matrix"), d.errors);
         derived_free(&d);
-    }
-}
-
-/* For any scales D and E, D A D and D A E have the rank of A. */
-TEST(mass_scales, scales_do_not_change_the_rank) {
-    uint64_t seed = 1969;
-    const int all = cases(4000);
-    for (int i = 0; i < all; i++) {
-        const int n = 1 + (int)(random_bits(&seed) % MOST);
-        const int rank = (int)(random_bits(&seed) % (unsigned)(n + 1));
-        const bool symmetric = i % 2 == 0;
-        double left[ROOM] = {0};
-        double right[ROOM] = {0};
-        double m[ROOM] = {0};
-        double error[ROOM] = {0};
-        double row[MOST];
-        double column[MOST];
-        for (int k = 0; k < n; k++) {
-            row[k] = pow(10.0, random_between(&seed, -7.0, 7.0));
-            column[k] = symmetric ? row[k] : pow(10.0, random_between(&seed, -7.0, 7.0));
-            for (int j = 0; j < n; j++) { /* unit triangles: well conditioned enough */
-                left[k * n + j] = j < k ? random_between(&seed, -0.5, 0.5) : j == k ? 1.0 : 0.0;
-                right[k * n + j] = j < k ? random_between(&seed, -0.5, 0.5) : j == k ? 1.0 : 0.0;
-            }
-        }
-        for (int k = 0; k < n; k++) {
-            for (int j = 0; j < n; j++) {
-                for (int h = 0; h < rank; h++) {
-                    m[k * n + j] += left[k * n + h] * (symmetric ? left : right)[j * n + h];
-                }
-                m[k * n + j] *= row[k] * column[j];
-            }
-        }
-        TEST_ASSERT_EQUAL_INT(rank, rank_of(m, error, n, symmetric));
-    }
-    printf("  %d matrices from seed 1969\n", all);
-}
-
-TEST(mass_scales, a_pivot_within_the_errors_is_none) {
-    for (int power = -10; power <= 10; power += 5) {
-        const double scale = pow(10.0, power);
-        double m[4] = {1.0, scale, scale, scale * scale * (1.0 + 1e-9)};
-        double error[4] = {1e-12, 0.0, 0.0, 1e-12 * scale * scale};
-        TEST_ASSERT_EQUAL_INT(2, rank_of(m, error, 2, true));
-        double again[4] = {1.0, scale, scale, scale * scale * (1.0 + 1e-9)};
-        double coarse[4] = {1e-8, 0.0, 0.0, 1e-8 * scale * scale};
-        TEST_ASSERT_EQUAL_INT(1, rank_of(again, coarse, 2, true));
     }
 }

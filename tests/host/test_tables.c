@@ -69,25 +69,6 @@ TEST(tables, tables_are_as_near_as_they_say) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(9, each_builtin_scene(check_scene));
 }
 
-/* With twice the cells, the error is divided by 4 (linear) or 16 (cubic). */
-TEST(tables, errors_of_tables_fall_by_their_order) {
-    derived d = derived_builtin("epicyclic_from_rest");
-    for (int f = 0; f < FORMS; f++) {
-        for (int cells = 64; cells < 512; cells *= 2) {
-            image *coarse = tabled_surely(&d, both[f], cells);
-            image *fine = tabled_surely(&d, both[f], 2 * cells);
-            for (int k = 0; k < coarse->list[IMAGE_STEP]->tables.count; k++) {
-                const double ratio =
-                    coarse->list[IMAGE_STEP]->tables.off[k] / fine->list[IMAGE_STEP]->tables.off[k];
-                TEST_ASSERT_DOUBLE_WITHIN(f == 0 ? 0.5 : 4.0, f == 0 ? 4.0 : 16.0, ratio);
-            }
-            image_free(coarse);
-            image_free(fine);
-        }
-    }
-    derived_free(&d);
-}
-
 static double piece(const op_list_tables *t, int k, int cell, double y, int derivative) {
     const double *c = &t->number[((cell & ((1 << t->bits) - 1)) * t->count + k) * t->terms];
     double value = 0.0;
