@@ -1,12 +1,12 @@
-/* beside.h: comparison of a `whirl prove` tube (host/prove/containment.h) with a 113-bit reference, record by
- * record. */
+/* beside.h: compares a proved enclosure of a motion (a tube, host/prove/containment.h) with a 113-bit reference, record
+ * by record. */
 #ifndef TESTS_HOST_BESIDE_H
 #define TESTS_HOST_BESIDE_H
 
 #include "host/prove/containment.h"
 #include "quad_arms.h"
 
-/* The reference, integrated along with the tube, and the result of the comparison. */
+/* The reference, integrated together with the tube, and the result of the comparison. */
 typedef struct beside {
     quad_slopes *slopes;
     const void *of;

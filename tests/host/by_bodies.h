@@ -1,4 +1,5 @@
-/* by_bodies.h: bodies on a line in long double. Quantities of two bodies are never added. */
+/* by_bodies.h: motion of bodies on a line in long double, each in absolute coordinates, so that quantities of two
+ * bodies are never added. */
 #ifndef TESTS_HOST_BY_BODIES_H
 #define TESTS_HOST_BY_BODIES_H
 
@@ -16,7 +17,7 @@ typedef struct by_bodies {
     int steps;
     /* Computes the slopes of the rates. */
     void (*accelerate)(const void *of, const bodies_state *s, long double *a_mps2);
-    /* Converts these places to the scene's coordinates. */
+    /* Converts these positions to the scene's coordinates. */
     void (*count)(const void *of, const long double *x_m, long double *q_m);
 } by_bodies;
 

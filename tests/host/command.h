@@ -15,7 +15,7 @@ typedef struct said {
 /* Runs `command` (command_run, ...) on the words, which end with NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
-/* The exit status that follows from the messages of `whirl run` or `whirl sweep`: 1 after a warning of a finding. */
+/* The exit status that `whirl run` or `whirl sweep` must have after these messages: 1 after a warning of a finding. */
 int said_owes(const char *err);
 
 /* A step as a warning writes it, "200us", in s. */

@@ -1,5 +1,5 @@
-/* contacts.h: shared code for suites of scenes with contacts. References come from event location by another program
- * (tests/reference/contacts.txt, made by contacts.py). */
+/* contacts.h: helpers of suites of scenes with contacts. Their references are computed by contacts.py, which locates
+ * the events (tests/reference/contacts.txt). */
 #ifndef TESTS_CONTACTS_H
 #define TESTS_CONTACTS_H
 
@@ -11,7 +11,7 @@ double contacts_reference(const char *scene, const char *at, const char *name);
 /* Largest error of `m` at `time`, over all coordinates and rates; SI. */
 double contacts_error(const motion *m, const char *scene, const char *time);
 
-/* Events since the start, including steps with more events than the core takes. */
+/* Events since the start, including those of steps with more events than are logged. */
 uint64_t contacts_events(const motion *m);
 uint64_t contacts_overruns(const motion *m);
 

@@ -5,8 +5,8 @@
 
 #include "test.h"
 
-/* Writes one to `text`, reproducible by its seed. Returns the scale of its energy balance: the energy at the start
- * without gravity and springs at rest, J. `step_s` and `until_s` go into its scene. */
+/* Writes a mechanism to `text`; the same seed gives the same text. Returns the scale of its energy balance: the energy
+ * at the start without gravity and springs at rest, J. `step_s` and `until_s` go into its scene. */
 double curved_text(uint64_t seed, double step_s, double until_s, char *text, size_t size);
 
 #endif

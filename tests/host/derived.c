@@ -26,7 +26,7 @@ static const mechanism *mechanism_called(const whirl_model *m, const char *name)
     return NULL;
 }
 
-/* `name` NULL: the first mechanism. Takes ownership of `all`. */
+/* Derives the mechanism `name`, or the first if `name` is NULL. Takes ownership of `all`. */
 static derived derive_model(whirl_model *m, const char *name, diags *all) {
     derived d = {.model = m};
     if (m != NULL) {
@@ -46,7 +46,7 @@ static derived derive_model(whirl_model *m, const char *name, diags *all) {
     diags_flush(all, out);
     fclose(out);
     diags_free(all);
-    /* a refusal and an error always come together */
+    /* a derivation fails if and only if it reports an error */
     TEST_ASSERT_TRUE_MESSAGE((d.image == NULL) == (strstr(d.errors, "error: ") != NULL), d.errors);
     return d;
 }

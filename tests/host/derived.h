@@ -14,7 +14,7 @@ typedef struct derived {
     equations *equations; /* NULL after a refusal */
     image *image;         /* NULL after a refusal */
     char *errors;         /* "" without errors */
-    char *text;           /* text of derived_file(), into which source places point; else NULL */
+    char *text;           /* text of derived_file(), to which source places point; else NULL */
 } derived;
 
 /* The report on a text, "" if the language accepts it; overwritten by the next call. Nothing is derived. */
@@ -35,7 +35,7 @@ void derived_free(derived *d);
 /* Fails the test with the errors after a refusal. */
 void derived_expect(const derived *d, const char *what);
 
-/* The component of the state that is this derivative of unknown `name`. Fails the test without one. */
+/* The index of the component that is this derivative of unknown `name`. Fails the test if there is none. */
 int derived_component(const image *im, const char *name, int primes);
 
 /* Capacity of a state_values: coordinates, and derivatives of each with the value. */
@@ -53,7 +53,7 @@ double state_value(void *context, const symbol *sym, int primes);
 /* Residual of equation i with these accelerations: M q'' - force. *size is the sum of the absolute terms, plus 1. */
 double derived_rest(const derived *d, state_values *s, const double *accel, int i, double *size);
 
-/* A random state: lengths are positive and angles stay away from poles, to avoid singular points. */
+/* Draws a state with positive lengths, and angles far from poles, to avoid singular points. */
 void random_state(state_values *s, const derived *d, uint64_t *seed);
 
 /* Evaluates a list of the image at a state: result[t->results]. */
@@ -63,7 +63,7 @@ void derived_run(const op_list *t, const derived *d, const state_values *s, doub
 void derived_run_known(const op_list *t, const derived *d, const state_values *s, double *result,
                        double *off);
 
-/* The output of one of host/emit's writers for an image of x.whirl; to be freed. */
+/* The output of a writer of host/emit for an image of x.whirl; to be freed. */
 char *derived_written(void (*write)(FILE *out, const image *im, const char *file), const image *im);
 
 /* The Octave form as `whirl derive` writes it, with its contacts in words. */
@@ -73,7 +73,7 @@ void derived_octave(FILE *out, const derived *d, const char *file, bool folded);
 uint64_t random_bits(uint64_t *seed);
 double random_between(uint64_t *seed, double low, double high);
 
-/* `front`, then `piece` repeated with its number (up to twice in it), then `tail`. */
+/* Builds the text `front`, then `piece` repeated with its number (at most two %d), then `tail`. */
 char *repeated(const char *front, const char *piece, int times, const char *tail);
 
 /* x of A x = b by elimination with pivots: a has n rows of `width` numbers, of which the first n are A and the next is b.

@@ -110,7 +110,7 @@ static bool meets(const drawn *b, const int *which, const double *from, double *
     return true;
 }
 
-/* A stop has the cases 0 and 1, a friction 0, 1 and -1, a hold 0. */
+/* The next case of a contact: a stop has the cases 0 and 1, a friction 0, 1 and -1, a hold 0. */
 static int next_case(char kind, int which) {
     if (kind == 'h') {
         return 0;
@@ -121,7 +121,7 @@ static int next_case(char kind, int which) {
     return which == 1 ? -1 : which + 1;
 }
 
-/* Finds the only case that meets the conditions. False if contact rows depend on each other. */
+/* Finds the only case that meets the conditions. Returns false if contact rows are linearly dependent. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x) {
     int which[DRAWN_CONTACTS] = {0};
     for (;;) {
@@ -130,7 +130,7 @@ bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x)
         }
         int k = 0;
         for (; k < b->contacts;
-             k++) { /* count up: the next case of k, then the next contact from 0 */
+             k++) { /* counts: the next case of contact k, or else 0 and the next contact */
             which[k] = next_case(b->contact[k].kind, which[k]);
             if (which[k] != 0) {
                 break;
@@ -238,7 +238,7 @@ static void draw_mass(drawn *b, uint64_t *seed) {
     }
 }
 
-/* Every third row has one coordinate. A row is never zero. */
+/* Draws a nonzero row; every third has only one coordinate. */
 void drawn_row(const drawn *b, uint64_t *seed, double *row) {
     const bool one = random_bits(seed) % 3U == 0;
     for (int i = 0; i < b->n; i++) {

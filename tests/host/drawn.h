@@ -1,5 +1,5 @@
-/* drawn.h: random mechanisms with constant mass matrix and loads, as text. All contacts act at one moment. Trying every
- * case yields the solution by the contact laws. */
+/* drawn.h: random mechanisms with constant mass matrix and loads, as text. All contacts act at one moment, and trying
+ * every case of the contact laws gives the solution. */
 #ifndef TESTS_DRAWN_H
 #define TESTS_DRAWN_H
 
@@ -9,7 +9,7 @@
 
 enum { DRAWN_MOST = 4, DRAWN_CONTACTS = 6 };
 
-/* The step of their scenes, s. */
+/* The step of these scenes, s. */
 #define DRAWN_STEP_S (1.0 / 1024.0)
 
 typedef struct drawn_contact {
@@ -38,7 +38,7 @@ drawn drawn_body(uint64_t *seed);
 double drawn_whole(uint64_t *seed, int least, int most);
 /* Adds a contact of this kind. */
 drawn_contact *drawn_add(drawn *b, char kind);
-/* A nonzero integer row; every third has one coordinate. */
+/* Draws a nonzero integer row; every third has only one coordinate. */
 void drawn_row(const drawn *b, uint64_t *seed, double *row);
 void drawn_row_at_rest(const drawn *b, uint64_t *seed, double *row);
 
@@ -50,9 +50,9 @@ void drawn_open(motion *m, const drawn *b, const engine_kind *kind);
 
 /* Solves for x (rates or accelerations) and lambda in x = from + M^-1 J^T lambda. A hold has J x = target. A stop has
  * lambda >= 0, J x >= target, and equality in one of them. A friction has |lambda| <= limit; at the limit, J x points
- * against it. False if contact rows depend on each other. */
+ * against it. Returns false if contact rows are linearly dependent. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x);
-/* Are the contact rows independent? Only then is each contact's force determined. */
+/* Are the contact rows linearly independent? Only then are the forces unique. */
 bool drawn_independent(const drawn *b);
 
 #endif

@@ -34,7 +34,7 @@ typedef enum drawn_kind {
 
 typedef struct drawn_step {
     drawn_kind kind;
-    int left; /* the first steps are the variables */
+    int left; /* the first steps are the variables; otherwise the first operand */
     int right;
     double number;
 } drawn_step;
@@ -51,7 +51,7 @@ static inline long double complex drawn_complex(long double real, long double im
     return real + imaginary * (long double complex)I;
 }
 
-/* Uses every kind. Values stay moderate near x[DRAWN_VARIABLES]. */
+/* Draws an expression with every kind of step. Its values stay moderate near x[DRAWN_VARIABLES]. */
 void drawn_graph_draw(drawn_graph *d, dice *die, const double *x);
 /* Adds the expression's nodes to an empty graph: made[DRAWN_STEPS]. The variables are nodes 0 to DRAWN_VARIABLES - 1. */
 void drawn_graph_nodes(const drawn_graph *d, graph *g, int *made);

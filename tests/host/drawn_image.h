@@ -21,7 +21,7 @@ typedef struct drawn_image {
  * column in half of the cases. Its first entries are the start as well. The texts belong to the program. */
 void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix);
 
-/* The name of a column in text[40]: "theta'" of a component, "M" of an input after them. */
+/* The name of a column in text[40]: "theta'" for a component; the inputs follow the components. */
 const char *drawn_image_name(const drawn_image *d, int column, char *text);
 const char *drawn_image_unit(const drawn_image *d, int column);
 

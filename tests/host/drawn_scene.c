@@ -47,7 +47,7 @@ static place draw_place(dice *die) {
     }
     const size_t behind = strcspn(file_text + offset, "\n");
     size_t indent = strspn(file_text + offset, " \t");
-    if (line == 5) { /* the statement after the brace */
+    if (line == 5) { /* the statement on the line after the brace */
         indent = strlen("scene s { ");
     }
     return (place){&file, line, 1 + (int)dice_one_of(die, 40),
@@ -295,7 +295,8 @@ const char *const drawn_scene_roles[IMAGE_ROLES] = {"step",   "observe", "books"
 int drawn_scene_numbers(const image *im) {
     int numbers = im->reals + im->inputs + im->held;
     numbers += im->settings.compensated ? im->angles + im->reals : 0;
-    if (im->ledger.kept) { /* entries have carries; accounts a start and correction; inputs */
+    if (im->ledger.kept) {
+        /* each entry has a carry; each account a start and a correction; then the inputs */
         numbers += 2 * (im->ledger.entries + im->ledger.accounts) + im->ledger.inputs;
     }
     return numbers;

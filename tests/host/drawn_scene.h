@@ -1,5 +1,5 @@
-/* drawn_scene.h: a random image with everything that is written of one: names, units, starts, contacts, accounts,
- * tables and lists of operations. For tests of writers and descriptions; it is never stepped and its numbers have no
+/* drawn_scene.h: a random image with everything that writers write: names, units, starts, contacts, accounts, tables
+ * and lists of operations. For tests of writers and descriptions; it is never stepped and its numbers have no
  * meaning. */
 #ifndef TESTS_HOST_DRAWN_SCENE_H
 #define TESTS_HOST_DRAWN_SCENE_H
@@ -13,7 +13,7 @@ enum {
     SCENE_FEW = 3, /* inputs, outputs, parameters, effects, tables */
     SCENE_CONTACTS = 5,
     SCENE_SETS = 4,
-    SCENE_ROWS = 6, /* continuous accounts of the energy balance */
+    SCENE_ROWS = 6, /* rows of the energy balance that change continuously */
     SCENE_OPS = 260,
     SCENE_RESULTS = 64,
     SCENE_TERMS = 4,
@@ -50,7 +50,7 @@ typedef struct drawn_scene {
     image_entry entry[SCENE_ROWS];
     int account_of[1 + SCENE_UNKNOWNS];
     int booked[SCENE_FEW];
-    double entries[SCENE_STATES * (SCENE_STATES + SCENE_FEW + 1)]; /* of a matrix */
+    double entries[SCENE_STATES * (SCENE_STATES + SCENE_FEW + 1)]; /* entries of a matrix */
     double number[SCENE_FEW * SCENE_TERMS << SCENE_BITS];
     double size[SCENE_FEW];
     double off[SCENE_FEW];
@@ -68,7 +68,8 @@ enum {
     TAKES_SUMS = 32 /* only sums of states and inputs */
 };
 
-/* A list with `results` results. In one case of six its length is near a limit at which the writer changes its form. */
+/* A list with `results` results. In one case of six its length is near a limit above which the writer changes the form
+ * of the code. */
 void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, unsigned takes);
 
 /* Draws every kind of scene: first and second order, contacts, energy balance, tables, matrix. */

@@ -7,7 +7,8 @@ static bool is_value(const op *o) {
     return kind != OP_IS_PHASE && kind != OP_IS_CELL;
 }
 
-/* An operation before number i that has a value, or has this kind; -1 without one. */
+/* The index of a random operation before number i that has a value and, if `kind` is given, this kind; -1 if there is
+ * none. */
 static int before(dice *die, const scene_list *l, int i, op_kind kind) {
     for (int tries = 0; tries < 40; tries++) {
         const int a = (int)dice_one_of(die, (unsigned)i);

@@ -1,5 +1,5 @@
-/* drawn_talk.h: a random exchange between a firmware and its host, as a line and as a tape. On the line, a socket holds
- * all answers before the host asks. */
+/* drawn_talk.h: a random exchange between a firmware and its host, as a line and as a tape. On the line, all answers
+ * are in the socket before the host asks. */
 #ifndef TESTS_HOST_DRAWN_TALK_H
 #define TESTS_HOST_DRAWN_TALK_H
 
@@ -22,7 +22,8 @@ typedef struct drawn_talk {
     uint32_t ticks[TURNS_MOST];
     wh_readings readings[TURNS_MOST];
     wh_orders orders[TURNS_MOST];
-    unsigned remembers[TURNS_MOST]; /* bytes before the orders; 99: absent */
+    /* number of bytes to remember before the orders; 99: no such frame */
+    unsigned remembers[TURNS_MOST];
     uint8_t remembered[TURNS_MOST][WH_REMEMBER_MAX + 8];
 } drawn_talk;
 
@@ -49,8 +50,8 @@ void talk_put_end(stream *s, int status, unsigned length);
 void talk_tape_all(unsigned turns);
 void talk_say_all(unsigned turns);
 
-/* The first puts the firmware's answers on the line as talk_wish asks; after them the line is closed or silent. The
- * second returns the bytes that the firmware received, and ends the line. */
+/* talk_open_line() puts the firmware's answers on the line, as talk_wish describes them; after them the line is closed
+ * or silent. talk_close_line() returns the bytes that the firmware received, and ends the line. */
 void talk_open_line(bool closed);
 void talk_close_line(stream *heard);
 

@@ -1,4 +1,4 @@
-/* evaluated.h: independent evaluation of a list's operations with made-up values of the leaves. */
+/* evaluated.h: independent evaluation of an operation list, with arbitrary values of its leaves. */
 #ifndef TESTS_HOST_EVALUATED_H
 #define TESTS_HOST_EVALUATED_H
 
@@ -9,7 +9,7 @@ enum { EVALUATED_MOST = 2000 };
 /* Value of a leaf, or of an angle for OP_PHASE. Above zero. */
 double evaluated_leaf(op_code code, int which);
 
-/* Computes v[t->count], with t->count <= EVALUATED_MOST. Fails the test if an operation precedes its operand. */
+/* Computes v[t->count], with t->count <= EVALUATED_MOST. Fails the test if an operation comes before its operand. */
 void evaluated(const op_list *t, double *v);
 
 #endif

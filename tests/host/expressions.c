@@ -154,7 +154,7 @@ void expression_write(const expression_names *names, int depth, int tame, uint64
     expression(&w, depth);
 }
 
-/* Writes TEXT with an expression of these names for every %e. */
+/* Writes TEXT, with a random expression of these names in place of each %e. */
 static void filled(writer *w, const expression_names *names, const char *text, int depth) {
     for (; *text != '\0'; text++) {
         if (text[0] == '%' && text[1] == 'e') {
@@ -170,7 +170,8 @@ static void filled(writer *w, const expression_names *names, const char *text, i
 void expression_mechanism(int depth, uint64_t *seed, char *text, size_t size) {
     static const char *const own[] = {"theta1", "x"};
     static const char *const all[] = {"a1", "n_1", "mass_of_it", "Omega_", "x__2", "y1"};
-    const expression_names constant = {own, 2, 0, all, 3}; /* no inputs: they change T's inertia */
+    /* without inputs, which would change the inertia */
+    const expression_names constant = {own, 2, 0, all, 3};
     const expression_names still = {own, 2, 0, all, 6};
     const expression_names force = {own, 2, 1, all, 6};
     writer w = {&still, 1, seed, text, size, 0};

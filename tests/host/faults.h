@@ -1,5 +1,5 @@
-/* faults.h: the fault campaign against the rig's controller (`make faults`): random faults, the verdict on a run, the
- * summary. */
+/* faults.h: the fault campaign against the rig's controller (`make faults`): random faults, the verdict on each run,
+ * the summary. */
 #ifndef TESTS_FAULTS_H
 #define TESTS_FAULTS_H
 
@@ -30,7 +30,7 @@ const char *rig_tripped_when(void); /* NOTE=VALUE */
 const char *rig_trip_word(int trip);
 double rig_limit_rpm(void);
 double rig_nominal_rpm(void);
-/* If the drive ignores the voltage in a run at target_rpm: the greatest speed allowed before the enable is off. */
+/* The greatest speed allowed before the enable is off, if the drive ignores the voltage in a run at target_rpm. */
 double rig_caught_rpm(double target_rpm);
 
 /* --- options
@@ -41,8 +41,8 @@ typedef struct campaign {
     const char *firmware;
     const char *board;
     const char *step;
-    const char *only; /* only rows of this word; or NULL */
-    const char *also; /* faults in every run; or NULL */
+    const char *only; /* only faults with this word; or NULL */
+    const char *also; /* faults that are added to every run; or NULL */
     unsigned runs;
     unsigned first;
     uint32_t seed;
@@ -63,22 +63,24 @@ const char *campaign_row_word(unsigned row);
 typedef struct campaign_case {
     unsigned row;
     unsigned stage;
-    uint32_t seed; /* of this run */
+    uint32_t seed; /* seed of this run */
     double target_rpm;
-    bool breaks;      /* there is a fault besides the noise */
-    bool from_start;  /* the fault acts from the start */
-    bool drives;      /* the plant drives more than the controller asks for */
-    bool calibration; /* only calibration can find it: an error of this size is not a lie */
-    bool runs_away;   /* the drive ignores the voltage */
-    bool blind;       /* a sensor is dead */
-    bool delays;      /* delays the controller or its messages, so the watchdog may cut the power */
-    char words[400];  /* arguments of --fault: the fault and the noise of every run */
+    bool breaks;     /* there is a fault besides the noise */
+    bool from_start; /* the fault acts from the start */
+    bool drives;     /* the plant drives more than the controller asks for */
+    /* only calibration can show the fault: a wrong result within this size is accepted */
+    bool calibration;
+    bool runs_away; /* the drive ignores the voltage */
+    bool blind;     /* a sensor is dead */
+    /* the fault delays the controller or its messages, so the watchdog may cut the power */
+    bool delays;
+    char words[400]; /* arguments of --fault: the fault and the noise of every run */
 } campaign_case;
 
-/* Is its fault the only one? */
+/* Is the fault of this case its only one? */
 bool campaign_is_alone(const campaign_case *one);
 
-/* Is there a fault of the requested word for this firmware? */
+/* Does the campaign have any fault with the requested word, for this firmware? */
 bool campaign_has_any(const campaign *c);
 
 void campaign_draw(campaign_case *one, const campaign *c, unsigned i);
@@ -93,7 +95,7 @@ typedef enum outcome {
     OUTCOME_GOOD,
     OUTCOME_DOUBTFUL,
     OUTCOME_REFUSED,
-    OUTCOME_NONE, /* ended without result and trip */
+    OUTCOME_NONE, /* the run ended without result and without trip */
     /* the firmware is silent, or for a minute neither ends the run nor switches the motor off */
     OUTCOME_HANG,
     OUTCOMES
@@ -102,7 +104,8 @@ typedef enum outcome {
 typedef struct run_checks {
     unsigned run;
     unsigned row;
-    int stage; /* stage at the fault's begin; -1: it never began, or was there from the start */
+    /* stage at the begin of the fault; -1: the fault never began, or was there from the start */
+    int stage;
     bool happened;
     outcome outcome;
     int trip;
@@ -110,17 +113,19 @@ typedef struct run_checks {
     bool runs_on;
     /* the enable stayed on for a second, although turns that did not slow down showed a drive */
     bool stays_on;
-    bool untold;     /* no trip within a second of three ever faster turns with the motor off */
-    bool overspeed;  /* caused by the controller */
-    bool cut;        /* by the watchdog, although nothing was late or lost */
+    /* no trip within a second of three turns, each faster than the last, with the motor off */
+    bool untold;
+    bool overspeed;  /* the over-speed was caused by the controller */
+    bool cut;        /* the watchdog cut the power, although nothing was late or lost */
     double turn_rpm; /* the fastest turn */
     double peak_rpm; /* the greatest instantaneous speed */
-    double lie;      /* error of a good result beyond its interval and 1 %, relative to the truth */
-    bool lasting;    /* the drive ignored the voltage for longer than stopping it may take */
+    /* error of a good result beyond its interval and 1 %, relative to the true value */
+    double lie;
+    bool lasting; /* the drive ignored the voltage for longer than stopping it may take */
     double target_rpm;
-    double began_rpm;  /* the speed then */
+    double began_rpm;  /* speed at the begin of the fault */
     double off_s;      /* time from the fault's begin until the enable was off; -1: it stayed on */
-    double caught_rpm; /* the greatest speed until then */
+    double caught_rpm; /* the greatest speed between the fault's begin and the enable's end */
     bool halted;       /* stop was pressed or the controller reset */
     /* time from the stop or reset until the drive ended; -1: it took too long, or drove again */
     double halted_s;
@@ -129,10 +134,10 @@ typedef struct run_checks {
     double time_s;
     uint64_t overruns;
     uint32_t steps[STEP_BINS]; /* histogram of control steps; empty if not counted */
-    double most;               /* largest count of a step */
-    double most_s;             /* its time */
+    double most;               /* largest number of instructions of a step */
+    double most_s;             /* time of that step, s */
     double loop;               /* largest count between two waits: HAL, steps and printing */
-    double start;              /* and before the loop */
+    double start;              /* instructions before the loop */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };
@@ -148,9 +153,9 @@ typedef struct judge {
     const fault_plan *plan;
     double *until_s;
     bool enabled;
-    double enabled_s;   /* time since then */
+    double enabled_s;   /* time since the enable is on */
     double ignored_s;   /* how long the drive has ignored the voltage; -1: it follows the voltage */
-    double off_since_s; /* time of a trip that came with the motor off; -1: no trip */
+    double off_since_s; /* time at which the rig tripped with the motor off; -1: no trip */
     double halted_s;    /* time of the stop or the first reset */
     unsigned resets;    /* resets that the controller reported */
     const plant *plant;
@@ -159,35 +164,36 @@ typedef struct judge {
     bound force;
     double per_count; /* instructions per count; 0: not counted */
     double ticks_per_s;
-    int at_duty; /* index in orders.output; -1: absent */
+    int at_duty; /* index of the duty in orders.output; -1: there is none */
     int at_enable;
     int at_note[HAL_NOTES];
     /* The current turn: */
     double theta;
     double force_N;
     double begun_s;
-    bool whole; /* since its begin, */
-    bool off;   /* and the motor must not drive since */
+    bool whole; /* the turn was observed from its begin, */
+    bool off;   /* and the motor must not drive during all of it */
     true_turn sum;
     double last_s;
     /* Complete turns while the motor must not drive: */
-    double rpm;         /* the last */
-    unsigned on_turns;  /* turns with the enable on throughout */
-    unsigned rises;     /* consecutive faster turns, */
-    double rises_rpm;   /* with this speed first */
-    double on_shown_s;  /* time of a shown drive with the enable on, */
-    double off_shown_s; /* or off; -1: not shown */
+    double rpm;         /* of the last turn */
+    unsigned on_turns;  /* number of turns with the enable on throughout */
+    unsigned rises;     /* number of successive faster turns, */
+    double rises_rpm;   /* speed of the first of them */
+    double on_shown_s;  /* time at which turns showed a drive with the enable on, */
+    double off_shown_s; /* or with the enable off; -1: not shown */
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
     float told[HAL_NOTES];
-    bool driven; /* according to the last orders */
+    bool driven; /* the motor drives, according to the last orders */
     bool has_result;
     bool began;
     double speed_rpm;
     verdict verdict;
 } judge;
 
-/* *until_s: when to end the run. Some time after a trip nothing more can happen, so *until_s becomes the present time. */
+/* *until_s is the end of the run. Some time after a trip nothing more can happen; then *until_s is set to the present
+ * time, which ends the run. */
 tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
 void judge_end(judge *j, const lockstep_report *report);
 

@@ -11,7 +11,7 @@ typedef enum size_drawn {
     NO_SIZE,
     EVEN,   /* uniform from low to high */
     LOG,    /* uniform logarithm */
-    EITHER, /* uniform logarithm, either sign */
+    EITHER, /* uniform logarithm, random sign */
     WHOLE,
     ONE_OF_INERTIA
 } size_drawn;
@@ -23,12 +23,13 @@ enum {
     CALIBRATION = 4,
     COUNTED_ONLY = 8,
     HEALTHY = 16,
-    AFTER_TRIP = 32, /* something else trips the rig first */
+    AFTER_TRIP = 32, /* another fault trips the rig first */
     STARVED = 64,    /* the watchdog resets and does not cut the power */
     DELAYS = 128,    /* the watchdog may cut the power */
-    FED = 256,       /* gravity feed-forward in every run; with `dials`, from the start */
-    TURNED = 512,    /* with the wrong sign */
-    SHARE = 1024     /* of the supply; half with stop pressed and a dying sensor */
+    FED = 256,       /* gravity compensation in every run; with `dials`, from the start */
+    TURNED = 512,    /* gravity compensation with the wrong sign */
+    /* size as a share of the supply; half of the runs have stop pressed and a sensor that fails */
+    SHARE = 1024
 };
 
 static const struct {
@@ -94,7 +95,8 @@ enum { ROWS = sizeof rows / sizeof rows[0], TWO_FAULTS = ROWS };
 #define TWO_WORD "two faults"
 #define TWO_PART 0.1 /* share of runs with a second fault */
 
-/* May a row be the second fault? Only if it acts while the rig runs and the verdict does not depend on when it begins. */
+/* May a row be the second fault? Only if it acts while the rig runs, and the verdict does not depend on the time at
+ * which it begins. */
 static bool may_be_second(unsigned row) {
     const fault_kind kind = rows[row].kind;
     return (rows[row].is &
@@ -103,21 +105,21 @@ static bool may_be_second(unsigned row) {
 }
 
 #define NOMINAL_PART 0.25 /* share of runs at the rig's nominal speed */
-#define SLOW_PART 0.25    /* share of runs slower than possible without gravity feed-forward */
-#define FED_PART 0.2      /* share of the others with feed-forward */
+#define SLOW_PART 0.25    /* share of runs that are too slow without gravity compensation */
+#define FED_PART 0.2      /* share of the other runs with gravity compensation */
 #define BRAKES_PART 0.3   /* share of all runs: the motor brakes */
-#define SUPPLY_LEAST 0.5  /* of 24 V; allowed */
+#define SUPPLY_LEAST 0.5  /* as a share of 24 V; still allowed */
 #define SUPPLY_MOST 1.5
 #define SLOWEST_RPM 100.0
 #define SLOW_RPM 170.0
 #define FASTEST_RPM 360.0
 #define RADPS_PER_RPM 0.10471975511965977
 
-/* Faults that trip an armed or running rig at once, and an idle one when it is ordered to start. */
+/* Faults that trip an armed or running rig at once, and an idle rig at the order `start`. */
 static const char *const trips[] = {"cell-open",  "cell-dead", "edge-dead",
                                     "supply=0.3", "unkicked",  "jam"};
 
-/* Few, since each is a plant of its own. */
+/* Factors of the inertia. There are few, because each needs its own plant. */
 static const double inertias[] = {0.5, 0.7, 1.4, 2.0, 3.0, 4.0, 6.0};
 
 unsigned campaign_rows(void) { return ROWS + 1; }
@@ -145,8 +147,8 @@ typedef struct drawing {
     uint64_t count;
 } drawing;
 
-/* Uniform in [0, 1). The hash alone is almost linear in the run's number: runs that share one draw would share all.
- * Stafford's thirteenth mix breaks that. */
+/* Uniform in [0, 1). The hash alone is almost linear in the run's number: runs that are equal in one draw would be
+ * equal in all. Stafford's thirteenth mix removes this dependence. */
 static double draw(drawing *d) {
     uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
     bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -235,7 +237,8 @@ static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     }
 }
 
-/* A stuck power stage at any supply, sometimes with stop pressed or a dying sensor. */
+/* Writes a fault of a power stage that is stuck at any part of the supply, sometimes with stop pressed or a sensor that
+ * fails. */
 static void put_share(text *t, drawing *d, unsigned row, const rig_stage *stage,
                       campaign_case *one) {
     const double after_s = draw(d) * stage->span_s;
@@ -279,8 +282,8 @@ static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
                        (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
 }
 
-/* Adds a second fault, written before that of row `first`. If the controller must stop by a deadline, the second must
- * not delay it. */
+/* Adds a second fault before that of row `first`. If the controller must stop by a deadline, the second must not delay
+ * it. */
 static void put_second(text *t, drawing *d, const campaign *c, unsigned first,
                        const rig_stage *stage, campaign_case *one) {
     const bool two = draw(d) < TWO_PART;

@@ -1,4 +1,4 @@
-/* faults_judge.c: verdict on a run from the plant's truth, not from the firmware's messages. */
+/* faults_judge.c: verdict on a run from the true state of the plant, not from the firmware's messages. */
 #include "faults.h"
 #include "host/pil/lockstep.h"
 #include "test.h"
@@ -8,12 +8,12 @@
 #define SHARE 0.01 /* allowed error of a good result beyond its interval */
 #define LASTING_S 1.0
 #define HALT_S 2e-3  /* a control period: the motor may drive for this long */
-#define WATCH_S 1e-3 /* between two calls of watch() */
+#define WATCH_S 1e-3 /* time between two calls of watch() */
 #define WATCHED_S 12.0
 /* after turns that show a drive, the enable must be off or a trip reported within this time */
 #define SHOWN_S 1.0
-#define HAND_RPM 61.0             /* a hand turns it no faster */
-#define RISE 1.05                 /* over three turns together */
+#define HAND_RPM 61.0             /* a rotor that a hand turns is at most as fast */
+#define RISE 1.05                 /* rise of the speed over three turns together */
 #define SHIFTS 3                  /* a result may refer to turns that ended this many turns ago */
 enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
 
@@ -67,7 +67,8 @@ static bool start(void *of, const wh_hello *hello, plant *p) {
     return good;
 }
 
-/* --- the truth -----------------------------------------------------------------------------------------------------*/
+/* --- the true force and speed
+ * ----------------------------------------------------------------------------------------------------- */
 
 /* Trapezoids over the angle: a millisecond is two degrees at 330 rpm. */
 static void add_up(judge *j, double from, double force_from, double to, double force_to) {
@@ -120,7 +121,7 @@ static double off_since_ticks(const judge *j, const plant *p) {
     return since;
 }
 
-/* From then on nothing may drive: a stopped or reset controller must not start by itself. */
+/* From the halt on nothing may drive the motor: a stopped or reset controller must not start by itself. */
 static void watch_halt(judge *j, double time_s, const plant *p) {
     const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     verdict *v = &j->verdict;
@@ -194,7 +195,8 @@ static void watch(void *of, double time_s, const plant *p) {
     watch_off(j, time_s, p);
 }
 
-/* Relative error of a result beyond its interval and 1 %: the least over the turns that it may refer to. */
+/* Relative error of a result beyond its interval and 1 %. The result may refer to several series of turns: the smallest
+ * error counts. */
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
     const double phase = (double)j->told[HAL_NOTE_PHASE];
@@ -217,7 +219,7 @@ static double off_by(const judge *j, unsigned turns) {
         const double most = amplitude_off > phase_off ? amplitude_off : phase_off;
         least = most < least ? most : least;
     }
-    return isfinite(least) ? least : 1.0; /* more turns than recorded */
+    return isfinite(least) ? least : 1.0; /* the result has more turns than were recorded */
 }
 
 /* --- the controller's messages -------------------------------------------------------------------------------- */
@@ -315,7 +317,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     let_go(j, time_s);
     if (ignores && enabled && j->ignored_s < 0.0) {
         j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
-        /* beside another fault the time of detection is undefined */
+        /* with another fault, the time of detection is not defined */
         j->verdict.lasting =
             campaign_is_alone(j->of) && f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
         j->verdict.began_rpm = j->speed_rpm;

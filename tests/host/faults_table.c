@@ -6,7 +6,7 @@
 #define OVERSPEED_SHARE 0.02 /* allowed share of all runs */
 #define CAUGHT_S 0.25        /* deadline for a drive that ignores the voltage, */
 #define CAUGHT_REST_S 0.35   /* from rest, */
-#define TURNING_RPM 250.0    /* or below this speed */
+#define TURNING_RPM 250.0    /* also for runs below this speed */
 enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }
@@ -146,7 +146,7 @@ static double by_lie(const verdict *v) { return v->lie; }
 static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
 static double by_speed(const verdict *v) { return v->turn_rpm; }
 
-/* The worst run that is not shown yet; `count` without one. */
+/* The worst run that was not printed yet; `count` if there is none. */
 static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const verdict *v),
                            double (*by)(const verdict *v), bool *shown) {
     unsigned worst = count;
@@ -188,7 +188,8 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
     free(shown);
 }
 
-/* Runs in which a drive ignored the voltage for too long: the time until the enable was off, and the speed then. */
+/* Runs in which a drive ignored the voltage for too long: prints the time until the enable was off, and the speed at
+ * that time. */
 static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
@@ -216,7 +217,7 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
-/* Stopped or reset runs: how long the motor still drove, and how many had tripped before a reset. */
+/* Prints, for stopped or reset runs, how long the motor still drove, and how many runs had tripped before a reset. */
 static void print_halts(FILE *out, const verdict *all, unsigned count) {
     bool any = false;
     for (unsigned row = 0; row < campaign_rows(); row++) {
@@ -245,7 +246,8 @@ static void print_halts(FILE *out, const verdict *all, unsigned count) {
 }
 
 static bool takes_time(const verdict *v) {
-    static const char *const words[] = {"slow", "late", "hang", "two faults"}; /* and hang-resets */
+    /* the last includes resets during a hang */
+    static const char *const words[] = {"slow", "late", "hang", "two faults"};
     const char *word = campaign_row_word(v->row);
     bool takes = false;
     for (int i = 0; i < 4; i++) {
@@ -273,7 +275,7 @@ static void print_longest(FILE *out, const campaign *c, const verdict *all, unsi
     free(shown);
 }
 
-/* Only in the emulator. */
+/* Prints the histogram of instructions per control step, which only the emulator counts. */
 static void print_steps(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     uint64_t steps[STEP_BINS] = {0};
     uint64_t sum = 0;

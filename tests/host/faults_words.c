@@ -1,5 +1,5 @@
-/* faults_words.c: the controller's states and trips from its headers. Other files of the campaign do not depend on the
- * controller. */
+/* faults_words.c: the words of the controller's states and trips, from its headers. Other files of the campaign do not
+ * depend on the controller. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "faults.h"
@@ -61,11 +61,12 @@ double rig_limit_rpm(void) { return (double)WH_RIG_SHAFT_LIMIT_RPM; }
 
 double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 
-/* Two false marks lie within a turn of any instant, but one within its first sixth shows too little (docs/rig.md). Full
- * voltage drives until then and a control period more; gravity adds its part of a turn. */
+/* A fault is detected after two pulses that come too early. They come within a turn of the fault's begin; but a pulse
+ * in the first sixth of that turn is not early enough (docs/rig.md). Until then, and for one control period more, full
+ * voltage drives the rotor; gravity adds its part of a turn. */
 #define CAUGHT_RPM 470.0 /* at the nominal speed or below */
 #define TURNS (7.0 / 6.0)
-#define LAG_S 0.23 /* of the rotor under full voltage: */
+#define LAG_S 0.23 /* time constant of the rotor under full voltage: */
 #define FULL_RPM 568.0
 #define STEP_S 1e-5
 #define PERIOD_STEPS 200 /* the control period, 2 ms */

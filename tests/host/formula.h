@@ -6,8 +6,8 @@
 /* The value of a name; NaN if unknown. `name` has no terminating zero byte. */
 typedef double formula_lookup(void *context, const char *name, int length);
 
-/* Evaluates from `text` on; *end points past the formula. On a syntax error NaN, with *end at the error. An unknown
- * function fails the test with its name. */
+/* Evaluates from `text` on; *end points past the formula. After a syntax error the value is NaN, and *end points to the
+ * error. An unknown function fails the test with its name. */
 double formula_value(const char *text, const char **end, formula_lookup *lookup, void *context);
 
 #endif

@@ -8,10 +8,10 @@
 enum { LOOKS = 10000 };
 
 typedef struct reference_of {
-    extrapolation *smooth; /* or, with contacts: */
+    extrapolation *smooth; /* the reference without contacts; with contacts: */
     image fine;
     void *run;
-    uint64_t each; /* its steps in one step of the run */
+    uint64_t each; /* the reference's steps in one step of the run */
     long_rows *rows;
     records *records;
     long double *row;
@@ -50,7 +50,7 @@ static void reference_close(reference_of *r) {
     }
 }
 
-/* Advances the reference by `steps` of the run's steps, to time_s. */
+/* Advances the reference to time_s, `steps` of the run's steps later. */
 static void reference_go(reference_of *r, const image *im, uint64_t steps, double time_s) {
     if (r->smooth != NULL) {
         const long double span_s = (long double)steps * (long double)im->step.numerator /
@@ -73,9 +73,9 @@ typedef struct beside {
     horizons *h;
     reference_of fine, other;
     records *now;
-    double *last; /* [columns] the difference at the previous look */
+    double *last; /* the difference at the last sample [columns] */
     double before_s, look_s;
-    int open; /* columns without an end yet */
+    int open; /* number of columns that are still accurate */
 } beside;
 
 static void enter(beside *b) {
@@ -95,7 +95,7 @@ static void enter(beside *b) {
         h->true_s[k] = events ? b->before_s : b->look_s;
         b->open--;
         const double differ = (double)fabsl(b->other.row[k] - b->fine.row[k]) / level;
-        if (!events) { /* around events the two differ for a step */
+        if (!events) { /* near events the runs may differ for one step */
             h->known = fmax(h->known, isfinite(differ) ? differ : (double)INFINITY);
         }
     }

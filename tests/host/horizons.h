@@ -1,4 +1,5 @@
-/* horizons.h: time until which a run is accurate, by a reference with other steps. `whirl trust` estimates it.
+/* horizons.h: the time until which a run is accurate, from a reference with other steps. It is compared with the
+ * estimate of `whirl trust`.
  *
  * Without contacts, the reference is the extrapolation in long double (host/study/reference_run.h) of order 12, checked
  * by one of order 10. Their difference must be far below the tolerance at the run's end of accuracy. With contacts, it
@@ -19,14 +20,17 @@ typedef struct horizons_setting {
 
 typedef struct horizons {
     derived made;
-    image *image; /* with the setting */
-    image *plain; /* settings of the finer run (host/check/step_doubling.h), and reference */
+    image *image; /* image with the setting of the run */
+    /* image with the settings of the finer run (host/check/step_doubling.h), and of the reference */
+    image *plain;
     step_doubling *twins;
     horizon estimate;
-    double *true_s;      /* [columns] last accurate look; infinite: to the end */
-    double true_until_s; /* the least of them; the end */
-    double known;        /* largest difference of the references, in tolerance times range */
-    double look_s;       /* between looks */
+    /* [columns] time of the last accurate sample; infinite: accurate to the end */
+    double *true_s;
+    double true_until_s; /* the least of true_s, at most the end of the run */
+    /* largest difference of the two references, divided by tolerance times range */
+    double known;
+    double look_s; /* time between two samples */
 } horizons;
 
 /* A scene of a text; `tolerance` as of `whirl trust`. */

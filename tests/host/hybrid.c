@@ -17,7 +17,7 @@ typedef enum mode { OPEN, CLOSED, STUCK, UP, DOWN } mode;
 typedef struct runner {
     const hybrid *h;
     mode mode[HYBRID_CONTACTS];
-    bool pressed[HYBRID_CONTACTS]; /* friction: is its limit above zero? */
+    bool pressed[HYBRID_CONTACTS]; /* a friction whose limit is above zero */
     long double state[STATE];
     hybrid_motion *motion;
 } runner;
@@ -59,7 +59,7 @@ static long double limit_of(const hybrid_contact *c, const long double *state) {
 
 static bool holds(mode m) { return m == CLOSED || m == STUCK; }
 
-/* Accelerations in the present modes, and lambda of the active contacts; *at belongs to this state. */
+/* Accelerations in the present modes, and lambda of the active contacts; *at gets the numbers of this state. */
 static void accelerate(const runner *r, const long double *state, long double *accel,
                        long double *lambda, linkage_numbers *at) {
     const hybrid *h = r->h;
@@ -120,7 +120,7 @@ static void slope_of(const runner *r, const long double *state, long double *slo
     accelerate(r, state, slope + LINKAGE_BODIES, lambda, &at);
 }
 
-/* Kutta's 3/8 rule: a method that the program does not use by itself. */
+/* A step of Kutta's 3/8 rule, a method that the program's own runs do not use here. */
 static void step_of(const runner *r, long double h, long double *to) {
     static const long double share[3][3] = {
         {1.0L / 3.0L, 0.0L, 0.0L}, {-1.0L / 3.0L, 1.0L, 0.0L}, {1.0L, -1.0L, 1.0L}};
@@ -172,7 +172,7 @@ static bool ended(const runner *r, const long double *state) {
 /* Tolerance for zero after the bisection of an event. */
 #define NEAR 1e-9L
 
-/* The cases of drawn.h at this moment for the contacts of `member`. */
+/* The contacts of `member` at this moment, as a problem for drawn.h. */
 static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g, const int *member,
                       int count) {
     drawn b = {.n = r->h->of.bodies, .contacts = count};
@@ -192,7 +192,7 @@ static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g
     return b;
 }
 
-/* Impact of the hit stops together with those at rest. False if no case fits. */
+/* The impact of the stops that are hit, together with resting stops. Returns false if no case fits. */
 static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double least_flight_s) {
     const hybrid *h = r->h;
     int member[HYBRID_CONTACTS];
@@ -224,13 +224,13 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
     }
     r->motion->impacts++;
     for (int i = 0; i < b.n; i++) {
-        /* integrates the small change alone, to keep the digits of long double */
+        /* integrates only the small change, to keep the digits of long double */
         r->state[LINKAGE_BODIES + i] += (long double)to[i] - (long double)from[i];
     }
     for (int k = 0; k < h->contacts; k++) {
         g[k] = gauge_of(h, k, at, r->state);
     }
-    for (int c = 0; c < count; c++) { /* would it be hit again soon? */
+    for (int c = 0; c < count; c++) { /* would the stop soon be hit again? */
         const int k = member[c];
         long double accel[LINKAGE_BODIES];
         long double towards = -g[k].bend;
@@ -246,7 +246,7 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
     return true;
 }
 
-/* Selects the contacts that act from now on, by the accelerations. False if no case fits. */
+/* Determines which contacts act from now on, from the accelerations. Returns false if no case fits. */
 static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     const hybrid *h = r->h;
     int member[HYBRID_CONTACTS];
@@ -282,7 +282,8 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     for (int c = 0; c < count; c++) {
         const int k = member[c];
         const double off = drawn_along(&b, c, to) - b.contact[c].target;
-        const bool slides = fabs(lambda[c]) >= b.contact[c].limit; /* exact target if active */
+        /* a contact that acts reaches its target exactly */
+        const bool slides = fabs(lambda[c]) >= b.contact[c].limit;
         const bool up = lambda[c] < 0.0 || (lambda[c] == 0.0 && off > 0.0);
         if (b.contact[c].kind == 's') {
             r->mode[k] = lambda[c] == 0.0 ? OPEN : CLOSED;
@@ -294,7 +295,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     return true;
 }
 
-/* Constrained rates and the rates of closed gaps become exactly zero. */
+/* At an event, the rates of active contacts and of closed gaps become exactly zero. */
 static bool event(runner *r, long double least_flight_s) {
     linkage_numbers at;
     gauge g[HYBRID_CONTACTS];
@@ -331,7 +332,7 @@ hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double
         step_of(&r, step, to);
         const bool happens = ended(&r, to);
         if (happens) {
-            /* bisects to the first end of a mode; the state passes it by round-off at most */
+            /* bisects to the first end of a mode; the state then passes this point by round-off at most */
             long double before = 0.0L;
             for (int i = 0; i < HALVINGS && step - before > 1e-17L; i++) {
                 const long double middle = before + (step - before) / 2.0L;

@@ -1,5 +1,6 @@
-/* hybrid.h: random planar linkages (linkage.h) with stops and dry friction. Their motion is independent of the program:
- * long double, accelerations from the energies in numbers, bisected events, modes found by trying all cases. */
+/* hybrid.h: random planar linkages (linkage.h) with stops and dry friction. Their motion is computed independently of
+ * the program: in long double, with accelerations from numeric derivatives of the energies, events by bisection, and
+ * modes by trying all cases. */
 #ifndef TESTS_HOST_HYBRID_H
 #define TESTS_HOST_HYBRID_H
 
@@ -9,9 +10,9 @@ enum { HYBRID_CONTACTS = 3, HYBRID_TEXT = 1000 };
 
 typedef enum hybrid_kind {
     HYBRID_LEAST,   /* a stop: the coordinate stays above */
-    HYBRID_MOST,    /* a stop: it stays below */
-    HYBRID_FLOOR,   /* a stop: the body's end stays above */
-    HYBRID_FRICTION /* on the coordinate, static and kinetic alike */
+    HYBRID_MOST,    /* a stop: the coordinate stays below */
+    HYBRID_FLOOR,   /* a stop: the end of the body stays above */
+    HYBRID_FRICTION /* friction on the coordinate, with equal static and kinetic limits */
 } hybrid_kind;
 
 typedef struct hybrid_contact {
@@ -29,7 +30,7 @@ typedef struct hybrid {
     hybrid_contact contact[HYBRID_CONTACTS];
 } hybrid;
 
-/* No stop is violated at the start. */
+/* Draws a linkage with contacts. No stop is passed at the start. */
 hybrid hybrid_draw(uint64_t *seed);
 
 void hybrid_statements(const hybrid *h, char text[static HYBRID_TEXT]);
@@ -37,13 +38,15 @@ void hybrid_statements(const hybrid *h, char text[static HYBRID_TEXT]);
 typedef struct hybrid_motion {
     long double state[2 * LINKAGE_BODIES]; /* values, then rates */
     int impacts;
-    int rests;  /* number of closed stops and sticking rates */
-    bool aside; /* impacts on one stop that converge (Zeno), or modes that fit no case */
+    int rests; /* number of closed stops and sticking rates */
+    /* impacts on one stop accumulate (Zeno), or no case of the contact laws fits: no reference */
+    bool aside;
 } hybrid_motion;
-/* Step of most of these runs. */
+/* The step of most of these runs, s. */
 #define HYBRID_STEP_S (1.0 / 4096.0)
 
-/* Its motion until `until_s` with this step. A flight shorter than `least_flight_s` ends it as `aside`. */
+/* Its motion until `until_s` with this step. A flight shorter than `least_flight_s` ends the motion, with `aside`
+ * set. */
 hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double least_flight_s);
 
 #endif

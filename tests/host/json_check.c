@@ -91,7 +91,7 @@ static bool read_number(reader *r) {
 
 static bool read_value(reader *r);
 
-/* An object's key, which must be new in it. */
+/* Reads a key of an object, which must not repeat. */
 static bool read_key(reader *r, size_t *keys, int count) {
     const size_t at = r->at;
     if (!read_string(r)) {

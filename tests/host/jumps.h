@@ -12,7 +12,7 @@ enum { JUMPS_TEXT = 1500, JUMPS_WORDS = 6 };
 
 extern said jumps_said;
 
-/* `few`; `all` with WHIRL_FULL, and `fewest`, with some of every class, with WHIRL_FEW. */
+/* The number of cases: `few`; `all` if WHIRL_FULL is set; `fewest`, with some of every class, if WHIRL_FEW is set. */
 unsigned jumps_cases(unsigned few, unsigned all, unsigned fewest);
 
 /* Runs `whirl run` in that number format, with more options, which may choose another. */

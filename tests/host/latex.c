@@ -77,7 +77,8 @@ static void command(reader *r, const char *name, size_t length) {
                 widest = r->width - before > widest ? r->width - before : widest;
             }
             const char *at = strstr(wide, known[i].name);
-            r->width = before + widest; /* a fraction's line and a root's sign add width, below */
+            /* the line of a fraction and the sign of a root add width; see below */
+            r->width = before + widest;
             for (size_t k = 0; at != NULL && k < length; k++) {
                 r->width += width_of(name[k]);
             }
@@ -100,7 +101,7 @@ static void command(reader *r, const char *name, size_t length) {
     fail(r, "an unknown command");
 }
 
-/* Reads a base, to which scripts may be attached. */
+/* Reads a base, which may get an exponent and an index. */
 static void nucleus(reader *r) {
     const char c = *r->at;
     if (c == '{') {
@@ -137,7 +138,7 @@ static void nucleus(reader *r) {
     }
 }
 
-/* Reads up to '}', \right) or (if `until` is 0) the end, and leaves that unread. */
+/* Reads up to '}', \right) or (if `until` is 0) the end. Does not consume that. */
 static void list(reader *r, char until) {
     const int from = r->width;
     int widest = 0;
@@ -188,7 +189,8 @@ static void list(reader *r, char until) {
             r->at++;
             const int before = r->width;
             argument(r);
-            r->width = before + (r->width - before) * 76 / 100; /* cmmi7 */
+            /* exponents and indices are set in cmmi7 */
+            r->width = before + (r->width - before) * 76 / 100;
         }
         opens = is_function && strncmp(r->at, "\\left(", 6) == 0;
         bare = is_function ? bare || !opens : bare;
@@ -215,7 +217,7 @@ char *latex_joined(const char *text) {
         const char *mark;
         const char *joined;
         int deeper;
-        bool inside; /* in `aligned` only */
+        bool inside; /* only in `aligned` */
     } marks[] = {{" \\\\\n    &\\quad \\times", " \\,", 0, true},
                  {" \\\\\n    &\\quad", "", 0, true},
                  {" \\\\\n    &= ", " &= ", 0, true},

@@ -3,9 +3,9 @@
 #ifndef TESTS_HOST_LATEX_H
 #define TESTS_HOST_LATEX_H
 
-/* NULL for a good formula. It requires paired braces and \left \right, at most one superscript and subscript per base,
- * known commands (amsmath) and their arguments. Otherwise the error, with *at at its place. `&` and `\\` may stand
- * outside all braces. */
+/* Returns NULL for a valid formula, otherwise the error, with *at at its place. A formula has paired braces and \left
+ * \right, at most one superscript and subscript per base, and known commands (amsmath) with their arguments. `&` and
+ * `\\` may be outside all braces. */
 const char *latex_problem(const char *text, const char **at);
 
 /* Width in points of the widest row, in Computer Modern of 10 pt; independent of host/show/show_equations.c. */

@@ -88,7 +88,7 @@ static latex_number over(reader *r, latex_number a, latex_number b) {
     return a;
 }
 
-/* Change of f when x changes by `off`, from a difference: only its size matters. */
+/* Change of f if x changes by `off`, from a difference. Only its size is used. */
 static double carried(double (*f)(double, double), double x, double y, int which, double off) {
     const double step = 1e-6 * (1.0 + fabs(which == 0 ? x : y));
     const double more = which == 0 ? f(x + step, y) : f(x, y + step);
@@ -197,7 +197,7 @@ static latex_number braced(reader *r) {
     return inside;
 }
 
-/* Letters and digits up to the brace, "_" for "\_"; an index of letters is a \mathrm. */
+/* Reads letters and digits up to the brace; "\_" is "_". An index of letters is in \mathrm. */
 static void braced_name(reader *r, char *name) {
     int length = 0;
     need(r, "{");

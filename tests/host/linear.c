@@ -15,10 +15,11 @@ typedef struct drawing {
     linear *made;
     quad mass[LINEAR_STATES][LINEAR_STATES];
     quad force[LINEAR_STATES][LINEAR_COLUMNS]; /* on each coordinate */
-    double weight[LINEAR_STATES];              /* per mass, as far as gravity acts on it */
+    /* weight per mass: the part of gravity that acts on the coordinate */
+    double weight[LINEAR_STATES];
 } drawing;
 
-/* Adds a spring (rates false) or a damper between coordinates i and j, or i and the ground (j < 0). */
+/* Adds a spring, or a damper if `rates`, between coordinates i and j, or i and the ground (j < 0). */
 static void tie(drawing *d, int i, int j, double k, bool rates) {
     const int n = d->made->coordinates;
     const char *prime = rates ? "'" : "";

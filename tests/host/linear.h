@@ -1,4 +1,5 @@
-/* linear.h: linear mechanisms as text, with their matrices in 113 bits. The test derives the matrices itself. */
+/* linear.h: linear mechanisms as text, with their matrices in 113 bits. The matrices are computed from the drawn masses
+ * and springs, not by the program. */
 #ifndef TESTS_HOST_LINEAR_H
 #define TESTS_HOST_LINEAR_H
 
@@ -8,7 +9,7 @@ __extension__ typedef __float128 quad;
 
 enum { LINEAR_STATES = 8, LINEAR_INPUTS = 2, LINEAR_COLUMNS = LINEAR_STATES + LINEAR_INPUTS + 1 };
 
-/* x' = A x + B u + c: coordinates, then their rates. Columns of B follow those of A; c is last. */
+/* x' = A x + B u + c. x has the coordinates, then their rates. The columns are A's, B's, then c. */
 typedef struct linear {
     int coordinates;
     int states;

@@ -17,7 +17,7 @@ static bool one_in(uint64_t *seed, unsigned n) { return next(seed) % n == 0; }
 
 static linkage_body body_draw(uint64_t *seed, int number) {
     linkage_body b = {.parent = number - 1};
-    if (one_in(seed, 4)) { /* not a chain: another body or the ground */
+    if (one_in(seed, 4)) { /* not always a chain: the parent is any earlier body or the ground */
         b.parent = (int)(next(seed) % (uint64_t)(number + 1)) - 1;
     }
     b.slides = one_in(seed, 4);
@@ -47,7 +47,8 @@ linkage linkage_draw(uint64_t *seed) {
     for (int k = 0; k < of.springs; k++) {
         of.spring[k] = (linkage_spring){.body = (int)(next(seed) % (uint64_t)of.bodies),
                                         .x_m = eighths(seed, -16, 16),
-                                        .y_m = eighths(seed, 17, 40), /* mostly out of reach */
+                                        /* mostly too far away to be reached */
+                                        .y_m = eighths(seed, 17, 40),
                                         .stiffness_Npm = eighths(seed, 8, 80),
                                         .length_m = one_in(seed, 2) ? 0.0 : eighths(seed, 2, 8)};
     }
@@ -84,7 +85,7 @@ typedef struct writer {
     linkage_writing how;
     char *text;
     int used;
-    char sum[SUMS][SUM_TEXT]; /* since the last flush */
+    char sum[SUMS][SUM_TEXT]; /* text of each sum since the last flush */
 } writer;
 
 /* Fails if a buffer of this file is too small. */
@@ -114,7 +115,7 @@ __attribute__((format(printf, 3, 4))) static void add(writer *w, int sum, const 
     strcat(w->sum[sum], "\n  + ");
 }
 
-/* Writes the sums as statements. Were there any? */
+/* Writes the sums as statements. Returns false if there were none. */
 static bool flush(writer *w, const char *assign) {
     static const char *const letter[] = {"T", "V", "F"};
     bool any = false;
@@ -135,7 +136,7 @@ static bool flush(writer *w, const char *assign) {
     return any;
 }
 
-/* The k-th in the requested order. */
+/* The k-th item in the requested order. */
 static int turn_of(const writer *w, int k, int count) {
     return w->how.backwards ? count - 1 - k : k;
 }

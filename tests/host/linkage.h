@@ -31,7 +31,7 @@ typedef struct linkage_spring {
     int body;
     double x_m, y_m;
     double stiffness_Npm;
-    double length_m; /* relaxed length; zero: force in proportion to the distance */
+    double length_m; /* relaxed length; zero: the force is proportional to the distance */
 } linkage_spring;
 
 typedef struct linkage {
@@ -46,20 +46,21 @@ typedef struct linkage {
 
 /* Every body has mass and inertia, so the mass matrix is positive definite. */
 linkage linkage_draw(uint64_t *seed);
-/* The same with y for -y: angles and torques change sign, displacements along rails do not. */
+/* The mirrored linkage, with -y for y: angles and torques change sign, displacements along rails do not. */
 linkage linkage_mirrored(const linkage *of);
 
 typedef enum linkage_forces {
-    LINKAGE_BARE,        /* without them */
-    LINKAGE_INSIDE,      /* in the mechanism */
-    LINKAGE_EFFECTS_OFF, /* each kind of force is an effect, and the scene switches all off */
-    LINKAGE_EFFECTS_ON   /* all switched on in the scene */
+    LINKAGE_BARE,   /* no drives, dampers and springs */
+    LINKAGE_INSIDE, /* they are statements of the mechanism */
+    /* each kind of force is an effect, and the scene switches all of them off */
+    LINKAGE_EFFECTS_OFF,
+    LINKAGE_EFFECTS_ON /* each kind is an effect, and the scene switches all of them on */
 } linkage_forces;
 
 typedef struct linkage_writing {
     linkage_forces forces;
-    bool backwards;   /* coordinates and terms in reverse order */
-    double until_s;   /* end of the scene, which takes 500 steps; 0: half a second */
+    bool backwards;   /* coordinates and terms are written in reverse order */
+    double until_s;   /* end time of the scene, which takes 500 steps; 0: half a second */
     const char *more; /* further statements; may use q0, q0', ... and ey0, an end's height */
 } linkage_writing;
 
@@ -67,7 +68,7 @@ typedef struct linkage_writing {
 void linkage_write(const linkage *of, const char *name, linkage_writing how,
                    char text[static LINKAGE_TEXT]);
 
-/* At a state: M q'' = force, from derivatives of the energies in numbers, in long double. For the height y of each
+/* Numbers at a state, in long double: M q'' = force, from numeric derivatives of the energies. For the height y of each
  * body's end: y' = row . q' and y'' = row . q'' + bend. */
 typedef struct linkage_numbers {
     long double mass[LINKAGE_BODIES][LINKAGE_BODIES];
@@ -88,7 +89,7 @@ long double linkage_solve(const linkage *of, const linkage_numbers *at, const lo
 
 typedef struct linkage_motion {
     long double state[2 * LINKAGE_BODIES];
-    long double least; /* the least result of linkage_solve() on the way */
+    long double least; /* the least result of linkage_solve() during the motion */
 } linkage_motion;
 /* The state after `steps` steps of Runge-Kutta 4 in long double. */
 void linkage_integrate(const linkage *of, double step_s, int steps, linkage_motion *end);

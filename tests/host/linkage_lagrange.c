@@ -1,5 +1,5 @@
-/* linkage_lagrange.c: a linkage's accelerations from its energies in numbers, in long double, without algebra. With the
- * variables q0, q0', q1, q1', ... and their jets,
+/* linkage_lagrange.c: a linkage's accelerations from numeric derivatives of its energies, in long double, without
+ * algebra. With the variables q0, q0', q1, q1', ... and their jets,
  *
  * sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
 #include "linkage.h"

@@ -17,7 +17,7 @@ typedef struct made_sweep {
     sweep sweep;
 } made_sweep;
 
-/* Over over[axes], with measures asked[count]. */
+/* Opens a sweep of a text over the axes over[axes], with the measures asked[count]. */
 void made_sweep_open(made_sweep *m, const char *text, const char *const *over, int axes,
                      const char *const *asked, int count, const engine_kind *kind);
 void made_sweep_close(made_sweep *m);
@@ -31,7 +31,7 @@ typedef struct session_said {
     char err[SAID_SIZE];
 } session_said;
 
-/* The first makes an empty folder for the file, the second deletes it. */
+/* sessions_open() makes an empty folder for the file; sessions_close() deletes it. */
 void sessions_open(void);
 void sessions_close(void);
 const char *sessions_path(void);

@@ -3,9 +3,9 @@
 #ifndef TESTS_HOST_MADE_UP_TREE_H
 #define TESTS_HOST_MADE_UP_TREE_H
 
-/* The first changes into the tree, the second back. measure_one.sh prints row0, or row1 and row2 for places 1 and 2,
- * and records its arguments in `asked`. make prints `says` and records its own in `made`. Both exit with the number in
- * `status`. */
+/* tree_enter() changes into the tree, tree_leave() back. measure_one.sh prints row0, or row1 and row2 for places 1 and
+ * 2, and records its arguments in `asked`. make prints `says` and records its own in `made`. Both exit with the number
+ * in `status`. */
 void tree_enter(void);
 void tree_leave(void);
 void tree_keep(const char *file, const char *text);

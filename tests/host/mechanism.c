@@ -10,8 +10,8 @@ typedef struct writer {
     int coordinates;
     bool is_angle[COORDINATES_MAX];
     bool functions; /* all fourteen functions, not only those of the smallest board */
-    int shapes;     /* lets w0, w1, ...: dimensionless functions of coordinates */
-    bool shaped;    /* may they be used? */
+    int shapes;     /* shapes w0, w1, ...: dimensionless functions of coordinates */
+    bool shaped;    /* shapes may be used now */
 } writer;
 
 static unsigned draw(writer *w, unsigned bound) { /* splitmix64 */
@@ -207,7 +207,8 @@ static void declare(writer *w) {
 
 /* --- energies ------------------------------------------------------------------------------------*/
 
-/* Places of the bodies, each carried by the one before or the ground, as sums: x, y and their rates. */
+/* Positions x, y of the bodies, and their rates, as sums. Each body is attached to the previous one or to the
+ * ground. */
 typedef struct place {
     char x[PHRASES * PHRASE];
     char y[PHRASES * PHRASE];

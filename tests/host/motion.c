@@ -170,7 +170,8 @@ double motion_value(const motion *m, const char *name) {
             return output[i];
         }
     }
-    /* If a coordinate is recovered from its momentum, its value and rate follow the mechanism's outputs. */
+    /* A coordinate that is recovered from its momentum has two outputs, its value and its rate, after those of the
+     * mechanism. */
     for (int i = 0; i < p->recovered; i++) {
         const char *known = of->coordinates[p->from_momentum[i]]->name;
         if (primes < 2 && strlen(known) == length && strncmp(known, name, length) == 0) {

@@ -23,7 +23,8 @@ typedef struct stepping {
     const engine_kind *kind;
     wh_method method;
     bool compensated;
-    double step_s;     /* 0: the scene's own. A double; the float engine rounds it again */
+    /* 0: the scene's own step. This is a double; the float engine rounds it once more */
+    double step_s;
     const char *set;   /* a parameter or an input, "M=1.5", or NULL */
     const char *start; /* a coordinate or a rate, "theta'=3", or NULL */
     bool ledger;       /* with the energy balance */
@@ -55,10 +56,10 @@ void motion_close(motion *m);
 
 /* Does `steps` steps and returns the last status. Stops at a failure. */
 wh_status motion_step(motion *m, uint64_t steps);
-/* Advances to `time_s`, a whole number of steps; a failing step fails the test. */
+/* Advances to `time_s`, a whole number of steps. A step that fails, fails the test. */
 void motion_to(motion *m, double time_s);
 
-/* "theta1", "theta1'" or the name of an output. */
+/* The value of "theta1", "theta1'" or an output of this name. */
 double motion_value(const motion *m, const char *name);
 
 /* Kinetic energy of Thomson's device with set A, derived by hand: m = 2 kg, r = 0.3 m, M = -2 N m. */

@@ -19,7 +19,7 @@ typedef struct named_cure {
  * do, or B (not tried)", "A should do (not tried: ...)" or "A resolves it; ..."; an A may be "A1 or A2". */
 int named_cures(const char *err, named_cure *list);
 
-/* The first that names a step; false without one. */
+/* The first alternative that names a step; false if there is none. */
 bool named_with_step(const char *err, named_cure *cure);
 
 /* Appends the alternative's options to words[count], then NULL; `number` is the format if it names none. Returns the

@@ -16,14 +16,14 @@ typedef struct priced {
     diags *errors;
     /* Is there an image with this step (0: the scene's own)? NULL: for every setting that the scenes accept. */
     bool (*takes)(const setting *s, double step_s);
-    int asked; /* images so far */
+    int asked; /* number of images made so far */
     char place[32];
     trial_source source;
     trial_wish wish;
     trials trial;
 } priced;
 
-/* Texts: a ball that bounces; a spring that hardens. */
+/* Texts of scenes: a ball that bounces; a spring that hardens. */
 extern const char *const priced_ball[1];
 extern const char *const priced_spring[1];
 /* With ranges for fixed point: second order, with a turn angle and an input, first order. */

@@ -13,12 +13,12 @@ typedef long double quad;
 __extension__ typedef __float128 quad;
 #define QUAD_KNOWN 1
 #else
-typedef long double quad; /* no reference: QUAD_KNOWN is undefined */
+typedef long double quad; /* without 113 bits there is no reference: QUAD_KNOWN is undefined */
 #endif
 
 enum { QUAD_COORDINATES = 3, QUAD_BODIES = 3, QUAD_ARMS = 3 };
 
-/* length (cos(multiple q), sin(multiple q)) */
+/* the arm is the vector length (cos(multiple q), sin(multiple q)) */
 typedef struct quad_arm {
     quad length_m;
     int multiple;

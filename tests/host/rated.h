@@ -25,7 +25,7 @@ typedef struct rated {
 } rated;
 
 void rated_draw(dice *d, rated *r);
-/* The motion at multiples of `spacing_s`: row[(records + 1)][states]; to be freed. */
+/* The motion at multiples of `spacing_s`, row[(records + 1)][states]; to be freed. */
 long double *rated_motion(const rated *r, double spacing_s, int records);
 
 #endif

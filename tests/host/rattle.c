@@ -107,8 +107,8 @@ static double hold_m(const rattle *r, double t) {
     return (t - rest) / period * r->number[0] * period / 2.0 + r->number[1] * rest * rest / 2.0;
 }
 
-/* On the belt: sticks until the spring pulls with the static friction, then swings about the point of kinetic friction.
- * Sticks again when its speed is the belt's. */
+/* A body on a moving belt. It sticks until the spring pulls with the static friction, then oscillates about the point
+ * of kinetic friction, and sticks again when its speed is the belt's. */
 static double belt_m(const rattle *r, double t) {
     const double *n = r->number;
     const double w = sqrt(n[0]);

@@ -1,5 +1,5 @@
-/* rattle.h: mechanisms whose contacts may be too busy for a step, with closed forms: a ball between two stops, a hold
- * that ends its own condition, stick-slip. */
+/* rattle.h: mechanisms that may have more events than a step can resolve, with closed forms: a ball between two stops,
+ * a hold that ends its own condition, stick-slip. */
 #ifndef TESTS_HOST_RATTLE_H
 #define TESTS_HOST_RATTLE_H
 
@@ -10,7 +10,7 @@
 
 typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
 
-/* A mechanism with a closed form that continues from its present place. */
+/* A mechanism whose motion has a closed form, continued from its present state. */
 typedef struct rattle {
     rattle_kind kind;
     double number
@@ -18,7 +18,7 @@ typedef struct rattle {
                        * speed, friction static and kinetic */
     double step_s;
     int steps;
-    double at_s; /* of the ball's */
+    double at_s; /* time of the ball's last impact */
     double place_m;
     double speed_mps;
 } rattle;
@@ -29,7 +29,7 @@ void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
  * balance. */
 void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]);
-/* Place at t. Calls must have rising t. */
+/* Position at time t. Successive calls must have rising t. */
 double rattle_truth_m(rattle *r, double t);
 
 #endif

@@ -22,7 +22,7 @@ state random_values(uint64_t *seed) {
     return s;
 }
 
-/* A neighbouring state: the difference of the values shows the conditioning of an expression there. */
+/* A neighbouring state. The difference between the values at both states shows the conditioning of an expression. */
 static state nudged(const state *from, uint64_t *seed) {
     state s = *from;
     for (int i = 0; i < REREAD_COORDINATES; i++) {

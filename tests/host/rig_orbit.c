@@ -83,7 +83,7 @@ static double force(const rig_plant *p, double drive_Nm, double theta, double w)
            (w * w * cos(theta) + acceleration(p, drive_Nm, theta, w) * sin(theta));
 }
 
-/* Step that contains the time `t` of the turn. */
+/* The index of the step that contains the time `t` of the turn. */
 static unsigned step_of(double t) {
     unsigned low = 0;
     unsigned high = STEPS;
@@ -121,7 +121,8 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     orbit->quadrature_N = 0.0;
     double least = speed_at[0];
     double most = speed_at[0];
-    for (unsigned i = 0; i < STEPS; i++) { /* smooth and periodic: the sum is the integral */
+    for (unsigned i = 0; i < STEPS; i++) {
+        /* the integrand is smooth and periodic, so the sum is the integral */
         const double theta = from + h * i;
         const double w = speed_at[2U * i];
         const double f = force(plant, drive_Nm, theta, w);
@@ -171,7 +172,7 @@ static double force_at(const rig_orbit *orbit, double t_s) {
     return orbit->force_N[k] + (at - whole) * (orbit->force_N[k + 1U] - orbit->force_N[k]);
 }
 
-/* Force as shown by a cell with a limit, a curved characteristic or play. */
+/* The force that is shown by a cell with a limit, a curved characteristic or hysteresis. */
 static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double *follows_N) {
     double least_N = 0.0;
@@ -192,7 +193,7 @@ static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_
     return (1.0 + noise->gain_off) * *follows_N;
 }
 
-/* Mean of a coarse converter's counts around that time, in the cell's unit. */
+/* Mean of a coarse converter's counts about that time, in the unit of the cell's counts. */
 static int32_t mean_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double on_top_N) {
     double sum = 0.0;

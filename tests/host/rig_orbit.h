@@ -14,8 +14,8 @@ typedef struct rig_plant {
     double line_Nms; /* slope of the motor's torque line */
     double gravity_mps2;
     double tare_N;
-    double fed_Nm; /* amplitude of the gravity feed-forward; 0: off */
-    /* lag of the angle used for gravity compensation; the voltage is never below 0 */
+    double fed_Nm; /* amplitude of the gravity compensation's torque; 0: off */
+    /* lag of the angle that the gravity compensation uses; the voltage is never below 0 */
     double fed_late_rad;
     double twice_Nm; /* a torque of twice the speed: twice_Nm cos(2 theta + twice_rad) */
     double twice_rad;
@@ -29,7 +29,8 @@ typedef struct rig_orbit {
     double turn_s;
     double split; /* part of the turn's time at which sensor 2 fires */
     double node_s;
-    double force_N[ORBIT_NODES + 1U]; /* without tare, at equal times since sensor 1's mark */
+    /* without tare, at equal intervals of time from sensor 1's pulse on */
+    double force_N[ORBIT_NODES + 1U];
     double tare_N;
     /* truth: first Fourier coefficients over the angle */
     double in_phase_N;
@@ -37,16 +38,16 @@ typedef struct rig_orbit {
     double amplitude_N;
     double phase_rad;
     bool fed;
-    double drive_Nm; /* the motor's torque at standstill, without feed-forward */
+    double drive_Nm; /* the motor's torque at standstill, without the compensation */
     double swing;    /* half the range of the speed over its mean */
 } rig_orbit;
 
-/* Finds the steady turn at this mean speed. At a mark the arms are lead_rad before the sensor. */
+/* Finds the steady turn at this mean speed. At a pulse the arms are lead_rad before the sensor. */
 void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, rig_orbit *orbit);
 
 typedef struct rig_noise {
-    double cell_N;   /* standard deviation of each sample's force, */
-    double jitter_s; /* and of each mark's time */
+    double cell_N;   /* standard deviation of the force of each sample, */
+    double jitter_s; /* and of the time of each pulse */
     unsigned slower; /* factor on the sample period HAL_LOADCELL_PERIOD_TICKS; 0: one */
     /* a converter coarser than the cell's counts, with its driver. A sample is the mean of this many conversions,
      * evenly over its 2 ms, smoothed with its neighbours (hal/averaged.h). A conversion is an integer number of steps
@@ -61,7 +62,7 @@ typedef struct rig_noise {
     double clips;     /* clips at this part of its peak, above or (negative) below; 0: never */
     double play_N;    /* hysteresis: the reading follows the force after a change of this size */
     double bend;      /* shows F (1 - bend (F/peak)^2) */
-    double frozen_s;  /* freezes for this long in the middle of the recorded turns */
+    double frozen_s;  /* the cell freezes for this long in the middle of the recorded turns */
     double spikes;    /* share of samples with a spike */
     double spike_N;   /* of this size */
     bool mute;        /* no force, only the noise and faults */

@@ -14,7 +14,7 @@ static uint32_t scatter(uint32_t x) {
     return x ^ (x >> 16);
 }
 
-/* As in generated code. */
+/* The cells as in generated code: in float. */
 static float *cells_of(const op_list_tables *t) {
     const int numbers = t->count * t->terms << t->bits;
     float *cells = alloc(numbers, sizeof *cells);
@@ -37,7 +37,7 @@ static double bound_of(const op_list_tables *t, int k) {
         }
         away = fmax(away, most);
     }
-    /* the worst place may lie between those that the image sampled */
+    /* the largest error may be between the phases that the image sampled */
     return 1.02 * t->off[k] + ROUNDS * (2.0 * t->size[k] + 6.0 * away) + 1e-14 * t->size[k];
 }
 

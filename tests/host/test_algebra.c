@@ -1,5 +1,5 @@
-/* test_algebra.c: the normal form: equal expressions become one object and different ones do not. Values, derivatives
- * and substitutions of random expressions are right. */
+/* test_algebra.c: the normal form of expressions. Equal expressions become one object and different ones do not.
+ * Values, derivatives and substitutions of random expressions are compared with libm and with difference quotients. */
 #include "host/algebra/algebra.h"
 
 #include "derived.h"
@@ -118,7 +118,7 @@ TEST(algebra, what_differs_somewhere_stays_apart) {
     }
 }
 
-/* A cube of a sum is kept. poly_expanded() finds equality that needs expansion. */
+/* A cube of a sum is not expanded. poly_expanded() finds equality that needs expansion. */
 TEST(algebra, kept_powers_are_equal_when_expanded) {
     static const pair equal[] = {
         {"(x - y)^3", "x^3 - 3*x^2*y + 3*x*y^2 - y^3"},
@@ -190,7 +190,7 @@ static int grow(tree *t, uint64_t *seed, int depth) {
     return t->count++;
 }
 
-/* NaN also for infinite derivatives and on the branch cut of atan2. */
+/* The result of one operation; NaN also for infinite derivatives and on the branch cut of atan2. */
 static double applied(const node *n, double a, double b, const double x[VARIABLES]) {
     const double none = (double)NAN;
     switch (n->op) {
@@ -226,7 +226,7 @@ static double applied(const node *n, double a, double b, const double x[VARIABLE
     return none;
 }
 
-/* NaN if any part is not finite: 1/0 may have either sign in the normal form. */
+/* The value of a tree; NaN if any part is not finite: 1/0 may have either sign in the normal form. */
 static double value_of(const tree *t, int i, const double x[VARIABLES]) {
     const node *n = &t->nodes[i];
     const double a = n->left < 0 ? 0.0 : value_of(t, n->left, x);
@@ -425,7 +425,7 @@ TEST(algebra_limits, magnitudes_are_sums_of_sizes) {
     TEST_ASSERT_GREATER_THAN_INT(200, differing);
 }
 
-/* x^y and similar: other random expressions have powers of numbers only. */
+/* Powers with an expression as exponent, such as x^y. Other random expressions have only numbers as exponents. */
 TEST(algebra_limits, powers_of_expressions_and_their_slopes) {
     uint64_t seed = 5;
     int slopes = 0;
@@ -555,7 +555,8 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     TEST_ASSERT_TRUE(poly_pow(a, sum_of_places, 3.0)->keeps_powers);
     TEST_ASSERT_EQUAL_INT(4, poly_expanded(a, poly_pow(a, sum_of_places, 3.0))->count);
     TEST_ASSERT_TRUE(poly_is_place(sum_of_places));
-    TEST_ASSERT_FALSE(poly_is_place(poly_symbol(a, &form_symbols[0], 0))); /* no sum */
+    /* a single symbol is no sum */
+    TEST_ASSERT_FALSE(poly_is_place(poly_symbol(a, &form_symbols[0], 0)));
     TEST_ASSERT_FALSE(
         poly_is_place(poly_add(a, sum_of_places, poly_symbol(a, &form_symbols[0], 1))));
     TEST_ASSERT_FALSE(poly_is_place(poly_add(a, sum_of_places, poly_sin(a, sum_of_places))));
@@ -564,7 +565,7 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     algebra_free(a);
 }
 
-/* A product of sums with more than 400000 terms stays a product, with the same value. */
+/* A product of sums that would have more than 400000 terms is not expanded, and has the same value. */
 TEST(algebra_limits, large_products_stay_products) {
     enum { MOST = 633 };
     static symbol rates[MOST];
@@ -596,7 +597,7 @@ TEST(algebra_limits, what_grows_without_end_overflows) {
     algebra_free(a);
 }
 
-/* The limit must not depend on the host: objects count with fixed sizes, 48 bytes per table entry. */
+/* The limit of work must not depend on the host: objects count with fixed sizes, 48 bytes per table entry. */
 TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     algebra *a = algebra_new();
     enum { ATOM = 72 + 48, MONO = 48 + 48, POLY = 32 + 48, PART = 16, PAIR = 24 + 48, TERM = 2 };
@@ -607,10 +608,10 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     before = a->work;
     poly_symbol(a, &form_symbols[1], 0); /* known */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    const poly *sum = poly_add(a, q, r); /* two terms and a new sum of two */
+    const poly *sum = poly_add(a, q, r); /* two terms, and a new sum of two */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
     before = a->work;
-    const poly *product = poly_mul(a, q, r); /* a remembered product, added as a list of one */
+    const poly *product = poly_mul(a, q, r); /* a new product; it is remembered, as a list of one */
     TEST_ASSERT_EQUAL_UINT64(MONO + 2 * PART + POLY + PART + 2 * TERM + PAIR, a->work - before);
     before = a->work;
     TEST_ASSERT_TRUE(poly_mul(a, r, q) == product);
@@ -732,8 +733,8 @@ TEST(algebra_limits, determinants_of_any_rows_and_columns) {
 }
 
 /* === normal form ============================================================================== */
-/* Promises of poly.h on random expressions, checked independently: order of terms and factors, sizes, known parts, one
- * object for equal expressions, one form regardless of history. WH_FORMS=N sets the number of expressions. */
+/* The promises of poly.h, checked independently on random expressions: order of terms and factors, sizes, one object
+ * for equal expressions, and the same form whatever was computed before. WH_FORMS=N sets the number of expressions. */
 
 /* --- the order, as order.c and algebra.h describe it -------------------------------------------------- */
 

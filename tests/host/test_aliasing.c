@@ -1,7 +1,7 @@
 /* test_aliasing.c: forces faster than a step. Frequencies and steps are round numbers, so that many steps are whole
  * periods and every stage sees the same force. Masses on springs, free masses and low passes have closed forms. Ripples
- * on a slow force add up to a drift; frictions have rippling normal forces. Wrong runs must be reported and not trusted
- * to the end, right ones must not be, and the named remedy must work. */
+ * on a slow force add up to a drift; frictions have rippling normal forces. Wrong runs must have a warning and must not
+ * be trusted to the end. Right runs must have no warning. The named remedy must work. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -10,7 +10,7 @@
 /* === aliasing ================================================================================= */
 
 #define TURN 6.283185307179586
-/* Part of the true or the computed motion. */
+/* A larger error, as a part of the true or the computed motion, makes a run wrong. */
 #define WRONG 0.05
 #define RIGHT 1e-3
 
@@ -21,7 +21,7 @@ typedef struct driven {
     double frequency_Hz;
     double step_s;
     double phase;
-    double rate; /* of the spring, rad/s; of the low pass, 1/s */
+    double rate; /* rate of the spring, rad/s, or of the low pass, 1/s */
     double until_s;
     char text[700];
 } driven;
@@ -225,7 +225,7 @@ TEST(aliasing, rippling_normals) {
     const unsigned cases = dice_cases(usual_or(12, 4));
     for (unsigned i = 0; i < cases; i++) {
         const bool slides = i % 2 == 0;
-        const bool still = i % 3 == 2; /* resolved */
+        const bool still = i % 3 == 2; /* a step that resolves the ripple */
         const double step_s = round_of(&d, -4.0, -3.0);
         const double ripple = dice_between(&d, 2.0, 6.0);
         const double fast = TURN * (still ? 0.02 : (double)(1U + dice_one_of(&d, 8))) / step_s;
@@ -252,8 +252,9 @@ TEST(aliasing, rippling_normals) {
 }
 
 /* === pulse trains ============================================================================= */
-/* Forces that act for a small part of their period, in a simple ratio to the step: they are off at every stage and
- * nothing moves. References are closed forms. Errors are reported or not trusted; resolved pulses cause no warning. */
+/* Forces that act for a small part of their period, in a simple ratio to the step: the force is zero at every stage and
+ * nothing moves. The references are closed forms. Wrong runs must have a warning or not be trusted; pulses that the
+ * steps resolve cause no warning. */
 
 static const char *const methods[] = {"rk4", "rk4", "rk38", "nystroem5", "heun"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
@@ -262,7 +263,7 @@ typedef struct verdict_of {
     double value; /* of the requested state */
     bool warned;
     bool too_fast; /* the stages miss part of the force */
-    bool trusted;  /* to the end */
+    bool trusted;  /* trusted to the end */
 } verdict_of;
 
 /* Runs it and reads `name` from the final state. */

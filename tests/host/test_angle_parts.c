@@ -29,7 +29,7 @@ typedef struct sample {
     derived of;
 } sample;
 
-/* `outputs` random expressions, `plain` or not. */
+/* Opens `outputs` random expressions; if `plain`, simple ones. */
 static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
     char *at = s->text;
     at += sprintf(at, "%s", front);
@@ -74,7 +74,7 @@ static void exact_state(const sample *s, const engine_kind *kind, void *run, lon
 
 typedef struct tally {
     int compared;
-    int skipped;          /* tangents so near their pole that round-off dominates */
+    int skipped;          /* number of tangents so near their pole that round-off dominates */
     long double ratio;    /* worst difference over its round-off bound */
     long double relative; /* worst difference over the sum of the terms */
 } tally;
@@ -120,7 +120,7 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     TEST_ASSERT_TRUE(fabs(output[count] - X) <= 8.0 * rounding * (1.0 + fabs(momentum * time_s)));
 }
 
-/* A sweep's measures of the outputs must equal the printed records. */
+/* Checks that a sweep's measures of the outputs equal the printed records. */
 static void check_sweep(const sample *s, const engine_kind *kind, int count, const double *output) {
     diags *errors = diags_new();
     const char *texts[OUTPUTS];
@@ -236,7 +236,7 @@ TEST(angle_parts, float_sines_of_parts) {
         engine_float.outputs(run, output);
         for (int i = 0; i < OUTPUTS; i++) {
             const wave_piece *p = &drawn.expr[i].term[0].factor[0].argument.piece[0];
-            if (p->number != rintl(p->number)) { /* others may be derived from each other */
+            if (p->number != rintl(p->number)) { /* the others may be computed from each other */
                 const long double value = wave_expr_value(&drawn.expr[i], state, true).value;
                 worst = fmax(worst, fabs((double)((long double)output[i] - value)));
                 parts++;

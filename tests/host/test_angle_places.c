@@ -21,7 +21,7 @@ static const struct {
     const char *text;
     int list;
     bool sine;
-    bool scaled; /* by the multiple's number */
+    bool scaled; /* scaled by the number of the multiple */
     double offset;
 } places[] = {
     {"V = 1 [J]*cos(@)\n", IN_STEP, true, true, 0},
@@ -117,7 +117,7 @@ TEST(angle_places, outputs_leave_all_else_alone) {
     static const char *const outputs[] = {
         "output h = cos(th/2)\n",
         "output h = sin(1.5*th)\n",
-        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", /* 2 th is their sum */
+        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", /* 2 th is the sum of both */
         "output h = tan(th/2) + tan(ph/3)\n",
         "output h = sin(th/3 + 2*ph)*exp(1)\n",
         "output h = cos(sqrt(2)*(th + ph))^2\n",
@@ -167,7 +167,8 @@ TEST(angle_places, recovered_angle) {
     derived_free(&d);
 }
 
-/* A system's state is kept as a turn angle, too. Multiples too large for a phase factor are not. */
+/* A system's state is stored as a turn angle, too. If a multiple is too large for a phase factor, it is stored as a
+ * real. */
 TEST(angle_places, systems_and_large_multiples) {
     derived d = derived_scene(
         "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
@@ -203,8 +204,8 @@ TEST(angle_places, systems_and_large_multiples) {
     derived_free(&d);
 }
 
-/* th' cos(th/2) in the kinetic energy is the rate of 2 sin(th/2): it moves nothing, so no equation contains half of
- * th. */
+/* Half of the angle appears in T: th' cos(th/2) is the rate of 2 sin(th/2). A total derivative moves nothing, so no
+ * equation contains half of th. */
 static const char gauge[] =
     "mechanism m\ncoordinate th [rad]\n"
     "T = 0.5 [kg*m^2]*th'^2 + 0.7 [kg*m^2/s]*th'*cos(th/2)\nV = -2 [J]*cos(th)\n";

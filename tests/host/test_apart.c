@@ -1,5 +1,6 @@
-/* test_apart.c: holds that close linkages and do not fit at the start (host/check/apart.h). On random four-bars, both
- * faults are reported with the vanishing energy. The proposed values fit after they are pasted. */
+/* test_apart.c: holds that close a linkage and are not satisfied at the start (host/check/apart.h). For random four-bar
+ * linkages, a wrong length and a wrong angle are both reported with the energy that is lost. The start values that
+ * Whirl proposes must satisfy the holds. */
 #include "command.h"
 #include "host/check/apart.h"
 #include "motion.h"
@@ -11,7 +12,7 @@ typedef struct bars {
     double inertia[3];
     double angle_rad[3];
     double rate[3];
-    double at_m[2];    /* of the last joint */
+    double at_m[2];    /* position of the last joint */
     double turned_rad; /* error of b */
 } bars;
 
@@ -33,7 +34,7 @@ static bars bars_draw(dice *d, bool off) {
             b.at_m[k] += (i < 2 ? 1.0 : -1.0) * b.length_m[i] * part;
         }
     }
-    b.turned_rad = off ? 0.005 * exp(dice_between(d, 0.0, 4.4)) : 0.0; /* to 0.4 */
+    b.turned_rad = off ? 0.005 * exp(dice_between(d, 0.0, 4.4)) : 0.0; /* up to 0.4 rad */
     return b;
 }
 
@@ -127,8 +128,8 @@ TEST(apart, four_bars) {
     }
 }
 
-/* A rod between two balls keeps the length that it has at the start, so any places fit. If the file gives the rod's length,
- * the difference is reported. */
+/* A rod between two balls keeps the length that it has at the start, so any start is possible. If the file gives the
+ * rod's length, a start with another length is reported. */
 TEST(apart, rods) {
     dice d = dice_of("apart", 2);
     const unsigned cases = dice_cases(60);

@@ -16,9 +16,9 @@ enum { JOINTS = 6 };
 #define G 9.81
 
 typedef struct arm_arm {
-    int axis[JOINTS];          /* of its joint, in its own frame */
-    double offset[JOINTS];     /* place of its joint along the z axis of the previous one, m */
-    double centre[JOINTS];     /* of mass, along z, m */
+    int axis[JOINTS];          /* axis of its joint, in its own frame */
+    double offset[JOINTS];     /* position of its joint along the z axis of the previous frame, m */
+    double centre[JOINTS];     /* position of the centre of mass along z, m */
     double mass[JOINTS];       /* kg */
     double inertia[JOINTS][3]; /* about the centre, kg m^2 */
 } arm_arm;
@@ -50,7 +50,8 @@ static const char *entry(const arm_arm *a, int i, int row, int column, char text
     return text;
 }
 
-/* In the style of SymPy users: rotated frames, world positions of the centres, and their derivatives. */
+/* Writes the arm as users of SymPy would: rotated frames, positions of the centres in the world, and their
+ * derivatives. */
 static char *text_of(const arm_arm *a) {
     char *text;
     size_t length;
@@ -62,7 +63,7 @@ static char *text_of(const arm_arm *a) {
     }
     for (int i = 0; i < JOINTS; i++) {
         for (int row = 0; row < 3;
-             row++) { /* R: axes of link i in the world, p: its joint, c: its centre */
+             row++) { /* R: the axes of link i in the world; p: its joint; c: its centre */
             for (int k = 0; k < 3; k++) {
                 fprintf(out, "let R%d_%d%d = 0", i, row, k);
                 for (int j = 0; j < 3 && i > 0; j++) {
@@ -217,16 +218,16 @@ typedef struct charge {
     double mass_kg;
     double field_kgps;
     double speed_mps;
-    double spring_Npm; /* to its start */
+    double spring_Npm; /* rate of a spring to the start */
     const char *method;
     double step_s;
 } charge;
 
-/* Forms of the kinetic term of a magnetic field: B (x y' - y x')/2, B x y' or -B y x'. */
+/* Equivalent forms of the kinetic term of a magnetic field: B (x y' - y x')/2, B x y' or -B y x'. */
 static const char *const potentials[] = {"B*(x*y' - y*x')/2", "B*x*y'", "-B*y*x'"};
 enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
 
-/* The reported energy residual relative to the largest entry, and whether Whirl warned; 1 if the run diverges. */
+/* The reported energy residual, relative to the largest entry; 1 if the run diverges. *warned: Whirl warned of it. */
 static double left_over_leans(const charge *c, const char *potential, double x0, bool *warned) {
     char text[700];
     said what;
@@ -279,16 +280,16 @@ TEST(leans, origins_and_potentials) {
 }
 
 /* === linkages ================================================================================= */
-/* Random planar linkages: equations derived from their text against the same energies differentiated numerically
- * (linkage.h), for accelerations and whole motions. Reflection, the order of the file, and forces in effects instead of
- * the mechanism must not change the motion. The energy balance must close. WHIRL_CASES=10000 WHIRL_SEED=... chooses
- * other cases. */
+/* Random planar linkages. The accelerations and motions derived from their text are compared with numeric derivatives
+ * of the same energies (linkage.h). Reflection, the order of the statements, and forces in effects instead of the
+ * mechanism must not change the motion. The residual of the energy balance must be small. WHIRL_CASES=10000
+ * WHIRL_SEED=... chooses other cases. */
 
 enum { LINKAGES_STATES = 10, STEPS = 100 };
 
 static unsigned cases(void) { return dice_cases(few_or_all(usual_or(6, 3), 200)); }
 
-/* Share of the cases with the invariance tests. */
+/* One case in this number has the invariance tests. */
 enum { ONE_IN = 3 };
 
 static linkage drawn_linkage(dice *d, unsigned k) {
@@ -510,7 +511,7 @@ TEST(linkages, forces_may_stand_in_effects) {
 
 /* --- energy balance ------------------------------------------------------------------------------------------ */
 
-/* The energy residual after 100 ms, and the sum of all energy entered in the balance. */
+/* The energy residual after 100 ms; *turnover gets the sum of all energy entered in the ledger. */
 static double left_over_linkages(const linkage *of, double step_s, double *turnover) {
     enum { ENTRIES_MAX = 200, ACCOUNTS_MAX = 1 + LINKAGE_BODIES };
     double total[ENTRIES_MAX] = {0};
@@ -544,7 +545,8 @@ TEST(linkages, the_energy_is_accounted_for) {
         const double fine = left_over_linkages(&of, 5e-4, &turnover);
         double least = fine;
         double step_s = 5e-4;
-        while (!(least < 1e-7 * turnover)) { /* too fast for the step: the method's own error */
+        while (!(least < 1e-7 * turnover)) {
+            /* the motion is too fast for the step: the method's own error dominates */
             const double coarser = least;
             step_s /= 4.0;
             fast += coarser == fine ? 1U : 0U;

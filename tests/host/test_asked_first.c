@@ -1,6 +1,6 @@
-/* test_asked_first.c: derivation does not depend on history: other expressions in the same algebra, earlier output, or
- * other mechanisms derived in the same program. Tests every built-in scene and generated mechanisms (WHIRL_CASES). The
- * generated C, or the Octave form where the core lacks a function, must be byte-identical. */
+/* test_asked_first.c: the result of a derivation does not depend on what was computed before: other expressions in the
+ * same algebra, earlier output, or other mechanisms. Tests every built-in scene and generated mechanisms (WHIRL_CASES).
+ * The generated C, or the Octave form where the core lacks a function, must be byte-identical. */
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
@@ -84,7 +84,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     fclose(out);
     free(text);
     const int i = (int)draw(from, (unsigned)e->count);
-    if (e->kinetic != NULL) { /* one more derivative, discarded */
+    if (e->kinetic != NULL) { /* takes a derivative and discards it */
         poly_derivative(e->algebra,
                         poly_derivative(e->algebra, e->kinetic, e->unknowns[i].symbol, 1),
                         e->unknowns[i].symbol, 0);

@@ -14,7 +14,8 @@
 #define FOLDER "tests/bad"
 enum { TEXTS_MIN = 141, LINE_SIZE = 512 };
 
-/* Instantiates a mechanism and, with `derive`, makes its equations and lists. Does nothing after an earlier error. */
+/* Instantiates a mechanism and, if `derive`, derives its equations and operation lists. Does nothing after an earlier
+ * error. */
 static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
     instance *made = instance_make(of, in, NULL, all);
     if (derive && made != NULL && diags_count(all) == 0) {
@@ -219,7 +220,7 @@ TEST(bad_input, lines_end_in_one_way) {
         with[i] = '\r';
         memcpy(with + i + 1, text + i, sizeof text - i);
         if (i > 0 && ((unsigned char)text[i] & 0xc0) == 0x80) {
-            continue; /* within a character */
+            continue; /* in the middle of a character */
         }
         if (text[i] == '\n' || text[i] == '\0') {
             free(full_report_on("x.whirl", with, sizeof with - 1, false, &errors));

@@ -1,7 +1,7 @@
-/* test_blame_lists.c: expressions that a run checks after a value is not a number. These are all expressions that move
- * it, and slopes of differentiated ones that may be undefined while the expression is not. Sums, products, integer
- * powers and waves always have slopes. By definition, an expression has one slope per coordinate that it depends on,
- * and per rate for energies and losses. */
+/* test_blame_lists.c: expressions that a run checks after a value is not a number. They are all expressions that the
+ * motion depends on. If the equations contain derivatives of an expression, its slopes are listed, too, unless they
+ * always exist, as for sums, products, integer powers and waves. An expression has one slope for each coordinate that
+ * it depends on; energies and losses also have one for each rate. */
 #include "derived.h"
 
 /* An expression of a (a length over one metre), b (an angle) and their rates v and w. Counts of a and b, and of v and
@@ -49,7 +49,7 @@ static derived with_statement(const char *statement) {
     return d;
 }
 
-/* T is checked itself, and its slopes always exist. */
+/* T is listed itself, and its slopes always exist. */
 enum { OF_T = 1 };
 
 /* Losses act only through their slopes by the rates. */
@@ -91,7 +91,7 @@ TEST(blame_lists, slopes_of_contacts) {
         const sample *s = &samples[i];
         const struct {
             const char *form;
-            int values; /* checked as written */
+            int values; /* number of values that are listed as written */
             int late;
             bool slopes;
             bool takes_rates;

@@ -1,7 +1,7 @@
 /* test_blurred.c: bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few
- * digits of their mass matrix, also in double, so two runs can agree on a wrong result. The reference has no matrix:
- * each body by itself, in long double. Errors must be reported. Coordinates relative to the heavier body are accurate
- * and cause no warning. */
+ * digits of their mass matrix, also in double, so two runs can agree on a wrong result. The reference needs no matrix:
+ * it integrates each body separately, in long double. A wrong run must have a warning. Coordinates relative to the
+ * heavier body are accurate and cause no warning. */
 #include "by_bodies.h"
 #include "command.h"
 #include "host/cli/commands.h"
@@ -18,7 +18,7 @@ typedef struct line {
     int order[MOST]; /* start of each body, relative to the previous one; [0] to the ground */
 } line;
 
-/* The coordinates in that order, at the places x. */
+/* The values of the coordinates at the positions x. */
 static void counted(const void *of, const long double *x, long double *q) {
     const line *l = of;
     for (int i = 0; i < l->bodies; i++) {
@@ -70,7 +70,7 @@ static void accelerate(const void *of, const bodies_state *s, long double *a_mps
     }
 }
 
-/* Steps with the scene's own step. Results: the coordinates at the end, and the range of each. */
+/* Integrates with the scene's own step. Results: the coordinates at the end, and the range of each. */
 static void run_by_bodies(const line *l, long double *end, double *range) {
     const by_bodies b = {l, l->bodies, STEP_S, STEPS, accelerate, counted};
     long double start[MOST];
@@ -83,7 +83,7 @@ static void run_by_bodies(const line *l, long double *end, double *range) {
 typedef struct seen {
     bool refused;
     bool warned;
-    bool trusted;      /* to the end */
+    bool trusted;      /* trusted to the end */
     double off;        /* largest error relative to the coordinate's range */
     double off_of_all; /* largest error relative to the largest range */
 } seen;
@@ -127,8 +127,8 @@ static seen see(const line *l) {
     return s;
 }
 
-/* The stiffnesses are similar, at most about 20 rad/s. This test does not ask whether a soft spring is lost beside a stiff
- * one. */
+/* The stiffnesses are similar, at most about 20 rad/s. Whether round-off of a stiff spring hides a soft one is not
+ * tested here. */
 static line draw(dice *d, double decades) {
     line l = {.bodies = 2 + (int)dice_one_of(d, 2)};
     for (int b = 0; b < l.bodies; b++) {
@@ -152,7 +152,7 @@ static line draw(dice *d, double decades) {
     return l;
 }
 
-/* Each relative to the heavier one. */
+/* Orders the bodies so that each is measured relative to the heavier one. */
 static void count_from_heavier(line *l) {
     for (int i = 1; i < l->bodies; i++) {
         for (int k = i; k > 0 && l->mass_kg[l->order[k]] > l->mass_kg[l->order[k - 1]]; k--) {
@@ -215,8 +215,8 @@ TEST(blurred, what_is_off_is_told) {
     TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
 }
 
-/* The light body's mass depends on the heavy one's place, so no constants are folded. Only the round-off of each step loses
- * digits. */
+/* The mass of the light body depends on the position of the heavy one, so no constants are folded at derivation. Only
+ * the round-off of each step loses digits. */
 static void varying_text(double light_kg, double ratio, double spring_Npm, double start_m,
                          char *text, size_t size) {
     snprintf(text, size,
@@ -254,7 +254,7 @@ TEST(blurred, no_trust_in_what_both_have_wrong) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
             TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "trusted to the end") == NULL) == is_lost,
                                      what.out);
-            /* folding is reported by another number than the run's */
+            /* the loss by constant folding is reported with another number */
             const bool by_rounding = strstr(what.out, "unknown") != NULL;
             TEST_ASSERT_TRUE_MESSAGE(is_lost ? by_rounding || varies == 0 : !by_rounding, what.out);
         }

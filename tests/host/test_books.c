@@ -1,4 +1,4 @@
-/* test_books.c: the energy account of a summary against closed forms, with impacts. */
+/* test_books.c: the energy account in the summary of a run, compared with closed forms, with impacts. */
 #include "host/cli/commands.h"
 #include "host/derive/program.h"
 
@@ -15,9 +15,10 @@ static double told(const char *summary, const char *words) {
     return strtod(at + strlen(words), NULL);
 }
 
-/* Impacts of other coordinates, or in the middle of a step, leave two entries unchanged: the energy from a constant force, P
- * (z - h), and the loss of an evenly damped slide. Each printed entry has a closed form; with the contacts' part, the entries
- * sum to the change. Integration between step ends only would miss part of the step with the impact. */
+/* Impacts of other coordinates, or in the middle of a step, leave two entries unchanged: the energy from a constant
+ * force, P (z - h), and the loss of an evenly damped slide. Each printed entry has a closed form; with the contacts'
+ * part, the entries sum to the change. A ledger that integrated only between the ends of steps would miss a part of the
+ * step with the impact. */
 TEST(account, entries_across_impacts_are_closed_forms) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -48,9 +49,9 @@ TEST(account, entries_across_impacts_are_closed_forms) {
 }
 
 /* === ledger turns ============================================================================= */
-/* Energy balances of energies linear in rates. A total derivative dG/dt of a function of the coordinates changes no
- * motion. It changes the momenta by dG/dq, and every dL/dq. The balance then needs the angles, while the equations need
- * only their sines. Closed forms and random mechanisms. */
+/* Energy balances of energies linear in rates. Adding a total derivative dG/dt of a function of the coordinates to L
+ * does not change the motion. But it changes the momenta by dG/dq, and every dL/dq. The ledger then needs the angles,
+ * while the equations need only their sines. Closed forms and random mechanisms. */
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .ledger = true};
@@ -59,7 +60,7 @@ enum { ENTRIES_MAX = 200 };
 
 typedef struct account_book {
     double total[ENTRIES_MAX];
-    double left_over[8]; /* by account */
+    double left_over[8]; /* residual of each account */
 } account_book;
 
 static account_book read_book(const motion *m) {
@@ -70,7 +71,7 @@ static account_book read_book(const motion *m) {
     return book;
 }
 
-/* The entry of dL/dq of coordinate `name`. */
+/* The total of the entry for dL/dq of coordinate `name`. */
 static double of_energies(const motion *m, const account_book *book, const char *name) {
     const image_ledger *l = &m->image->ledger;
     for (int i = 0; i < l->smooth; i++) {
@@ -84,7 +85,7 @@ static double of_energies(const motion *m, const account_book *book, const char 
     return 0.0;
 }
 
-/* A function of the angles a and b, and its rate by hand. */
+/* A function G of the angles a and b, and its rate derived by hand. */
 typedef struct gauge {
     char rate[400];
     double factor[3];
@@ -117,7 +118,7 @@ static void slopes(const gauge *g, double a, double b, double slope[2]) {
     }
 }
 
-/* A double pendulum with drag, a motor and a stop. G's total derivative is added to L or not. */
+/* Opens a double pendulum with drag, a motor and a stop. `rate` is added to L. */
 static void open_pendulum(motion *m, const char *rate, stepping how) {
     char text[1500];
     snprintf(text, sizeof text,

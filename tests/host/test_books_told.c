@@ -1,6 +1,6 @@
 /* test_books_told.c: the report of `whirl run` on energy and momenta at the end, for random mechanisms with uncoupled
- * coordinates: free, pushed, sprung or damped. Conserved momenta, their values, and with the ledger the cause of each
- * change, all by closed form. */
+ * coordinates: free, pushed, sprung or damped. The conserved momenta, their values, and with the ledger the cause of
+ * each change, are compared with closed forms. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -46,7 +46,7 @@ static own_bodies drawn(dice *d) {
     return m;
 }
 
-/* In reverse, so that their order is not alphabetical. */
+/* The names are in reverse alphabetical order. */
 static char name_of(unsigned i) { return (char)('z' - (int)i); }
 
 /* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": the sum over all bodies of this kind, preceded by `begins`; empty if there are none. */
@@ -89,7 +89,7 @@ static void mechanism_text(const own_bodies *m, char text[2500]) {
     (void)snprintf(text + at, (size_t)(2500 - at), "; step 1 [ms]; until %.3f [s] }\n", m->until_s);
 }
 
-/* Change of m x' over the run. */
+/* The change of m x' over the run. */
 static double change_Ns(const own_body *b, double time_s) {
     const double w = sqrt(b->law / b->mass_kg);
     double end_mps = b->speed_mps;
@@ -116,7 +116,7 @@ static void expect_number(const char *text, double wanted, const char *at) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 1e-8 * (1.0 + fabs(wanted)), at);
 }
 
-/* Both levels at the end, and the work and losses, which the springs do not change. */
+/* Checks the levels of both accounts at the end, and the work and losses, to which springs do not contribute. */
 static void expect_balance(const own_bodies *m, const char *text) {
     double kinetic_J = 0.0;
     double stored_J = 0.0;
@@ -180,7 +180,7 @@ TEST(books_told, conserved_momenta) {
     TEST_ASSERT_TRUE(none > 3U);
 }
 
-/* For each coordinate: its causes, its change, and the mean over time. */
+/* Checks, for each coordinate, the causes, the change of the momentum, and the mean over time. */
 TEST(books_told, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
@@ -219,7 +219,8 @@ TEST(books_told, ledgers) {
     model_drop();
 }
 
-/* Random stops, some of which the ball never reaches. Those stops have no line in any account. */
+/* Random stops, some of which the ball never reaches. A stop that was never reached must have no line in any
+ * account. */
 TEST(books_told, contacts_that_gave_nothing) {
     dice die = dice_of("books_told", 93);
     enum { STOPS = 4 };
@@ -253,9 +254,9 @@ TEST(books_told, contacts_that_gave_nothing) {
 }
 
 /* === energy integral ========================================================================== */
-/* The energy account where T + V is not conserved: T is not quadratic in the rates, V contains rates, or an energy
- * contains a changing input. The energy integral of each is derived by hand (Goldstein, Classical Mechanics, section
- * 2.7). */
+/* The energy account of motions in which T + V is not conserved, because T is not quadratic in the rates, V contains
+ * rates, or an energy contains a changing input. The energy integral of each is derived by hand (Goldstein, Classical
+ * Mechanics, section 2.7). */
 
 /* A bead on a hoop that turns at the rate w about its upright diameter. */
 #define HOOP(rate) \
@@ -319,9 +320,9 @@ typedef double by_hand(const motion *m);
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 
 typedef struct remainders {
-    double summary_J; /* of the account beside the run */
-    double ledger_J;  /* of the run's own */
-    double change_J;  /* of the integral derived by hand */
+    double summary_J; /* energy residual from the summary of the run */
+    double ledger_J;  /* energy residual of the run's own ledger */
+    double change_J;  /* change of the integral derived by hand */
 } remainders;
 
 /* Residual of the ledger's energy account, J. */
@@ -389,7 +390,7 @@ TEST(energy_integral, smooth_motions) {
     static const struct {
         const char *text;
         by_hand *energy_J;
-        double step_s; /* coarse, for the order */
+        double step_s; /* a coarse step, to measure the order */
     } rows[] = {{HOOP_AT_10 "scene s { start th = 0.1\nuntil 2 [s] }\n", hoop_at_10, 4e-3},
                 /* the torque's work and the damper's loss are entries of some 1e-2 J */
                 {HOOP_AT_10 "input M = 0.06 [N*m]\nQ(th) = M\n"
@@ -407,7 +408,8 @@ TEST(energy_integral, smooth_motions) {
 
 /* --- contacts ------------------------------------------------------------------------------------ */
 
-/* Total of a contact in an account: account 0 is the energy, 1 + i the momentum of coordinate i. */
+/* Total of a contact in an account. Account 0 is the energy, 1 + i the momentum of coordinate i. *left_over gets the
+ * account's residual. */
 static double of_contact(const motion *m, int account, double *left_over) {
     const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -459,7 +461,7 @@ static image *image_of(const char *text, derived *d) {
 }
 
 /* If the mass depends on the rates, an impulse is not mass times the change of rates. Stops of such bodies are refused,
- * others are not. */
+ * other stops are not. */
 TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
     static const struct {
         const char *text;
@@ -496,10 +498,11 @@ static void change_the_hoop(const char *text, bool stops) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         const double next = 10.0 + 3.0 * sin(0.02 * step);
         gave_J -= 0.002 * square(sin(motion_value(&m, "th"))) * (next * next - w * w);
-        m.kind->set_input(m.run, 0, next); /* input 1 is a motor's, at standstill */
+        m.kind->set_input(m.run, 0, next); /* input 1 is that of a motor, which is at standstill */
         w = next;
     }
-    m.kind->ledger(m.run, total, total + l->entries); /* the last change is not in a step yet */
+    /* the effect of the last change is entered in the next step */
+    m.kind->ledger(m.run, total, total + l->entries);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, total[l->entries]);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
     m.kind->ledger(m.run, total, total + l->entries);
