@@ -29,6 +29,19 @@ check() {
     verdict $? "$what" "$scratch/check"
 }
 
+# exits STATUS PATTERN WORD...: `whirl $about WORD...` ends with that status, and a line of standard error matches the pattern
+# (of grep, with the flag $regex). What is refused as bad input (2) writes nothing to standard output.
+about= regex=
+exits() {
+    status=$1
+    pattern=$2
+    shift 2
+    # shellcheck disable=SC2086 # words, or none
+    sh tests/limit.sh 60 "$whirl" $about "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    [ $? -eq "$status" ] && grep -q $regex -e "$pattern" "$scratch/err" && { [ "$status" -ne 2 ] || [ ! -s "$scratch/out" ]; }
+    verdict $? "whirl${about:+ $about} $*: status $status, $pattern"
+}
+
 # await COMMAND...: repeats the command until it succeeds. Fails after ten minutes, more than a busy machine needs.
 await() {
     tries=0
@@ -41,6 +54,19 @@ await() {
 # has_bytes COUNT FILE: is FILE that long? has_worked HUNDREDTHS PROCESS: has it used that processor time, or ended?
 has_bytes() { [ "$(wc -c 2>/dev/null <"$2" || echo 0)" -ge "$1" ]; }
 has_worked() { ! [ "$(sed 's/.*) //' "/proc/$2/stat" 2>/dev/null | awk '{ print $12 + $13 }')" -lt "$1" ] 2>/dev/null; }
+# stop SIGNAL WHEN WORD...: starts whirl and sends it the signal when WHEN holds, one of the two above; $code is how it ended.
+stop() {
+    signal=$1
+    when=$2
+    shift 2
+    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" &
+    process=$!
+    # shellcheck disable=SC2086 # a command and its words
+    await $when $process
+    kill "-$signal" $process
+    wait $process
+    code=$?
+}
 
 # The rows of host/cli/options.h: "--word VALUE GROUP".
 option_rows() {

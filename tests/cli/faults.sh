@@ -9,6 +9,7 @@ runs=45
 [ -z "${WHIRL_FEW:-}" ] || runs=12
 [ -z "${WHIRL_FULL:-}" ] || runs=120
 rig="docs/plants/rig.whirl --step 200us --firmware $build/pil_rig"
+about="pil $rig"
 
 # --- words ------------------------------------------------------------------------------------------------------------
 "$whirl" pil --faults >"$scratch/kinds" 2>"$scratch/err" && [ "$(wc -l <"$scratch/kinds")" -ge 30 ]
@@ -22,29 +23,17 @@ done >"$scratch/bad"
 verdict $? "each is taken, and the list says what it does" "$scratch/bad"
 grep -q '^`whirl pil --faults` lists' docs/pil.md
 verdict $? "docs/pil.md names the list"
-# refused PATTERN WORD...
-refused() {
-    pattern=$1
-    shift
-    # shellcheck disable=SC2086
-    sh tests/limit.sh 20 "$whirl" pil $rig "$@" >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq 2 ] && grep -q -- "$pattern" "$scratch/err"
-    verdict $? "whirl pil $*: $pattern"
-}
-refused "did you mean 'supply'" --fault suply=2
-refused 'a number from 0 to 10' --fault supply=11
-refused 'it has no size' --fault jam,freewheel=1
-refused 'a number from 0.01 to 1' --fault stuck=1.2
-refused 'no such time' --fault jam@noon
-refused 'no such duration' --fault jam@1+long
-refused "tells no 'mood'" --fault jam@mood=3
-refused 'has 2 such channels' --fault edge-dead:3
-sh tests/limit.sh 20 "$whirl" pil docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q "has no input 'runaway'" "$scratch/err"
-verdict $? "a scene without such an input is told"
-sh tests/limit.sh 20 "$whirl" pil --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q 'takes no --fault' "$scratch/err"
-verdict $? "a tape takes no faults"
+exits 2 "did you mean 'supply'" --fault suply=2
+exits 2 'a number from 0 to 10' --fault supply=11
+exits 2 'it has no size' --fault jam,freewheel=1
+exits 2 'a number from 0.01 to 1' --fault stuck=1.2
+exits 2 'no such time' --fault jam@noon
+exits 2 'no such duration' --fault jam@1+long
+exits 2 "tells no 'mood'" --fault jam@mood=3
+exits 2 'has 2 such channels' --fault edge-dead:3
+about=pil
+exits 2 "has no input 'runaway'" docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway
+exits 2 'takes no --fault' --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam
 
 # --- what they do -----------------------------------------------------------------------------------------------------
 # told WORD FILE: the value of the firmware's note of that name

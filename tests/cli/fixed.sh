@@ -194,10 +194,8 @@ verdict $? "one that is large enough is quiet"
 refuse() { # refuse WORDS TARGET OPTION...
     words=$1
     shift
-    "$whirl" derive "$@" --as c --number fixed >"$scratch/out" 2>"$scratch/err"
-    status=$?
-    [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && grep -q "$words" "$scratch/err" && grep -q '^hint: ' "$scratch/err"
-    verdict $? "refused: $words"
+    exits 2 "$words" derive "$@" --as c --number fixed
+    grep -q '^hint: ' "$scratch/err" || verdict 1 "a hint: $words"
 }
 refuse "there are no events in fixed point" carriage_stop
 cat >"$scratch/w/stopped.whirl" <<'END'
@@ -240,10 +238,6 @@ units() { sed -n "s/^#define gear_$1_OF_OUTPUTS //p" "$2"; }
 [ -n "$(units UNITS "$scratch/gear.h")" ] && [ "$(units UNITS "$scratch/gear.h")" = "$(units UNITS "$scratch/float.h")" ] &&
     [ "$(units NAMES "$scratch/gear.h")" = "$(units NAMES "$scratch/float.h")" ]
 verdict $? "it lists the outputs and units that the header in floating point lists" "$scratch/gear.h"
-"$whirl" derive two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q -- '--number fixed goes with --as c' "$scratch/err"
-verdict $? "equations have no number"
-"$whirl" sweep two_mass_relative --number fixed >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q "no number 'fixed'" "$scratch/err"
-verdict $? "sweeps have none of it"
+exits 2 '--number fixed goes with --as c' derive two_mass_relative --number fixed
+exits 2 "no number 'fixed'" sweep two_mass_relative --number fixed
 exit $failed

@@ -3,19 +3,6 @@
 # point reached, and whole records and summary up to it.
 . "$(dirname "$0")/../checks.sh"
 
-# stop SIGNAL FILE WORD...: starts whirl and sends the signal when FILE has grown; $code is the exit status.
-stop() {
-    signal=$1
-    grows=$2
-    shift 2
-    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" &
-    process=$!
-    await has_bytes 20000 "$grows"
-    kill "-$signal" $process
-    wait $process
-    code=$?
-}
-
 # said TEXT: standard error names the time of the last record and, unless --quiet, the number of steps; nothing else.
 said() {
     [ "$(grep -c '^whirl run: note: 1000000000 steps follow, ' "$scratch/err")" = "${3:-1}" ] || return 1
@@ -38,7 +25,7 @@ whole() {
 for signal in INT TERM; do
     for quiet in '' --quiet; do
         # shellcheck disable=SC2086 # perhaps no word
-        stop $signal "$scratch/r.csv.part" run epicyclic_from_rest --until 1000000s --csv "$scratch/r.csv" $quiet
+        stop $signal "has_bytes 20000 $scratch/r.csv.part" run epicyclic_from_rest --until 1000000s --csv "$scratch/r.csv" $quiet
         name="run, $signal${quiet:+, }$quiet"
         [ "$code" -eq 130 ]
         verdict $? "$name: exit status 130"
@@ -57,7 +44,7 @@ for signal in INT TERM; do
 done
 
 # the state at the interrupt is that of a run to this time
-stop INT "$scratch/r.dat.part" run epicyclic_from_rest --until 1000000s --columns "$scratch/r.dat"
+stop INT "has_bytes 20000 $scratch/r.dat.part" run epicyclic_from_rest --until 1000000s --columns "$scratch/r.dat"
 said "$scratch/r.dat" 1000000
 verdict $? "run, columns: says at what time"
 check "run, columns: the records are whole" whole "$scratch/r.dat" ' ' 0.001
@@ -66,12 +53,8 @@ check "run, columns: the records are whole" whole "$scratch/r.dat" ' ' 0.001
 verdict $? "run, columns: the state of a run that ends there"
 
 # a run without records leaves none
-"$whirl" run epicyclic_from_rest --until 1000000s --with ledger >"$scratch/out" 2>"$scratch/err" &
-process=$!
-await has_worked 20 $process
-kill -INT $process
-wait $process
-[ $? -eq 130 ] && grep -Eq '^whirl run: interrupted at t = [0-9.]+ s of 1000000 s$' "$scratch/err"
+stop INT "has_worked 20" run epicyclic_from_rest --until 1000000s --with ledger
+[ "$code" -eq 130 ] && grep -Eq '^whirl run: interrupted at t = [0-9.]+ s of 1000000 s$' "$scratch/err"
 verdict $? "run without records: exit status 130, and when"
 grep -q '^energy balance' "$scratch/out"
 verdict $? "run without records: its books are there" "$scratch/out"
@@ -84,12 +67,8 @@ T = 1 [kg]*x'^2/2
 V = 40 [N/m]*x^2/2
 scene long { start x = 0.1 [m]; until 1000000 [s]; step 1 [ms] }
 END
-"$whirl" run "$scratch/long.whirl" --number fixed >"$scratch/out" 2>"$scratch/err" &
-process=$!
-await has_worked 20 $process
-kill -INT $process
-wait $process
-[ $? -eq 130 ] && grep -q '^whirl run: interrupted before the run in fixed point began' "$scratch/err" && [ ! -s "$scratch/out" ]
+stop INT "has_worked 20" run "$scratch/long.whirl" --number fixed
+[ "$code" -eq 130 ] && grep -q '^whirl run: interrupted before the run in fixed point began' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "run in fixed point, before it began: exit status 130, and why there is nothing" "$scratch/err"
 
 # a second signal ends a process that waits, here for a reader that never comes
@@ -109,7 +88,7 @@ verdict $? "a second Ctrl-C ends a run that cannot write"
 kill $reader
 
 for signal in INT TERM; do
-    stop $signal "$scratch/s.csv" sweep carriage_free --until 50ms --over duty=0..1:1000000 --measure X --measure "X'" \
+    stop $signal "has_bytes 20000 $scratch/s.csv" sweep carriage_free --until 50ms --over duty=0..1:1000000 --measure X --measure "X'" \
         --measure 'max(pin_force)' --jobs 2 --csv "$scratch/s.csv"
     rows=$(($(wc -l <"$scratch/s.csv") - 1))
     [ "$code" -eq 130 ]
@@ -121,12 +100,7 @@ done
 
 # a map keeps the finished points, in words and as rows
 for signal in INT TERM; do
-    "$whirl" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err" &
-    process=$!
-    await has_worked 150 $process
-    kill -$signal $process
-    wait $process
-    code=$?
+    stop $signal "has_worked 150" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv"
     rows=$(($(wc -l <"$scratch/m.csv") - 1))
     [ "$code" -eq 130 ] && [ "$rows" -gt 0 ] && [ "$rows" -lt 10000 ]
     verdict $? "map, $signal: exit status 130, $rows rows"
@@ -141,12 +115,7 @@ mkfifo "$scratch/trusted"
 for kind in file trusted; do # `trusted` is a pipe
     rm -f "$scratch/file"
     [ $kind = file ] || cat "$scratch/trusted" >"$scratch/read" &
-    "$whirl" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1e14 --csv "$scratch/$kind" >"$scratch/out" 2>"$scratch/err" &
-    process=$!
-    await has_worked 50 $process
-    kill -INT $process
-    wait $process
-    code=$?
+    stop INT "has_worked 50" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1e14 --csv "$scratch/$kind"
     [ $code -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/file" ] && [ -p "$scratch/trusted" ]
     verdict $? "trust to a file, $kind: exit status 130, an ordinary one goes and a pipe stays"
 done

@@ -2,15 +2,8 @@
 # list.sh: `whirl list --as table` against a file with known items, and uses of its names: --with and --without all,
 # --without conserve, --name.
 . "$(dirname "$0")/../checks.sh"
+regex=-E
 
-# says PATTERN WORD...: refused with exit status 2 and this message, with nothing on standard output.
-says() {
-    pattern=$1
-    shift
-    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
-    [ $? -eq 2 ] && grep -Eq -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
-    verdict $? "whirl $*: $pattern"
-}
 
 # --- the table: generated files, of which everything is known ---------------------------------------------
 seed=${WHIRL_SEED:-11}
@@ -109,9 +102,9 @@ for name in $names; do
     [ $bad -eq 0 ] || { cat "$scratch/got" >>"$scratch/err"; break; }
 done
 verdict $bad "names of files and titles with ends of fields and lines in them (seed $seed)"
-says "there is no form 'csv'" list --as csv
-says 'is no file' list core/models/cuff.whirl:cuff --as table
-says 'unknown option' list --table
+exits 2 "there is no form 'csv'" list --as csv
+exits 2 'is no file' list core/models/cuff.whirl:cuff --as table
+exits 2 'unknown option' list --table
 
 # --- all effects, and none ---------------------------------------------------------------------------------
 # code WORD...: the C, without the first line, which names the file
@@ -127,8 +120,8 @@ same "all but one" "ball_bounces --with all --without air" "ball_bounces --with 
 same "none but one, whatever the order" "ball_in_air --with ceiling --without all" "ball_in_air --without air,floor --with ceiling"
 same "none" "ball_in_air --without=all" "ball_in_air --without floor,air"
 same "the ledger is not among all" "ball_bounces --without all --with ledger" "ball_bounces --without floor --with ledger"
-says 'contradict each other' derive ball_bounces --with all --without all --as c
-says 'names .all. twice' derive ball_bounces --with all,all --as c
+exits 2 'contradict each other' derive ball_bounces --with all --without all --as c
+exits 2 'names .all. twice' derive ball_bounces --with all,all --as c
 
 # --- conserve ----------------------------------------------------------------------------------------------
 cat >"$scratch/slide.whirl" <<'END'
@@ -141,7 +134,7 @@ effect drag { F += 1 [N*s/m]*y'^2/2 }
 scene kept { start x = 1 [m]; conserve y; step 1 [ms]; until 1 [s] }
 scene moved { start x = 1 [m]; step 1 [ms]; until 1 [s] }
 END
-says 'hint: .*--without conserve' derive "$scratch/slide.whirl:kept" --with drag --as c
+exits 2 'hint: .*--without conserve' derive "$scratch/slide.whirl:kept" --with drag --as c
 same "integrated after all" "$scratch/slide.whirl:kept --without conserve --name moved" "$scratch/slide.whirl:moved"
 for number in float double; do
     "$whirl" run "$scratch/slide.whirl:kept" --without conserve --with drag --number $number | sed -n '/^state hash/p' >"$scratch/one"
@@ -151,10 +144,10 @@ done
 "$whirl" sweep "$scratch/slide.whirl:kept" --without conserve --with drag --over x=1..2:2 --csv - --quiet >"$scratch/one" 2>"$scratch/err"
 "$whirl" sweep "$scratch/slide.whirl:moved" --with drag --over x=1..2:2 --csv - --quiet 2>>"$scratch/err" | cmp -s - "$scratch/one" && [ -s "$scratch/one" ]
 verdict $? "and swept so"
-says '--with takes effects, not .conserve.' derive "$scratch/slide.whirl:kept" --with conserve --as c
+exits 2 '--with takes effects, not .conserve.' derive "$scratch/slide.whirl:kept" --with conserve --as c
 for word in all conserve none ledger; do
     printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\neffect %s { V += 1 [N]*x }\n' "$word" >"$scratch/word.whirl"
-    says "^.*word.whirl:4:8: error: '$word' is a reserved word" derive "$scratch/word.whirl"
+    exits 2 "^.*word.whirl:4:8: error: '$word' is a reserved word" derive "$scratch/word.whirl"
 done
 
 # --- a name for generated code -----------------------------------------------------------------------------
@@ -168,13 +161,13 @@ cmp -s "$scratch/plain.words" "$scratch/other.words" &&
 verdict $? "--name: the same code under another name, in the header too"
 "$whirl" derive thomson_a --as octave --name other 2>"$scratch/err" | grep -q '^function .*other('
 verdict $? "--name: in Octave's form"
-says '.--name. is no name|is no name' derive thomson_a --as c --name 1x
-says 'is no name' derive thomson_a --as c --name=
-says 'is no name' derive thomson_a --as c --name 'a b'
-says 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
-says 'given twice' derive thomson_a --as c --name a --name b
-says "'int' is a word of C" derive thomson_a --as c --name int
-says 'error: --name goes with --as octave or c' derive thomson_a --name other
+exits 2 '.--name. is no name|is no name' derive thomson_a --as c --name 1x
+exits 2 'is no name' derive thomson_a --as c --name=
+exits 2 'is no name' derive thomson_a --as c --name 'a b'
+exits 2 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
+exits 2 'given twice' derive thomson_a --as c --name a --name b
+exits 2 "'int' is a word of C" derive thomson_a --as c --name int
+exits 2 'error: --name goes with --as octave or c' derive thomson_a --name other
 
 # --- hard cases: sections and scenes of the page, and each scene keeps the verdict ---------------------------
 "$whirl" list --hard >"$scratch/hard" 2>"$scratch/err"
@@ -207,6 +200,6 @@ while IFS="$tab" read -r name promised; do
     done
     case "$promised" in told*) [ $told -eq 1 ]; verdict $? "--hard: $name is told in one of its scenes" ;; esac
 done <"$scratch/scenes"
-says 'error: --units, --hard and --figures go alone' list --hard thomson_a
-says 'error: --units, --hard and --figures go alone' list --units --hard
+exits 2 'error: --units, --hard and --figures go alone' list --hard thomson_a
+exits 2 'error: --units, --hard and --figures go alone' list --units --hard
 exit $failed

@@ -3,6 +3,7 @@
 # Readers do not disturb the rig, and the line may go and come back. Simulated time (tests/tools/sim_board.c): TEL_SECONDS,
 # a minute by default, at 115,200 baud and less.
 . "$(dirname "$0")/../checks.sh"
+about=monitor
 
 tools=${TOOLS:-build/tools}
 seconds=${TEL_SECONDS:-60}
@@ -105,14 +106,6 @@ verdict $? "--strict fails of that" "$scratch/err"
 [ $? -eq 1 ] && grep -q '^/dev/full: error: ' "$scratch/err"
 verdict $? "records that cannot be written are no records" "$scratch/err"
 
-# refused HINT WORD...: exit status 2 and this hint
-refused() {
-    wanted=$1
-    shift
-    "$whirl" monitor "$@" >/dev/null 2>"$scratch/err" </dev/null
-    [ $? -eq 2 ] && grep -q -- "$wanted" "$scratch/err"
-    verdict $? "refused: monitor $*" "$scratch/err"
-}
 if command -v gnuplot >/dev/null; then
     "$whirl" monitor "$scratch/raw" --plot "$scratch/plot.svg" --quiet >/dev/null 2>"$scratch/err" && grep -q '<svg' "$scratch/plot.svg"
     verdict $? "it is drawn" "$scratch/err"
@@ -124,17 +117,17 @@ if command -v gnuplot >/dev/null; then
     [ $? -eq 1 ] && grep -q 'could not draw' "$scratch/err"
     verdict $? "half a picture is none" "$scratch/err"
 fi
-refused 'usage: whirl monitor PORT' --rate 500
-refused 'cannot be opened' "$scratch/none"
-refused 'cannot be opened: Is a directory' "$scratch"
-refused '--rate takes a whole number' "$scratch/raw" --rate 2.5
-refused 'no such speed' "$scratch/raw" --baud 7
-refused 'draws .svg, .pdf and .png files' "$scratch/raw" --plot a.txt
-refused 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
-refused 'would be written over' "$scratch/raw" --raw "$scratch/raw"
-refused "takes a file's name" "$scratch/raw" --vcd -
-refused '--for takes a number from' "$scratch/raw" --for 0
-refused 'one line at a time' "$scratch/raw" "$scratch/csv"
+exits 2 'usage: whirl monitor PORT' --rate 500
+exits 2 'cannot be opened' "$scratch/none"
+exits 2 'cannot be opened: Is a directory' "$scratch"
+exits 2 '--rate takes a whole number' "$scratch/raw" --rate 2.5
+exits 2 'no such speed' "$scratch/raw" --baud 7
+exits 2 'draws .svg, .pdf and .png files' "$scratch/raw" --plot a.txt
+exits 2 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
+exits 2 'would be written over' "$scratch/raw" --raw "$scratch/raw"
+exits 2 "takes a file's name" "$scratch/raw" --vcd -
+exits 2 '--for takes a number from' "$scratch/raw" --for 0
+exits 2 'one line at a time' "$scratch/raw" "$scratch/csv"
 if [ -r /proc/self/mem ]; then # whose first byte nobody can read
     "$whirl" monitor /proc/self/mem --csv "$scratch/x" >/dev/null 2>"$scratch/err" </dev/null
     [ $? -eq 1 ] && grep -q '^/proc/self/mem: error: cannot be read on: ' "$scratch/err"
@@ -166,7 +159,7 @@ printf sta >"$RIG_TTY"
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --strict >"$scratch/text" 2>"$scratch/said" </dev/null &
 running=$!
 until_said '^[0-9]' "$scratch/csv"
-refused 'another program is at this line' "$RIG_TTY" --for 1
+exits 2 'another program is at this line' "$RIG_TTY" --for 1
 kill -INT $running
 wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged: 0$' "$scratch/said"
 verdict $? "what was in the line before is nobody's answer, nobody's words and no loss" "$scratch/said"

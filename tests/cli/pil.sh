@@ -3,6 +3,7 @@
 # time that computing takes, refusals, and that nothing remains after any process is killed. WHIRL_FULL: more kills, and a
 # Cortex-M3.
 . "$(dirname "$0")/../checks.sh"
+about=pil
 
 build=$(dirname "$whirl")
 rig=docs/plants/rig.whirl
@@ -199,26 +200,17 @@ for option in '--delay 5ms' '--place 0.02' '--jitter 3ms' '--set l=0.4' '--step 
 done
 
 # --- tapes that are none --------------------------------------------------------------------------------------------------
-# refused STATUS PATTERN WORD...: that status, and these words on standard error
-refused() {
-    status=$1
-    pattern=$2
-    shift 2
-    sh tests/limit.sh 60 "$whirl" pil "$@" >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err"
-    verdict $? "whirl pil $*: status $status, $pattern"
-}
 head -c 3000 "$scratch/pc.tape" >"$scratch/cut.tape"
-refused 2 'it is broken' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
+exits 2 'it is broken' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
 { head -c 3000 "$scratch/pc.tape" && printf X && tail -c +3002 "$scratch/pc.tape"; } >"$scratch/flip.tape"
-refused 2 'it is broken' --replay "$scratch/flip.tape" --firmware "$build/pil_rig"
-refused 2 'no tape' --replay "$build/pil_rig" --firmware "$build/pil_rig"
-refused 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
-refused 2 "of 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
+exits 2 'it is broken' --replay "$scratch/flip.tape" --firmware "$build/pil_rig"
+exits 2 'no tape' --replay "$build/pil_rig" --firmware "$build/pil_rig"
+exits 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
+exits 2 "of 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
 # the begin of one run and the end of another: frames end in zeros
 sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 --firmware "$build/pil_cart" --tape "$scratch/long.tape" >"$scratch/out" 2>"$scratch/err"
 { tr '\0\n' '\n\0' <"$scratch/cart.tape" | head -n 1001 && tr '\0\n' '\n\0' <"$scratch/long.tape" | tail -n +1002; } | tr '\0\n' '\n\0' >"$scratch/mixed.tape"
-refused 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
+exits 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
 
 # --- what a tape has, as rows -------------------------------------------------------------------------------------------
 # rows KIND FILE: number of rows of that kind
@@ -258,49 +250,49 @@ sh tests/limit.sh 60 "$whirl" pil $rig --fault edge-late=5ms@3s,cell-saturated@6
 "$whirl" pil --read "$scratch/late.tape" | awk -F, '$3 == "edge" && $1 > 3.1 && $1 < 6 { n++; if ($2 - $1 < 0.005 || $2 - $1 > 0.0091) bad++ }
     $8 == "saturated" && ($1 < 6 || $4 != 1) { bad++ } $8 == "saturated" { full++ } END { exit !(n > 5 && bad == 0 && full > 1) }'
 verdict $? "what comes late has its stamp, and what is saturated says so" "$scratch/out"
-refused 2 'it is broken' --read "$scratch/cut.tape"
-refused 2 'it is broken' --read "$scratch/flip.tape"
-refused 2 'no tape of this version' --read "$build/pil_rig"
-refused 2 'no tape of this version' --read /dev/zero
-refused 2 'cannot be read' --read "$scratch/none"
-refused 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
-[ ! -c /dev/full ] || refused 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
-refused 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
-refused 2 '--read takes no --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
-refused 2 '--read takes no scene' --read "$scratch/pc.tape" $rig
-refused 2 '--read takes no --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
-refused 2 '--replay takes no --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
+exits 2 'it is broken' --read "$scratch/cut.tape"
+exits 2 'it is broken' --read "$scratch/flip.tape"
+exits 2 'no tape of this version' --read "$build/pil_rig"
+exits 2 'no tape of this version' --read /dev/zero
+exits 2 'cannot be read' --read "$scratch/none"
+exits 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
+[ ! -c /dev/full ] || exits 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
+exits 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
+exits 2 '--read takes no --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
+exits 2 '--read takes no scene' --read "$scratch/pc.tape" $rig
+exits 2 '--read takes no --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
+exits 2 '--replay takes no --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
 
 # --- what is refused --------------------------------------------------------------------------------------------------------
-refused 2 'no --firmware' rig_coupled
-refused 2 'no scene' --firmware "$build/pil_rig"
-refused 2 'takes no scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
-refused 2 'cannot be read' rig_coupled --firmware "$scratch/none"
-refused 2 'not a firmware image' rig_coupled --firmware README.md
-refused 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
+exits 2 'no --firmware' rig_coupled
+exits 2 'no scene' --firmware "$build/pil_rig"
+exits 2 'takes no scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
+exits 2 'cannot be read' rig_coupled --firmware "$scratch/none"
+exits 2 'not a firmware image' rig_coupled --firmware README.md
+exits 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
 cp "$build/pil_rig" "$scratch/closed" && chmod a-x "$scratch/closed"
-refused 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
-refused 2 "sets 'push', which 'rig_coupled' does not have" rig_coupled --firmware "$build/pil_cart"
+exits 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
+exits 2 "sets 'push', which 'rig_coupled' does not have" rig_coupled --firmware "$build/pil_cart"
 sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
-refused 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
-refused 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
-refused 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
-refused 2 'must be NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
-refused 2 'is renamed already' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
-refused 2 'there is room for' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
-refused 2 'there is room for' $rig --delay 0.1 --firmware "$build/pil_rig"
-refused 2 'numbers between commas' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
-refused 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
-refused 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
-refused 2 'takes a number' rig_coupled --cycles -1 --firmware "$build/pil_rig"
-refused 2 'cannot be written' docs/plants/cart.whirl --tape "$scratch/no/tape" --firmware "$build/pil_cart"
+exits 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
+exits 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
+exits 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
+exits 2 'must be NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
+exits 2 'is renamed already' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
+exits 2 'there is room for' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
+exits 2 'there is room for' $rig --delay 0.1 --firmware "$build/pil_rig"
+exits 2 'numbers between commas' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
+exits 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
+exits 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
+exits 2 'takes a number' rig_coupled --cycles -1 --firmware "$build/pil_rig"
+exits 2 'cannot be written' docs/plants/cart.whirl --tape "$scratch/no/tape" --firmware "$build/pil_cart"
 # values that are none, in each option
 cart="docs/plants/cart.whirl --until 0.02s --firmware $build/pil_cart"
 while read -r option pattern values; do
     for value in $values; do
         [ "$value" != empty ] || value=
         # shellcheck disable=SC2086 # words
-        refused 2 "$(echo "$pattern" | tr _ ' ')" $cart "$option" "$value"
+        exits 2 "$(echo "$pattern" | tr _ ' ')" $cart "$option" "$value"
     done
 done <<'END'
 --jitter --jitter_.*_is_not_a_time -1us nan inf 1kg 3601s 1e300 1e999 / empty
@@ -317,19 +309,19 @@ done <<'END'
 --tape cannot_be_written /dev/null/x empty
 END
 for image in /dev/null /dev/zero .; do
-    refused 2 'not a firmware image' docs/plants/cart.whirl --firmware $image
+    exits 2 'not a firmware image' docs/plants/cart.whirl --firmware $image
 done
-refused 2 'cannot be read' docs/plants/cart.whirl --firmware ''
+exits 2 'cannot be read' docs/plants/cart.whirl --firmware ''
 [ ! -c /dev/full ] ||
-    refused 1 'cannot be written' docs/plants/cart.whirl --until 0.02s --firmware "$build/pil_cart" --tape /dev/full
+    exits 1 'cannot be written' docs/plants/cart.whirl --until 0.02s --firmware "$build/pil_cart" --tape /dev/full
 for tape in /dev/null /dev/zero /dev/urandom; do
-    refused 2 'no tape of this version' --replay $tape --firmware "$build/pil_cart"
+    exits 2 'no tape of this version' --replay $tape --firmware "$build/pil_cart"
 done
-refused 2 'cannot be read: Is a directory' --replay "$scratch" --firmware "$build/pil_cart"
+exits 2 'cannot be read: Is a directory' --replay "$scratch" --firmware "$build/pil_cart"
 { cat "$scratch/cart.tape" && head -c 100000 /dev/zero; } >"$scratch/long_end.tape"
-refused 2 'it is broken' --replay "$scratch/long_end.tape" --firmware "$build/pil_cart"
+exits 2 'it is broken' --replay "$scratch/long_end.tape" --firmware "$build/pil_cart"
 cp docs/plants/cart.whirl "$scratch/mine.whirl"
-refused 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "$build/pil_cart"
+exits 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "$build/pil_cart"
 cmp -s docs/plants/cart.whirl "$scratch/mine.whirl"
 verdict $? "and the scene is still there"
 
@@ -350,7 +342,7 @@ for step in 1e-12s 1e-9s 10us; do # however long it is to the next exchange
     [ $got -eq 124 ] && grep -q '^exchanges' "$scratch/out"
     verdict $? "a run with steps of $step is interrupted, and told ($got)" "$scratch/err"
 done
-refused 2 'is the speed of a --port' docs/plants/rig.whirl --firmware "$build/pil_rig" --baud 9600
+exits 2 'is the speed of a --port' docs/plants/rig.whirl --firmware "$build/pil_rig" --baud 9600
 
 # --- nothing is left behind ----------------------------------------------------------------------------------------------
 # Seconds of plant time in steps of 2 us: long enough to be killed in the middle.

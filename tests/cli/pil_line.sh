@@ -3,6 +3,7 @@
 # pseudo-terminal (build/pil_line), or a board's own UART in QEMU. The command stream equals the one through pipes. Dials,
 # ends and refusals come over the line, and faults of the line are reported.
 . "$(dirname "$0")/../checks.sh"
+about=pil
 
 build=$(dirname "$whirl")
 plant=docs/plants/rig.whirl
@@ -54,29 +55,21 @@ verdict $? "a tape is replayed over the line" "$scratch/err"
 unplug
 
 # --- what is wrong with a line -------------------------------------------------------------------------------------------
-refused() { # refused STATUS WORDS WORD...: with that status and an error that has these words
-    status=$1
-    words=$2
-    shift 2
-    sh tests/limit.sh 60 "$whirl" pil "$@" >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq "$status" ] && grep -q "$words" "$scratch/err"
-    verdict $? "$words" "$scratch/err"
-}
-refused 2 'takes no --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
-refused 2 'takes no --board' "$plant" --port "$scratch/tty" --board mps2-an386
-refused 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
-refused 2 'cannot be opened' "$plant" --port "$scratch/none"
-refused 2 "^'': error: cannot be opened" "$plant" --port ''
-refused 2 'Is a directory' "$plant" --port "$scratch"
-refused 2 'no serial line' "$plant" --port /dev/null
+exits 2 'takes no --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
+exits 2 'takes no --board' "$plant" --port "$scratch/tty" --board mps2-an386
+exits 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
+exits 2 'cannot be opened' "$plant" --port "$scratch/none"
+exits 2 "^'': error: cannot be opened" "$plant" --port ''
+exits 2 'Is a directory' "$plant" --port "$scratch"
+exits 2 'no serial line' "$plant" --port /dev/null
 plug
 kill -STOP $board
-refused 1 'has said nothing for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # but its hello
+exits 1 'has said nothing for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # but its hello
 kill -CONT $board
 run --until 1s --set speed=330rpm
 [ $? -eq 0 ]
 verdict $? "who was asked before there was an answer is not confused by it" "$scratch/err"
-refused 2 'no hello has come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
+exits 2 'no hello has come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
 unplug
 rm -f "$scratch/tty" # a rig that answers all the time, and never says a hello
 RIG_TTY=$scratch/tty "$build/station" >"$scratch/said" 2>&1 &

@@ -104,20 +104,12 @@ verdict $? "and every third of them a millisecond's"
 run thomson_a --until 50ms --vcd - && grep -q '^state hash' "$scratch/err" && mv "$scratch/out" "$scratch/first" &&
     run thomson_a --until 50ms --quiet --vcd "$scratch/v.vcd" && cmp -s "$scratch/first" "$scratch/v.vcd"
 verdict $? "- is standard output; the summary then goes to standard error"
-refused() { # refused WHAT SAID OPTION...
-    what=$1
-    said=$2
-    shift 2
-    run "$@"
-    [ $? -eq "${code:-2}" ] && grep -q -- "$said" "$scratch/err"
-    verdict $? "refused: $what"
-}
-refused "a file that --csv has" 'error: --csv and --vcd cannot share a file' thomson_a --csv "$scratch/x" --vcd "$scratch/x"
-refused "standard output that --columns has" 'error: --columns and --vcd cannot share a file' thomson_a --columns - --vcd -
-refused "the model" 'error: --vcd would write over the model' "$scratch/carts.whirl:cart1" --vcd "$scratch/carts.whirl"
-refused "a folder that there is not" 'error: cannot be written: ' thomson_a --vcd "$scratch/none/x"
-[ ! -e /dev/full ] || code=1 refused "a full disc" '^/dev/full: error: cannot be written: ' thomson_a --until 2s --quiet --vcd /dev/full
-refused "records that no unit tells apart" 'error: these records are too close for --vcd' thomson_a --step 1e-16 --until 1e-13 --vcd "$scratch/x"
+exits 2 'error: --csv and --vcd cannot share a file' run thomson_a --csv "$scratch/x" --vcd "$scratch/x"
+exits 2 'error: --columns and --vcd cannot share a file' run thomson_a --columns - --vcd -
+exits 2 'error: --vcd would write over the model' run "$scratch/carts.whirl:cart1" --vcd "$scratch/carts.whirl"
+exits 2 'error: cannot be written: ' run thomson_a --vcd "$scratch/none/x"
+[ ! -e /dev/full ] || exits 1 '^/dev/full: error: cannot be written: ' run thomson_a --until 2s --quiet --vcd /dev/full
+exits 2 'error: these records are too close for --vcd' run thomson_a --step 1e-16 --until 1e-13 --vcd "$scratch/x"
 
 run thomson_b --method euler --step 0.1 --until 100 --quiet --csv "$scratch/v.csv" --vcd "$scratch/v.vcd"
 [ $? -eq 1 ] && awk -f "$reader" "$scratch/v.vcd" "$scratch/v.csv" >/dev/null 2>"$scratch/err"
