@@ -36,7 +36,6 @@ exits() {
     status=$1
     pattern=$2
     shift 2
-    # shellcheck disable=SC2086 # words, or none
     sh tests/limit.sh 60 "$whirl" $about "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
     [ $? -eq "$status" ] && grep -q $regex -e "$pattern" "$scratch/err" && { [ "$status" -ne 2 ] || [ ! -s "$scratch/out" ]; }
     verdict $? "whirl${about:+ $about} $*: status $status, $pattern"
@@ -61,7 +60,6 @@ stop() {
     shift 2
     "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" &
     process=$!
-    # shellcheck disable=SC2086 # a command and its words
     await $when $process
     kill "-$signal" $process
     wait $process

@@ -111,7 +111,6 @@ $scratch/roots.whirl:roots_swing
 END
 [ "$part" != quick ] || sed -i '2,$d' "$scratch/list"
 while read -r what; do
-    # shellcheck disable=SC2086 # a list of words
     set -- $what
     scene=${1##*:}
     "$whirl" derive "$@" --as c --header "$scratch/build/gen/$scene.h" >"$scratch/build/gen/$scene.c" || exit 1
@@ -121,7 +120,6 @@ while read -r what; do
             sed -n "s/^state hash  */scene $scene hash /p" >>"$scratch/wanted.$real"
     done
 done <"$scratch/list"
-# shellcheck disable=SC2046 # a list of words
 mk/count/index.sh $(cat "$scratch/scenes") >"$scratch/build/gen/scenes.c"
 wanted_count=$(wc -l <"$scratch/scenes")
 
@@ -143,7 +141,6 @@ compile() { # compile COMPILER REAL FLAGS...: $scratch/program, with what was sa
     link=${all##*link:}
     rm -f "$scratch/program"
     set -- -I"$scratch" -I. -DWH_DOUBLE=$double
-    # shellcheck disable=SC2086 # lists of words
     if [ "$by" = arm-none-eabi-gcc ]; then
         $by $own $board_flags "$@" -nostdlib -T$board/board.ld -L. -o "$scratch/program" \
             "$scratch"/build/gen/*.c core/*.c boards/programs/scenes.c $demo_sources -lgcc
@@ -220,7 +217,6 @@ for compiler in gcc clang arm-none-eabi-gcc; do
         esac
         row="| $compiler | \`$flags\` |"
         for real in $reals; do
-            # shellcheck disable=SC2086 # a list of words
             try "$compiler" $real $flags
             row="$row $outcome |"
             good=1

@@ -9,7 +9,6 @@ for scene in "$@"; do
     name=${scene#*:}
     options=${name#"${name%%:*}"}
     name=${name%%:*}
-    # shellcheck disable=SC2046 # words
     "${WHIRL:-build/whirl}" run "docs/hard/$file.whirl:$name" --number float --until "$until" \
         $(printf '%s' "${options#:}" | sed 's/+/ --/g') 2>/dev/null |
         awk -v scene="$name" '

@@ -66,7 +66,6 @@ while [ $# -ge 2 ]; do
     fi
 done
 echo
-# shellcheck disable=SC2086 # a list of files
 cat $firsts
 echo
 if [ "$runs" -gt 0 ] && [ "$bad" -eq 0 ]; then

@@ -82,7 +82,6 @@ arrows_hold() {
 }
 arrows_hold
 
-# shellcheck disable=SC2046,SC2086 # lists of files
 {
     rule "a mark of something unfinished" '\b(TO''DO|FIX''ME|XX''X|HA''CK)\b' $all
     rule "heap in code for boards" '\b(malloc|calloc|realloc|free|alloca) *\(' $core $hal $target

@@ -24,7 +24,6 @@ for failed in "$scratch"/*.failed; do
     exit 1
 done
 sort -n "$scratch/list" | while read -r row outputs; do
-    # shellcheck disable=SC2086 # names of files, without blanks
     [ -z "$outputs" ] || (cd "$scratch" && awk -F '[ ,()]+' -f "$row.take" $outputs) >"$scratch/$row.ours"
 done
 awk -v from="$scratch/" -f "$here/table.awk" "$scratch/rows" >"$scratch/table"

@@ -26,5 +26,4 @@ if [ -z "$scenes" ]; then
     echo "all_effects.sh: no scene has stops, friction, holds or crossings in $*" >&2
     exit 1
 fi
-# shellcheck disable=SC2086 # a list of words
 "$(dirname "$0")/index.sh" $scenes >"$out/scenes.c"

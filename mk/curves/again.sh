@@ -47,7 +47,6 @@ while IFS=, read -r scene _ error component each step until _ _ _ _ run; do
     records "$out/$scene.coarser" "${scene%+*}" --compensated --step "$coarse" --every "$each" --until "$until"
     every=$(awk -v each="$each" -v step="$step" 'BEGIN { print (step > each ? step : each) }')
     rm -f "$out/records"
-    # shellcheck disable=SC2086 # words of a command line without quotes
     records "$out/records" ${run#whirl run } --every "$every"
     said=$(awk -F, -v component="$component" -v each="$each" -v wanted="$error" -f "$here/again.awk" \
         "$out/$scene.reference" "$out/$scene.coarser" "$out/records")

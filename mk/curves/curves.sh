@@ -36,7 +36,6 @@ counted=$*
 
 # prices MORE...: the rows on every board
 prices() {
-    # shellcheck disable=SC2086 # lists of files
     awk -F, -v OFS=, -v out="$out" -f "$here/words.awk" -f "$here/priced.awk" "$@" $files $scenes
 }
 # sorted: by scene, board, price, error
@@ -56,7 +55,6 @@ for board in $counted; do
 done
 {
     echo "scene,board,error,component,records,step_s,until_s,price_of,per_s,instructions,cycles,basis,flash,ram,stack,method,number,run,front"
-    # shellcheck disable=SC2046 # a list of files
     awk -F, -v OFS=, -f "$here/words.awk" -f "$here/recount.awk" $(find "$work" -name 'counted_*.csv') "$work/rows" |
         sorted | awk -F, -v OFS=, -v counted="$counted" -f "$here/front.awk"
 } >"$csv.new"

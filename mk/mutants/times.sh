@@ -29,7 +29,6 @@ lines_of() { # lines_of FOLDER: what the programs' maps there say, as FOLDER.lin
         [ ! -e "$1/$of.map" ] || cmp -l "$1/$of.map" /dev/zero >"$1/$of" 2>/dev/null || true
         [ ! -s "$1/$of" ] || blocks="$blocks $top/reach/$of.blocks $1/$of"
     done
-    # shellcheck disable=SC2086 # pairs
     if [ -n "$blocks" ]; then awk -f "$here/lines.awk" $blocks; fi >"$1.lines"
     rm -rf "$1"
 }

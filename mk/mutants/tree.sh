@@ -8,7 +8,6 @@ parts="Makefile README.md mk core hal boards host tests docs"
 if [ ! -d "$tree" ]; then
     rm -rf "$tree.new"
     mkdir -p "$tree.new/build"
-    # shellcheck disable=SC2086 # a list
     cp -a $parts "$tree.new/"
     for part in host float double gen unity tests tools whirl pil_rig pil_swing pil_dialled pil_carriage pil_cart station; do
         [ ! -e "build/$part" ] || cp -a "build/$part" "$tree.new/build/"

@@ -73,7 +73,6 @@ take() {
         at=$((($3 + more - 1) % settings + 1))
         options=$(sed -n "${at}p" "$1")
         more=$((more + 1))
-        # shellcheck disable=SC2086 # words without blanks
         if "$WHIRL" derive "$2" --as c $form --header "$folder/h" $options </dev/null >/dev/null 2>&1; then
             ! grep -q '_CONTACTS = [1-9]' "$folder/h" || return 1
             return 0

@@ -36,7 +36,6 @@ fail() {
 }
 
 set -f # no word is a pattern
-# shellcheck disable=SC2046
 set -- $(head -n 1 "$cases")
 set +f
 id=$1 target=$2
@@ -56,7 +55,6 @@ memory="-I$mine -include $gen.h -DWH_SCENE_WORDS=${id}_MEMORY_WORDS"
 compile() {
     from=$1 to=$2
     shift 2
-    # shellcheck disable=SC2086
     $BOARD_CC $BOARD_CFLAGS -w "$@" -c "$from" -o "$to" 2>"$work/errors" ||
         fail "$target: $BOARD's compiler refuses it: $(grep -m 1 error "$work/errors")"
 }
@@ -65,7 +63,6 @@ compile() {
 link() {
     to=$1
     shift
-    # shellcheck disable=SC2086
     $BOARD_CC $BOARD_LDFLAGS -o "$to" "$@" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS 2>"$work/errors" ||
         fail "$target: it does not fit into $BOARD: $(head -n 1 "$work/errors")"
 }
@@ -74,12 +71,10 @@ link() {
 emulated() { echo "$EMULATE" | sed "s|@|$1|; s|limit.sh [0-9]*|limit.sh 120|"; }
 
 compile "$gen.c" "$mine/plain.o"
-# shellcheck disable=SC2086
 compile boards/programs/size.c "$mine/size.o" -include "$gen.h" "-DPRICE_SCENE=$id"
 link "$mine/size.elf" "$mine/size.o" "$mine/plain.o"
 bytes_of "$BOARD_SIZE" "$mine/size.elf" >"$work/bytes"
 
-# shellcheck disable=SC2086
 {
     compile boards/programs/whole_run.c "$mine/whole_run.o" $memory "-DRUN_EVERY=${RUN_EVERY}U"
     compile "$mine/scenes.c" "$mine/scenes.o" $memory
@@ -103,7 +98,6 @@ mv "$work/console" "$work/said"
 # The stretches, from marked code.
 : >"$work/counts"
 if [ -n "${PLUGIN:-}" ]; then
-    # shellcheck disable=SC2086
     {
         compile "$gen.c" "$mine/marked.o" -include boards/programs/mark.h
         compile boards/programs/worst.c "$mine/worst.o" $memory "-DWORST_STEPS=${WORST}U"

@@ -30,7 +30,6 @@ COST_HEADER="${COST_HEADER}cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 # --- one case: derive it, compile it, link the smallest firmware (run by xargs, two at a time) -----------------
 if [ "$1" = case ]; then
     set -f # no word is a pattern: m=2[kg]
-    # shellcheck disable=SC2086
     set -- $2
     set +f
     id=$1 number=$2 target=$3
@@ -56,13 +55,11 @@ if [ "$1" = case ]; then
     [ "$number" != double ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1" lib=$LIB_DOUBLE
     smallest="-DPRICE_SCENE=$id boards/programs/size.c"
     [ "$number" != fixed ] || smallest="-DFIXED_SCENE=$id boards/programs/size_fixed.c"
-    # shellcheck disable=SC2086
     if ! $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o" 2>"$mine.errors"; then # a table larger than an array may be
         echo "measure.sh: $target $*: $BOARD's compiler refuses it: $(grep -m 1 error "$mine.errors")" >&2
         rm -f "$mine.o"
         exit 0
     fi
-    # shellcheck disable=SC2086
     {
         $BOARD_CC $BOARD_CFLAGS -w -include "$gen.h" -c $smallest -o "$mine.image.o"
         if $BOARD_CC $BOARD_LDFLAGS -o "$mine.elf" "$mine.image.o" "$mine.o" $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS \
@@ -101,10 +98,8 @@ bench() {
     objects=
     for id in "$@"; do objects="$objects $mine/$id.o"; done
     for file in boards/programs/$program.c "$mine/scenes.c"; do
-        # shellcheck disable=SC2086
         $BOARD_CC $flags -w "-I$OUT/gen" "-DCOUNTED_STEPS=${STEPS}U" $one -c "$file" -o "$mine/$(basename "$file" .c)_.o"
     done
-    # shellcheck disable=SC2086
     if ! $BOARD_CC $BOARD_LDFLAGS -o "$elf" "$mine/${program}_.o" "$mine/scenes_.o" $objects $BOARD_OBJECTS "$lib" "$LIB_BOARD" $BOARD_LDLIBS 2>"$mine/errors"; then
         echo "measure.sh: $*: the program that counts does not fit into $BOARD: $(head -n 1 "$mine/errors")" >&2
         return 0
@@ -165,7 +160,6 @@ for number in $NUMBERS; do
     [ "$number" != fixed ] || each=1
     echo "$ids" | xargs -n "$each" >"$work/groups"
     while read -r group; do
-        # shellcheck disable=SC2086
         [ -z "$group" ] || bench $group </dev/null
     done <"$work/groups"
     obtained=

@@ -108,7 +108,6 @@ have apt-get || give_up "This is no Debian: these are the packages' names there.
 
 # The total size with everything that these packages need; fails if the package lists lack them.
 size() {
-    # shellcheck disable=SC2086 # $missing is a list of words
     LC_ALL=C apt-get install --no-install-recommends -o Debug::NoLocking=1 --print-uris $missing 2>/dev/null </dev/null |
         sed -n 's/^Need to get /To be fetched: /p; s/^After this operation, /On disk: /p' | grep .
 }
@@ -128,7 +127,6 @@ update() {
     echo "Updating the package lists (apt-get update)"
     $as_root apt-get update >"$log" 2>&1 </dev/null || true
 }
-# shellcheck disable=SC2086 # $line and $as_root are lists of words
 install() { $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev/null; }
 
 # The package lists are fetched only when they are absent or too old to install from.

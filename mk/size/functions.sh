@@ -19,7 +19,6 @@ done
 function_bytes() { # function_bytes NAME FUNCTION...: code and constants of an image of these
     name=$1
     shift
-    # shellcheck disable=SC2086,SC2046 # lists of words
     $CC $CPU -nostdlib -Wl,--gc-sections -Wl,-e,"$1" $(printf ' -Wl,-u,%s' "$@") -o "$work/image" "$library" -lgcc
     "$SIZE" "$work/image" | awk -v name="$name" 'NR == 2 { printf "%-28s %8d\n", name, $1 + $2 }'
 }
@@ -29,7 +28,6 @@ all=$(printf '#include "core/function.h"\n#define NAME(name) wh_##name\nWH_FUNCT
     $CC -ffreestanding -E -P -I. -x c - | tail -n 1)
 printf '%-28s %8s\n' "function" "flash B"
 for function in $all; do function_bytes "$function" "$function"; done
-# shellcheck disable=SC2086 # a list of words
 function_bytes "all of them" $all
 
 [ -f "$list" ] || exit 0

@@ -43,7 +43,6 @@ of_image() {
 }
 # graphs: the .ci files of the objects in the image. From a compiler's cache objects come without: those are compiled anew.
 graphs() {
-    # shellcheck disable=SC2086 # folders
     find $OBJECTS -name '*.o' | of_image | while read -r object; do [ -e "${object%.o}.ci" ] || echo "$object"; done >"$work/without"
     if grep -q '^LOAD .*ltrans\.o$' "${elf%.elf}.map"; then
         ls "$elf".ltrans*.ci
@@ -51,7 +50,6 @@ graphs() {
         xargs rm -f <"$work/without"
         CCACHE_DISABLE=1 xargs make -j "$(nproc)" "BOARD=$BOARD" <"$work/without" >&2
     fi
-    # shellcheck disable=SC2086 # folders
     find $OBJECTS -name '*.ci' | sort | of_image
 }
 # worst_stack ROOT: answers of stack.awk, to $work/stack.

@@ -47,7 +47,6 @@ verdict $? "first light: beside the emulator's record"
 # the same over a line: Enter requests the record
 if [ "$board" = netduinoplus2 ]; then
     null="-serial null"
-    # shellcheck disable=SC2086 # words
     qemu-system-arm -M netduinoplus2 -display none -monitor none $null $null $null $null $null -serial pty \
         -kernel "$elf" >"$said" 2>&1 &
     emulator=$!

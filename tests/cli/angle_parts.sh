@@ -56,7 +56,6 @@ END
 
 for real in float double; do
     is_double=$([ $real = float ]; echo $?)
-    # shellcheck disable=SC2086 # lists of words
     ${CC:-gcc} $warnings -DWH_DOUBLE="$is_double" -o "$scratch/$real" "$scratch"/scene_*.c \
         "$scratch/main.c" core/*.c >"$scratch/err" 2>&1
     verdict $? "$number mechanisms compile in $real without a warning"

@@ -24,7 +24,6 @@ LC_ALL=C
 export LC_ALL
 boards=$(for makefile in boards/*/board.mk; do basename "$(dirname "$makefile")"; done | sort)
 taken() { # by BOARD_WHEN, and the one that is asked for
-    # shellcheck disable=SC2086 # an option a pattern
     { echo rv32imac && grep -l $1 boards/*/board.mk | cut -d / -f 2; } | sort -u | tr '\n' ' '
 }
 MAKEFLAGS= make -s -C "$tree" BOARD=rv32imac taken >"$scratch/out" 2>"$scratch/err"

@@ -173,26 +173,19 @@ of_any=$(methods_of WH_ANY_SYSTEM | tr '\n' ',' | sed 's/,$//; s/,\([^,]*\)$/ or
 says 2 "hint: one of $methods$" run thomson_a --method rk5
 # a method that the form does not accept is refused before anything runs, with its place and a remedy
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
-    # shellcheck disable=SC2086 # a command and its options
     says 2 "lorenz.whirl:2:7: error: semi-implicit Euler is not defined here: 'x' is of order 1" $command \
         tests/mechanisms/lorenz.whirl --method semi-implicit-euler
-    # shellcheck disable=SC2086
     says 2 "hint: .* choose --method $of_any$" $command tests/mechanisms/lorenz.whirl --method semi-implicit-euler
 done
 # compositions do not accept accelerations that depend on rates
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
-    # shellcheck disable=SC2086
     says 2 "epicyclic.whirl:[0-9:]* error: leapfrog is not defined here: the accelerations depend on the rate of 'theta'" \
         $command epicyclic_conserved --method leapfrog
-    # shellcheck disable=SC2086
     says 2 "error: leapfrog is not defined with contacts" $command ball_bounces --method leapfrog
-    # shellcheck disable=SC2086
     says 2 "error: leapfrog is not defined with a ledger" \
         $command mk/price/separable.whirl --with ledger --method leapfrog
-    # shellcheck disable=SC2086
     says 2 "hint: .* choose --method euler, semi-implicit-euler, heun, .* or nystroem5$" \
         $command epicyclic_conserved --method leapfrog
-    # shellcheck disable=SC2086
     says 2 "error: leapfrog is not defined here: 'x' is of order 1" $command tests/mechanisms/lorenz.whirl \
         --method leapfrog
 done
@@ -220,13 +213,9 @@ says 2 "unknown effect 'spin'" run thomson_a --with spin
 says 2 "unknown effect 'spin'" run thomson_a --without spin
 # parameters and inputs of an effect can be changed only if the effect takes part
 for call in 'run --set b=1' 'derive --set b=1' 'sweep --over b=1..2:2' 'sweep --over X=0..0:1 --set b=1'; do
-    # shellcheck disable=SC2086 # lists of words
     says 2 "'b' belongs to the effect 'rail_drag', which is not selected here" $call epicyclic_from_rest
-    # shellcheck disable=SC2086
     says 2 'hint: add --with rail_drag' $call epicyclic_from_rest
-    # shellcheck disable=SC2086
     says 2 "'b' belongs to the effect" $call epicyclic_rail_drag --without rail_drag
-    # shellcheck disable=SC2086
     check "$call --with E: accepted" "$whirl" $call epicyclic_from_rest --with ' rail_drag , ledger'
 done
 says 2 "'b' belongs to the effect 'rail_drag'" accel epicyclic b=1
@@ -276,9 +265,7 @@ for cells in 100 4 131072 0 -8 64.0 6x4 "" 99999999999999999999; do
     says 2 "--cells '$cells' is no power of two from 8 to 65536" run epicyclic_from_rest --tables linear --cells "$cells"
 done
 for command in run describe "derive --as c"; do
-    # shellcheck disable=SC2086 # a list of words
     says 2 'error: --cells without --tables' $command epicyclic_from_rest --cells 64
-    # shellcheck disable=SC2086
     says 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta1' is one of them" $command thomson_a --tables cubic
 done
 says 2 'contacts.whirl:24:3: error: --tables: a step with events' run ball_bounces --tables linear
@@ -349,7 +336,6 @@ T = 2 [kg]*x'^2/2
 Q(x) = -3 [N]*sign(x')
 END
 for call in 'run' 'derive' 'sweep --over x=0..1:2 --until 1s'; do
-    # shellcheck disable=SC2086 # a list of words
     says 0 "hand.whirl:4:1: note: this force changes its sign with x'" $call "$scratch/hand.whirl"
 done
 says 0 'hint: dry friction is: friction x static EXPR kinetic EXPR normal EXPR' run "$scratch/hand.whirl"

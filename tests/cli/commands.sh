@@ -140,9 +140,7 @@ while read -r word value group; do
         base=
         [ "$word" != --cells ] || base="--tables cubic" # which has them
         without=$scratch/without_${command}_$(basename "$plain")${base:+_tables}
-        # shellcheck disable=SC2086 # of words, or of none
         [ -e "$without" ] || ends "$command" $base >"$without" 2>/dev/null
-        # shellcheck disable=SC2086
         ends "$command" $base "$@" >"$scratch/with" 2>"$scratch/err"
         status=$?
         [ $status -eq 0 ] && [ -s "$scratch/with" ] && ! cmp -s "$without" "$scratch/with"

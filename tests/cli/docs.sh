@@ -42,15 +42,12 @@ for kind in right dropped added digit word; do
         draw "$seed" $kind >"$scratch/drawn_$seed.md"
         pages="$pages $scratch/drawn_$seed.md"
     done
-    # shellcheck disable=SC2086 # a list of files
     sh tests/docs.sh check $pages >"$scratch/said" 2>&1
     status=$?
     [ $kind = right ] && wanted=0 || wanted=1
     [ $status -eq $wanted ] && [ "$(grep -c '^not ok' "$scratch/said")" -eq $((3 * wanted)) ]
     verdict $? "three drawn pages, $kind" "$scratch/said"
-    # shellcheck disable=SC2086
     sh tests/docs.sh renew $pages >"$scratch/said" 2>&1
-    # shellcheck disable=SC2086
     sh tests/docs.sh check $pages >"$scratch/said" 2>&1
     verdict $? "and renewed they are right" "$scratch/said"
 done

@@ -76,7 +76,6 @@ verdict $? "$run moves x by what the answer says: $(cat "$scratch/err") mm"
 check "without --error" ask "$cart"
 says '^allowed  *[0-9.]+  *0\.12  *1e-12  *-  *-  *-  *-  0\.1 % of the range$'
 for command in "effects $cart --error x=0.005" "run $cart --error x=0.005" "choose $cart --of x --error 0.005"; do
-    # shellcheck disable=SC2086
     "$whirl" $command >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 2 ] && grep -q "'x' is declared in \[mm\], and this value has no unit" "$scratch/err"
     verdict $? "a bare error of a quantity in mm is refused: $command" "$scratch/err"

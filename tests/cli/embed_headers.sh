@@ -27,7 +27,6 @@ cp "$scratch/all.c" "$scratch/all.cpp"
 quiet() {
     what=$1
     shift
-    # shellcheck disable=SC2086 # a list of words
     "$@" $warnings -I. -I"$gen" -I"$scratch" >"$scratch/err" 2>&1 && [ ! -s "$scratch/err" ]
     verdict $? "$what"
 }
@@ -53,7 +52,6 @@ alone=0
 some=$(echo "$scenes" | grep -E '^(scenes|thomson_a|ball_bounces|carriage_stop)\.h$') # all are of one kind
 for header in $public $some; do
     echo "#include \"$header\"" | tee "$scratch/one.c" >"$scratch/one.cpp"
-    # shellcheck disable=SC2086
     { gcc -std=c11 $warnings -I. -I"$gen" -fsyntax-only "$scratch/one.c" &&
         g++ -std=c++11 $warnings -I. -I"$gen" -fsyntax-only "$scratch/one.cpp"; } >>"$scratch/err" 2>&1 &&
         alone=$((alone + 1))
@@ -105,7 +103,6 @@ rm "$scratch"/*/planted.o
 
 # C++ finds every declared name under that name: C linkage.
 declared() { # declared REAL KIND: names of this build that a public header has
-    # shellcheck disable=SC2086 # a list of files
     grep -how 'wh_[a-z0-9_]*' $public | sort -u >"$scratch/words"
     nm -g --defined-only "$scratch/$1"/*.o | awk -v kind="$2" -v words="$scratch/words" '
         BEGIN { while ((getline word <words) > 0) known[word] = 1 }
@@ -143,7 +140,6 @@ done
 for standard in c11 gnu11 gnu17; do
     : >"$scratch/err"
     for file in core/*.c core/rig/*.c "$scratch/scene.c" "$gen/thomson_magnet.c" "$gen/carriage_stop.c"; do
-        # shellcheck disable=SC2086
         gcc -std=$standard $warnings -I. -I"$root" -fsyntax-only "$file" >>"$scratch/err" 2>&1
     done
     [ ! -s "$scratch/err" ]

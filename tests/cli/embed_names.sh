@@ -69,7 +69,6 @@ verdict 0 "scenes with names that are words of C++ are refused, where a header i
 # Names that a generated file itself uses are refused, or cause no warning. tests/host/test_c_names.c covers names of
 # compilers and headers.
 for one in "carriage_stop --with ledger" "ball_between" "thomson_b_conserved --compensated" rig_fixed; do
-    # shellcheck disable=SC2086 # a scene and its options
     "$whirl" derive $one --as c
 done 2>/dev/null | sed 's|/\*.*\*/||; s/^ \*.*//; s/"[^"]*"//g' | grep -oE '\b[A-Za-z_][A-Za-z0-9_]*\b' | sort -u |
     grep -vE '^(wh_|WH_|[xsc][0-9]*[02-9]$|.*[0-9a-f]p$)' >"$scratch/words"
@@ -80,7 +79,6 @@ for word in $own $(cat "$scratch/words"); do
         2>"$scratch/said" || continue
     echo '#include "word.h"' >"$scratch/uses.cpp"
     for compiler in gcc clang; do
-        # shellcheck disable=SC2086
         $compiler -std=c11 $flags -fsyntax-only "$scratch/word.c" 2>"$scratch/said" ||
             verdict 1 "a scene of the name '$word' does not compile by $compiler" "$scratch/said"
     done
@@ -137,16 +135,13 @@ int main(void) {
 }
 END
 }
-# shellcheck disable=SC2086 # lists of names and flags
 memory $in_gen | tee "$scratch/memory.c" >"$scratch/memory.cpp"
 for real in float double; do
     [ $real = double ] && double=1 || double=0
     sanitize=""
     ! nm "$build/$real/libscenes.a" 2>/dev/null | grep -q __asan_init || sanitize="-fsanitize=address,undefined"
     for language in "gcc -std=c11 .c" "g++ -std=c++11 .cpp"; do
-        # shellcheck disable=SC2086
         set -- $language
-        # shellcheck disable=SC2086
         "$1" "$2" $flags $sanitize -DWH_DOUBLE=$double -o "$scratch/memory" "$scratch/memory$3" "$build/$real/libscenes.a" \
             "$build/$real/libwhirl.a" -lm >"$scratch/err" 2>&1 && "$scratch/memory" >"$scratch/err" 2>&1
         verdict $? "$(echo $in_gen | wc -w) built-in scenes take what their headers say and no byte less: $1 $2, $real"
@@ -170,7 +165,6 @@ while [ $number -lt "$cases" ]; do
     3) options="--with ledger" ;;
     esac
     [ $((number % 3)) -ne 2 ] || options=${options%--with ledger}
-    # shellcheck disable=SC2086
     if "$whirl" derive "$scratch/$number.whirl" --as c $options --header "$scratch/$name.h" >"$scratch/$number.c" 2>"$scratch/err"; then
         made="$made $name"
     else
@@ -179,7 +173,6 @@ while [ $number -lt "$cases" ]; do
     number=$((number + 1))
 done
 {
-    # shellcheck disable=SC2086
     memory $made | sed 's/^int main(void)/static int memories(void)/'
     cat <<'END'
 #include <string.h>
@@ -217,16 +210,13 @@ for real in float double; do
     mkdir -p "$scratch/$real"
     : >"$scratch/err"
     for file in "$scratch"/[0-9]*.c core/scene.c core/angle.c; do
-        # shellcheck disable=SC2086
         gcc -std=c11 $flags -O0 -DWH_DOUBLE=$double -c "$file" -o "$scratch/$real/$(basename "$file" .c).o" 2>>"$scratch/err"
     done
     [ ! -s "$scratch/err" ]
     verdict $? "generated scenes compile without a word, $real"
     for language in "gcc -std=c11 .c" "g++ -std=c++11 .cpp" "clang++ -std=c++20 .cpp"; do
-        # shellcheck disable=SC2086
         set -- $language
         command -v "$1" >/dev/null 2>&1 || continue
-        # shellcheck disable=SC2086
         "$1" "$2" $flags -DWH_DOUBLE=$double -o "$scratch/checks" "$scratch/checks$3" "$scratch/$real"/*.o -lm >"$scratch/err" 2>&1 &&
             "$scratch/checks" >"$scratch/err" 2>&1
         verdict $? "their headers are right: $1 $2, $real (seed $seed)"

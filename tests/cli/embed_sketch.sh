@@ -44,7 +44,6 @@ device=$(sed -n 's/^scene thomson_a .* hash \(0x[0-9a-f]*\) ok$/\1/p' $hashes)
 verdict $? "the record and whirl run tell what the sketch must come to"
 
 for compiler in "gcc g++ -Os" "clang clang++ -O2"; do
-    # shellcheck disable=SC2086 # words
     set -- $compiler
     command -v "$2" >/dev/null 2>&1 || continue
     build "$1" "$2" "$3" &&

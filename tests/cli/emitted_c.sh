@@ -33,7 +33,6 @@ done
 # with --stabilized
 for scene in spherical_flight docs/hard/long.whirl:gear_turns docs/hard/long.whirl:pendulum_swings; do
     for more in "" --compensated "--angles lookup" "--method nystroem5 --compensated"; do
-        # shellcheck disable=SC2086 # of words, or of none
         add "$scene" --stabilized --until 0.3s $more
     done
 done
@@ -41,7 +40,6 @@ done
 no_rates=$(sed -n 's/^ *X(WH_[A-Z0-9_]*, "\([a-z0-9-]*\)", .*WH_NO_RATES.*/\1/p' core/method.h)
 for method in $no_rates; do
     for more in "" --compensated "--angles lookup"; do
-        # shellcheck disable=SC2086 # of words, or of none
         add mk/price/separable.whirl --until 0.3s --method "$method" $more
     done
 done
@@ -193,7 +191,6 @@ for method in nystroem3 nystroem4 nystroem5; do
 done
 # angles that turn further in a step than is small for a turn (core/step/stage_turn.h), some 100 times as far
 for more in "" --compensated "--method rk38" "--method nystroem5"; do
-    # shellcheck disable=SC2086 # of words, or of none
     add "$scratch/w/offsets.whirl" --start "a'=900" --start "b'=-700" --until 0.3s $more
 done
 # a pendulum of seven links, whose list is too large to be inlined
@@ -233,7 +230,6 @@ scene swung { start a = 1; until 0.3 [s] }
 END
 for scene in hung swung; do
     for more in "" "--with ledger" "--compensated --method rk38"; do
-        # shellcheck disable=SC2086 # of words, or of none
         add "$scratch/driven.whirl:$scene" $more
     done
 done
@@ -286,12 +282,10 @@ END
 for matrix in exact rk4; do
     for more in "" --compensated; do
         for scene in two_mass_relative two_mass_absolute two_mass_relative_physical cartesian_flight; do
-            # shellcheck disable=SC2086 # a word, or none
             add "$scene" --until 0.3s --matrix $matrix $more
         done
         for file in rotor filter balance; do
             add_file "$scratch/w/$file.whirl"
-            # shellcheck disable=SC2086 # a word, or none
             printf '%s\n' --matrix $matrix $more >>"$scratch/$number.options"
         done
     done
@@ -405,7 +399,6 @@ done <"$scratch/numbers"
 
 build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD NUMBERS
     program_of "$6" >"$scratch/main.c"
-    # shellcheck disable=SC2046,SC2086 # lists of words
     $1 $warnings $2 -DWH_DOUBLE="$4" -DWH_AHEAD="$5" -o "$scratch/$1_$3" $(sed "s|.*|$scratch/scene_&.c|" "$6") "$scratch/main.c" \
         core/*.c >"$scratch/$1_$3.log" 2>&1
     status=$?
@@ -430,7 +423,6 @@ if [ -z "${WHIRL_FEW:-}${WHIRL_FULL:-}" ]; then
     [ "$(wc -l <"$scratch/small")" -eq 6 ]
     verdict $? "six scenes of contacts have one or two coordinates"
     while read -r file; do
-        # shellcheck disable=SC2086 # a list of words
         gcc $warnings -Os -fno-ipa-cp -S -o /dev/null "$scratch/$file" >"$scratch/said" 2>&1
         verdict $? "-Os -fno-ipa-cp: $(sed -n 's/^ \* scene  *//p' "$scratch/$file") compiles without a warning" "$scratch/said"
     done <"$scratch/small"

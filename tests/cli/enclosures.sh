@@ -53,7 +53,6 @@ END
 sources="$scratch/main.c tests/host/test_enclosure.c tests/host/quad_arms.c host/number/enclosure.c host/number/functions.c $unity/unity.c"
 plain="-std=c11 -DWH_DOUBLE=1 -DUNITY_INCLUDE_CONFIG_H -I. -Itests -isystem $unity"
 for file in core/*.c; do
-    # shellcheck disable=SC2086 # words
     "${CC:-cc}" $plain -O1 -ffp-contract=off -c -o "$scratch/core_$(basename "$file" .c).o" "$file" 2>>"$scratch/err"
 done
 [ ! -s "$scratch/err" ]
@@ -64,7 +63,6 @@ build() { # build COMPILER FLAGS...: $scratch/program
     shift
     rm -f "$scratch/program"
     for file in $sources; do
-        # shellcheck disable=SC2086 # words
         "$by" $plain "$@" -c -o "$scratch/own_$(basename "$file" .c).o" "$file" || return 1
     done
     "$by" -o "$scratch/program" "$scratch"/own_*.o "$scratch"/core_*.o -lm
@@ -101,7 +99,6 @@ fi
 for by in gcc clang; do
     command -v $by >/dev/null 2>&1 || continue
     for fast in -ffast-math -Ofast -funsafe-math-optimizations; do
-        # shellcheck disable=SC2086 # words
         $by $plain -O2 $fast -c -o "$scratch/fast.o" host/number/enclosure.c >"$scratch/said" 2>&1
         if [ $? -ne 0 ]; then
             grep -q 'Whirl computes the same bits everywhere' "$scratch/said"

@@ -15,7 +15,6 @@ about="pil $rig"
 "$whirl" pil --faults >"$scratch/kinds" 2>"$scratch/err" && [ "$(wc -l <"$scratch/kinds")" -ge 30 ]
 verdict $? "whirl pil --faults lists the kinds"
 awk '{ print $1 }' "$scratch/kinds" | while read -r kind; do
-    # shellcheck disable=SC2086 # words
     sh tests/limit.sh 20 "$whirl" pil $rig --until 30ms --fault "$kind" >"$scratch/out" 2>"$scratch/err" || echo "$kind"
     grep -Eq "^ +$kind +(=.* {2,})?[a-z0-9]+( [^ ]+){2,}\$" "$scratch/kinds" || echo "no words: $kind"
 done >"$scratch/bad"
@@ -40,7 +39,6 @@ exits 2 'takes no --fault' --replay "$scratch/none" --firmware "$build/pil_rig" 
 told() { sed -n "s/^it tells .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
 # run FAULTS: runs the rig with them
 run() {
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"
 }
 run cell-noise=0.07
@@ -134,7 +132,6 @@ if [ -n "${WHIRL_FULL:-}" ] && command -v qemu-system-arm >/dev/null 2>&1 && [ -
     verdict $? "nor in the emulator" "$scratch/campaign"
 fi
 for words in '' '--firmware' "--firmware $build/pil_rig --runs x" "--firmware $build/pil_rig --only nothing" '--what 3'; do
-    # shellcheck disable=SC2086
     sh tests/limit.sh 20 "$faults" $words >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 2 ] && grep -q '^usage' "$scratch/err"
     verdict $? "faults $words: refused"

@@ -109,7 +109,6 @@ int main(void) {
 END
 } >"$scratch/main.c"
 build() { # build COMPILER FLAGS
-    # shellcheck disable=SC2086 # lists of words
     $1 $warnings $2 -o "$scratch/program" "$scratch"/scene_*.c "$scratch/main.c" core/*.c >"$scratch/err" 2>&1
     verdict $? "$1 $2 compiles them without a warning"
     "$scratch/program" >"$scratch/hashes"
@@ -228,7 +227,6 @@ verdict $? "and not with the hint to narrow a range that is none"
     sed -n 's/^ \*     //p' core/fixed_scene.h
     echo 'return state.steps == gear.steps && theta_rad > 0 && rate_rad_s > 0 ? 0 : 3; }'
 } >"$scratch/example.c"
-# shellcheck disable=SC2086 # a list of words
 gcc $warnings -I"$scratch" -o "$scratch/example" "$scratch/example.c" "$scratch/gear.c" core/*.c 2>"$scratch/err" && "$scratch/example"
 verdict $? "the example in core/fixed_scene.h compiles and runs to its end" "$scratch/err"
 ! grep -q 'wh_angle_to_rad' "$scratch/gear.h" && grep -q 'wh_fixed_angle()' "$scratch/gear.h"

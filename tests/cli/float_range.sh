@@ -24,7 +24,6 @@ for what in parameter input; do
         [ $exponent -gt -39 ] && [ $exponent -lt 39 ] || wanted=1
         [ $exponent -ne 38 ] || wanted=0 # 3e38 is below 3.4e38
         for command in "run --number float" "run --number float --quiet" "derive --as c"; do
-            # shellcheck disable=SC2086 # words of a command
             "$whirl" ${command%% *} "$scratch/spring.whirl" ${command#* } >"$scratch/out" 2>"$scratch/err"
             [ "$(grep -c 'warning: float has no room for -*3e' "$scratch/err")" -eq $wanted ] ||
                 wrong="$wrong $what:$exponent:$command"

@@ -110,12 +110,10 @@ for command in $("$whirl" help | sed -n 's/^  whirl \([a-z]*\) .*/\1/p'); do
     esac
     "$whirl" "$command" --help >"$scratch/help"
     if grep -q '^ *--json\|; --json' "$scratch/help"; then
-        # shellcheck disable=SC2086
         "$whirl" "$command" two_mass_relative $words --json >"$scratch/out" 2>"$scratch/err"
         carries "$command --json" "$scratch/out" "\": \"$version\","
     fi
     if grep -q '^  --csv' "$scratch/help" && [ "$command" != pil ] && [ "$command" != monitor ]; then # pil.sh, monitor.sh
-        # shellcheck disable=SC2086
         "$whirl" "$command" two_mass_relative $words --csv "$scratch/$command.csv" >"$scratch/out" 2>"$scratch/err"
         beside=toml
         [ "$command" != sweep ] || beside=sweep

@@ -13,7 +13,6 @@ count=0
 for header in $headers; do
     count=$((count + 1))
     echo "#include \"$header\"" >"$scratch/alone.c"
-    # shellcheck disable=SC2086 # a list of flags
     $compiler $flags "$scratch/alone.c" >"$scratch/said" 2>&1 || {
         bad=1
         cat "$scratch/said" >>"$scratch/err"
@@ -25,7 +24,6 @@ verdict $? "each of $count headers alone"
 for order in "sort" "sort -r"; do
     for real in 0 1; do
         printf '%s\n' "$headers" | $order | sed 's/.*/#include "&"/' >"$scratch/all.c"
-        # shellcheck disable=SC2086
         $compiler $flags -DWH_DOUBLE=$real "$scratch/all.c" >"$scratch/err" 2>&1
         verdict $? "all of them, $order, WH_DOUBLE=$real"
     done

@@ -31,7 +31,6 @@ verdict $? "every target that the docs tell of is listed"
 for page in README.md CONTRIBUTING.md docs/*.md docs/dev/*.md; do
     grep -oE '`(sh )?(core|host|hal|boards|mk|tests|docs)/[A-Za-z0-9_./*-]+' "$page" | sed 's/^`\(sh \)\{0,1\}//' | grep -v NAME |
         sort -u | while read -r path; do
-        # shellcheck disable=SC2086 # a pattern
         ls -d $path >/dev/null 2>&1 || echo "$page: $path"
     done
     grep -ohE 'build/tests/(host|core_float|core_double) [a-z0-9_ ]+' "$page" | sed 's|build/tests/||; s/_float\|_double//' |

@@ -24,7 +24,6 @@ whole() {
 
 for signal in INT TERM; do
     for quiet in '' --quiet; do
-        # shellcheck disable=SC2086 # perhaps no word
         stop $signal "has_bytes 20000 $scratch/r.csv.part" run epicyclic_from_rest --until 1000000s --csv "$scratch/r.csv" $quiet
         name="run, $signal${quiet:+, }$quiet"
         [ "$code" -eq 130 ]

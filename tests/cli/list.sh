@@ -110,7 +110,6 @@ exits 2 'unknown option' list --table
 # code WORD...: the C, without the first line, which names the file
 code() { "$whirl" derive "$@" --as c; }
 same() { # same WHAT "WORDS" "WORDS"
-    # shellcheck disable=SC2086 # lists of words
     code $2 >"$scratch/one" 2>"$scratch/err" && code $3 >"$scratch/two" 2>>"$scratch/err" &&
         cmp -s "$scratch/one" "$scratch/two"
     verdict $? "$1"
@@ -188,7 +187,6 @@ while IFS="$tab" read -r name promised; do
     for each in $([ -f "$file" ] && "$whirl" list "$file" | awk '$1 == "scene" { print $2 }' || echo .); do
         scene=$file:$each
         [ -f "$file" ] || scene=$name
-        # shellcheck disable=SC2046 # words
         "$whirl" run "$scene" --strict=off $([ "$scene" = "$file:$each" ] || echo --step 1ms --number float) >"$scratch/out" 2>"$scratch/err"
         status=$?
         if [ $status -ne 0 ]; then is=refused

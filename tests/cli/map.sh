@@ -18,7 +18,6 @@ places=--over=k=50..200:5
 
 # --- one answer, three places ------------------------------------------------------------------------------------------
 while read -r scene options; do
-    # shellcheck disable=SC2086 # words
     "$whirl" map "$scene" $options --csv "$scratch/rows" --plot "$scratch/map.svg" >"$scratch/words" 2>"$scratch/err"
     [ $? -eq 0 ] && [ ! -s "$scratch/err" ]
     verdict $? "whirl map $scene $options"
@@ -100,25 +99,18 @@ done
 # refused before the work, which would take hours
 slow="--over=step=1..2[us]:100 $places --until 10s --effort 1e15"
 for file in "$scratch" "$scratch/none/map.svg"; do
-    # shellcheck disable=SC2086 # words
     refused 2 'cannot be written' $spring $slow --csv "$file"
 done
-# shellcheck disable=SC2086
 refused 2 'map.svg: error: cannot be written' $spring $slow --plot "$scratch/none/map.svg"
-# shellcheck disable=SC2086
 refused 2 'draws .svg, .pdf and .png files' $spring $slow --plot map.gif
-# shellcheck disable=SC2086
 refused 2 'cannot share a file' $spring $slow --plot "$scratch/map.svg" --csv "$scratch/map.svg"
 cp $spring "$scratch/mine.whirl"
-# shellcheck disable=SC2086
 refused 2 'would write over the model' "$scratch/mine.whirl" $slow --csv "$scratch/mine.whirl"
 ln -s "$scratch/mine.whirl" "$scratch/mine.svg"
-# shellcheck disable=SC2086
 refused 2 'would write over the model' "$scratch/mine.whirl" $slow --plot "$scratch/mine.svg"
 mkdir "$scratch/bin"
 for tool in sh env timeout; do ln -s "$(command -v $tool)" "$scratch/bin/$tool"; done
 program=$(realpath "$whirl")
-# shellcheck disable=SC2086
 PATH=$scratch/bin sh tests/limit.sh 60 "$program" map $spring $slow --plot "$scratch/map.svg" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'plots need gnuplot' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "no gnuplot: told before the work"

@@ -24,7 +24,6 @@ while read -r command any words; do
             case $words in # once is enough, but for what may be repeated
             *"$option "*) [ "$option" = --over ] || continue ;;
             esac
-            # shellcheck disable=SC2086 # words
             sh tests/limit.sh 60 "$whirl" "$command" $words "$option" "$value" >"$scratch/out" 2>"$scratch/err" </dev/null
             status=$?
             [ $status -eq 2 ] && grep -q 'error: ' "$scratch/err" && [ ! -s "$scratch/out" ] ||
@@ -51,7 +50,6 @@ END
 mkdir "$scratch/kept"
 while read -r command option words; do
     for file in /dev/null/x "$scratch" ''; do
-        # shellcheck disable=SC2086
         sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" "$file" >"$scratch/out" 2>"$scratch/err" </dev/null
         status=$?
         [ $status -ge 1 ] && [ $status -le 2 ] && [ ! -s "$scratch/out" ] &&
@@ -60,7 +58,7 @@ while read -r command option words; do
     done
     # the disk is full after a random number of blocks: the old file stays, and no partial file appears beside it
     kept=$scratch/kept/a.svg
-    # shellcheck disable=SC2086 # a price takes long, and its files are written as those of a map
+    # a price takes long, and its files are written as those of a map
     [ "$command" = price ] ||
         "$whirl" "$command" $words --until 50ms "$option" "$kept" >"$scratch/out" 2>"$scratch/err" </dev/null
     blocks=$(($(cat "$kept" 2>"$scratch/err" | wc -c) / 512))
@@ -73,7 +71,6 @@ while read -r command option words; do
         most=$(echo "$command $option $draw" | cksum | awk -v blocks=$blocks '{ print $1 % (blocks + 1) }')
         rm -f "$scratch/kept"/*
         [ "$command" = sweep ] || echo old >"$kept" # of a sweep, the rows so far are kept: it goes on
-        # shellcheck disable=SC2086
         (ulimit -f "$most" && "$whirl" "$command" $words --until 50ms "$option" "$kept" 2>&1 >/dev/null </dev/null
             echo "status $?") | cat >"$scratch/err"
         grep -q '^status 1$' "$scratch/err" && grep -qE "$kept.*: cannot be written: |gnuplot could not draw $kept" "$scratch/err" &&
@@ -82,13 +79,12 @@ while read -r command option words; do
     done
     rm -f "$scratch/kept"/*
     [ -c /dev/full ] && [ "$option" != --plot ] || continue
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" /dev/full >"$scratch/out" 2>"$scratch/err" </dev/null
     status=$?
     [ $status -eq 1 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
     verdict $? "whirl $command $option /dev/full: status $status"
     [ "$option" = --csv ] || [ "$option" = --columns ] || continue
-    # shellcheck disable=SC2086 # enough rows that a part is written before the end
+    # enough rows that a part is written before the end
     sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" - >/dev/full 2>"$scratch/err" </dev/null
     status=$?
     [ $status -eq 1 ] && grep -q '^whirl: error: standard output cannot be written' "$scratch/err" &&
@@ -109,7 +105,6 @@ price --csv $gear --effort 1e7
 END
 # `price` reports a quantity without an error, with or without a table
 for quiet in '' --quiet; do
-    # shellcheck disable=SC2086
     "$whirl" price $gear --effort 1e7 --until 0.1s --horizon 1e18s $quiet >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^whirl price: error: no error of .* is known' "$scratch/err"
     verdict $? "whirl price ${quiet:-(with its table)}: that no error is known"

@@ -46,7 +46,6 @@ verdict $? "a lower supply drives less"
 
 # --- the rig, whole ---------------------------------------------------------------------------------------------------
 # The plant has a coupling and dry friction that the controller does not know. The force is that of the formula.
-# shellcheck disable=SC2086 # words
 sh tests/limit.sh 60 "$whirl" pil $rig --firmware "$build/pil_rig" --tape "$scratch/pc.tape" >"$scratch/pc" 2>"$scratch/err"
 verdict $? "the rig's software on this machine runs to its end"
 close_to "$(number speed "$scratch/pc")" 330 0.5 && close_to "$(number 'measured \/ formula' "$scratch/pc")" 100 0.5 &&
@@ -67,7 +66,6 @@ else
 fi
 for board in $boards; do
     # if computing takes no time, all processors give the same orders
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --firmware "build/$board/pil_rig.elf" --board "$board" --cycles 0 --tape "$scratch/$board.tape" \
         >"$scratch/board" 2>"$scratch/err"
     verdict $? "and on an emulated $board"
@@ -86,7 +84,6 @@ done
 if [ -n "$boards" ]; then
     # ten times slower: a step that prints the state is late by more than a period
     for cycles in 0 1.5 15; do
-        # shellcheck disable=SC2086
         sh tests/limit.sh 60 "$whirl" pil $rig --firmware "$m4" --cycles $cycles --until 8.7s >"$scratch/out.$cycles" 2>"$scratch/err"
         verdict $? "--cycles $cycles"
     done
@@ -132,7 +129,6 @@ verdict $? "and those of the other kinds say what stands there" "$scratch/diff"
 # --- a trip, then resets --------------------------------------------------------------------------------------------------
 # Reset twice with a trip latched: another program each time, which knows the trip and nothing else; the same on each processor.
 fault='cell-open@6s,reset@6.4003,reset=0.05@7.7'
-# shellcheck disable=SC2086
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --fault "$fault" --firmware "$build/pil_rig" --tape "$scratch/reset.tape" >"$scratch/reset" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -aq '^TRIPPED: the load cell' "$scratch/reset" && grep -aq '^RESET: nothing moves by itself' "$scratch/reset" &&
     [ "$(grep -ac '^Eccentric-mass rig on board' "$scratch/reset")" = 3 ] && [ "$(grep -ac '^0.000 s  tripped' "$scratch/reset")" = 2 ] &&
@@ -151,23 +147,19 @@ done
 # The readings are late by this much, and the run begins. The phase is off by the delay: 1980 degrees a second at 330 rpm.
 first=$(number 'its phase to the masses' "$scratch/pc")
 for delay in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(5); for (i = 0; i < n; i++) print 0.05 + 9 * rand() }'); do
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --delay "${delay}ms" >"$scratch/late" 2>"$scratch/err"
     close_to "$(number 'its phase to the masses' "$scratch/late")" "$(awk -v d="$delay" -v p="$first" 'BEGIN { print p - 1.98 * d }')" 0.1 &&
         close_to "$(number 'measured \/ formula' "$scratch/late")" 100 0.5
     verdict $? "--delay ${delay}ms: the rig runs, and its phase is off by as much" "$scratch/late"
 done
-# shellcheck disable=SC2086
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_dialled" --set speed=250rpm --delay 12ms >"$scratch/late" 2>"$scratch/err"
 close_to "$(number speed "$scratch/late")" 250 0.5
 verdict $? "a dial that is read late is waited for" "$scratch/late"
-# shellcheck disable=SC2086
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_dialled" --fault cell-dead:4 >"$scratch/late" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -aq '^NOT STARTED: the dials are not heard' "$scratch/late"
 verdict $? "and one that is not heard starts nothing" "$scratch/late"
 # A stop input with a broken line counts as pressed, from the start or at any time: the motor is off.
 for when in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(6); print 0; for (i = 0; i < n; i++) print 1.7 + 9 * rand() }'); do
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --fault "cell-dead:3@${when}s" --tape "$scratch/silent.tape" \
         >"$scratch/silent" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -aq '^STOPPED: the stop input is not heard' "$scratch/silent" &&
@@ -192,7 +184,6 @@ sh tests/limit.sh 60 "$whirl" pil "$scratch/renamed.whirl" --bind push=motor --u
 verdict $? "--bind, and --until lets the firmware go" "$scratch/cart"
 sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --firmware "$build/pil_cart" >"$scratch/plain" 2>"$scratch/err"
 for option in '--delay 5ms' '--place 0.02' '--jitter 3ms' '--set l=0.4' '--step 200us'; do
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --firmware "$build/pil_cart" $option --tape "$scratch/cart.tape" >"$scratch/cart" 2>"$scratch/err"
     verdict $? "$option"
     sh tests/limit.sh 60 "$whirl" pil --replay "$scratch/cart.tape" --firmware "$build/pil_cart" >"$scratch/out" 2>"$scratch/err"
@@ -240,12 +231,10 @@ verdict $? "values are those of plant and firmware"
 verdict $? "resets are rows, and time goes on behind them" "$scratch/resets"
 "$whirl" pil --read "$scratch/pc.tape" --csv "$scratch/rows.csv" && cmp -s "$scratch/rows" "$scratch/rows.csv"
 verdict $? "--csv FILE is the same"
-# shellcheck disable=SC2086
 sh tests/limit.sh 60 "$whirl" pil $rig --fault hang=0.1@3s --firmware "$build/pil_rig" --tape "$scratch/hang.tape" >"$scratch/out" 2>"$scratch/err"
 "$whirl" pil --read "$scratch/hang.tape" >"$scratch/rows" 2>"$scratch/err" && [ "$(rows cut "$scratch/rows")" -eq 1 ] &&
     close_to "$(awk -F, '$3 == "cut" { print $1 }' "$scratch/rows")" 3.1 0.01
 verdict $? "a watchdog that has cut is a row" "$scratch/out"
-# shellcheck disable=SC2086
 sh tests/limit.sh 60 "$whirl" pil $rig --fault edge-late=5ms@3s,cell-saturated@6s --firmware "$build/pil_rig" --tape "$scratch/late.tape" >"$scratch/out" 2>"$scratch/err"
 "$whirl" pil --read "$scratch/late.tape" | awk -F, '$3 == "edge" && $1 > 3.1 && $1 < 6 { n++; if ($2 - $1 < 0.005 || $2 - $1 > 0.0091) bad++ }
     $8 == "saturated" && ($1 < 6 || $4 != 1) { bad++ } $8 == "saturated" { full++ } END { exit !(n > 5 && bad == 0 && full > 1) }'
@@ -291,7 +280,6 @@ cart="docs/plants/cart.whirl --until 0.02s --firmware $build/pil_cart"
 while read -r option pattern values; do
     for value in $values; do
         [ "$value" != empty ] || value=
-        # shellcheck disable=SC2086 # words
         exits 2 "$(echo "$pattern" | tr _ ' ')" $cart "$option" "$value"
     done
 done <<'END'
@@ -351,7 +339,6 @@ child() { sed -n "s/^\([0-9]*\) (.*) [A-Za-z] $1 .*/\1/p" /proc/[0-9]*/stat 2>/d
 state() { sed 's/.*) \([A-Za-z]\) .*/\1/' "/proc/$1/stat" 2>/dev/null; }
 # begin IMAGE: $host and $guest, with the line between them at work; a busy machine may take half a minute to get there
 begin() {
-    # shellcheck disable=SC2086
     sh tests/limit.sh 60 "$whirl" pil $rig --step 2us --patience 1 --firmware "$1" >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
     host= guest=

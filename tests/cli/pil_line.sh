@@ -31,11 +31,9 @@ stream() { sed -n 's/^command stream  *//p' "$1"; }
 
 # --- runs ---------------------------------------------------------------------------------------------------------------
 for case in '--set speed=330rpm' '--set speed=120rpm --jitter 20us --seed 5' '--set speed=250rpm --fault edge-dead:2@9s'; do
-    # shellcheck disable=SC2086 # words
     sh tests/limit.sh 120 "$whirl" pil "$plant" --firmware "$build/pil_dialled" --step 200us --cycles 0 $case >"$scratch/pipes" 2>/dev/null
     wanted=$?
     plug
-    # shellcheck disable=SC2086
     run --tape "$scratch/tape" $case
     got=$?
     wait $board

@@ -18,7 +18,6 @@ verdict $? "docs/pil.md has a plant and a firmware"
 build() {
     words=$(tr -d '\\' <"$scratch/commands" | awk '/^cc / { on = 1 } /^build/ { on = 0 } on' | tr '\n' ' ' |
         sed "s,^cc,$1 -Wall -Wextra -Wconversion -Wshadow -Werror,; s, pil_table.c, $2,; s,-o build/pil_table,-o $3,")
-    # shellcheck disable=SC2086 # words
     $words 2>"$scratch/err"
 }
 built=
@@ -55,7 +54,6 @@ grep '^build/whirl pil' "$scratch/commands" | sed -n 's/^build.whirl pil table.w
 [ "$(wc -l <"$scratch/runs")" -eq 2 ]
 verdict $? "the page runs it twice"
 while read -r words; do
-    # shellcheck disable=SC2086 # words
     run "$built" $words --tape "$scratch/tape" && grep -q '^it tells  *homed 1, place ' "$scratch/out"
     verdict $? "as on the page: $words" "$scratch/out"
 done <"$scratch/runs"

@@ -37,7 +37,6 @@ for number in 1 2; do
     model=$scratch/m$number.whirl
     for choice in "" "--y=x',a" "--panel=x --panel=x' --panel=a',a'" "--y=pull --x=x"; do
         rm -f "$scratch"/*.svg "$scratch/run.csv"
-        # shellcheck disable=SC2086 # words
         "$whirl" run "$model" --plot "$scratch/run.svg" --csv "$scratch/run.csv" $choice >/dev/null 2>"$scratch/err" &&
             "$whirl" plot "$scratch/run.csv" --out "$scratch/csv.svg" $choice 2>"$scratch/err" &&
             "$whirl" plot "$model" --out "$scratch/scene.svg" $choice 2>"$scratch/err"
@@ -84,7 +83,6 @@ verdict $? "a legend and a title of one's own"
 verdict $? "axis titles of one's own"
 # without colours: up to five curves of a panel have dashes that differ, whatever runs and quantities they are of
 for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
-    # shellcheck disable=SC2086 # two numbers
     set -- $drawn
     quantities=$(echo x,x0 | cut -d, -f1-"$1")
     runs=
@@ -92,7 +90,6 @@ for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
         awk -v k="$k" -v seed="$seed" 'BEGIN { srand(seed + k); print "time,x,x0"; for (i = 0; i < 9; i++) print i "," rand() "," rand() }' >"$scratch/dash$k.csv"
         runs="$runs $scratch/dash$k.csv"
     done
-    # shellcheck disable=SC2086 # files
     "$whirl" plot $runs --panel "$quantities" --out "$scratch/dashes.svg" 2>"$scratch/err" &&
         [ "$(sed -n "s/.*dasharray='\([^']*\)'.*M.* L.*/\1/p" "$scratch/dashes.svg" | sort -u | wc -l)" -eq $(($1 * $2 - 1)) ]
     verdict $? "$2 runs of $1 quantities in a panel: their curves differ without colours"
@@ -109,7 +106,6 @@ for runs in 2 20; do
         for (i = 0; i < runs; i++) { printf "%s%s %d", i ? "," : "", substr(letters, 1, 1 + int(rand() * 40)), i } }')
     files=$(for k in $(seq $runs); do echo "$scratch/soft.csv"; done)
     for choice in "--y=x,a" "--panel=x --panel=a,a"; do
-        # shellcheck disable=SC2086 # words
         "$whirl" plot $files $choice --legend "$words" --out "$scratch/many.svg" 2>"$scratch/err"
         [ "$one" -gt 1000 ] && [ "$(lowest "$scratch/many.svg")" -ge "$one" ]
         verdict $? "$runs runs, $choice: panels $(lowest "$scratch/many.svg") high, of one run $one"

@@ -40,7 +40,6 @@ for number in 1 2 3 4 5 6; do
     generate $number
     for until in 2s 0; do
         for quiet in '' --quiet; do
-            # shellcheck disable=SC2086 # perhaps no word
             "$whirl" run "$scratch/drawn.whirl" --until $until $quiet --plot "$scratch/drawn.svg" \
                 >"$scratch/out" 2>"$scratch/err"
             code=$?

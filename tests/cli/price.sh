@@ -58,7 +58,6 @@ again() {
     bad=0
     while read -r error step line; do
         rows=$((rows + 1))
-        # shellcheck disable=SC2086 # words of a command line without quotes
         "$whirl" ${line#whirl } --csv - --quiet 2>/dev/null | tr -d '\r' | awk -F, -v name="$column" -v each="$spacing" \
             -v step="$step" -v wanted="$error" -v digits="$(case $line in *float* | *fixed*) echo 6e-9 ;; *) echo 3e-15 ;; esac)" '
             function abs(v) { return v < 0 ? -v : v }
@@ -155,7 +154,6 @@ done
     grep -q '^  whirl run .* --step '
 verdict $? "the cheapest within an error"
 for way in '--of x --error 0.1mm' '--error x=0.1mm'; do
-    # shellcheck disable=SC2086 # words
     "$whirl" price "$scratch/spring.whirl" --effort 2e7 $way >"$scratch/out" 2>&1
     grep -A1 '^the cheapest within' "$scratch/out" | tail -n 1 >>"$scratch/ways"
 done
@@ -195,19 +193,16 @@ first() { sed -n "s/^$1//p" "$scratch/out" | head -n 1; } # HEAD: what stands be
 # --- choose: what is chosen is run ----------------------------------------------------------------------------------
 for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
     [ -z "${WHIRL_FEW:-}" ] || [ "$request" = '1e-3 200Hz' ] || continue
-    # shellcheck disable=SC2086 # two words
     set -- $request
     "$whirl" choose --predict "$scratch/spring.whirl" --of x --error "$1" --rate "$2" --clock 16MHz --effort 8e7 >"$scratch/out" 2>"$scratch/err"
     verdict $? "choose --error $1 --rate $2"
     line=$(first '  again *whirl ')
-    # shellcheck disable=SC2086
     "$whirl" $line --csv - --quiet | tr -d '\r' | awk -F, -v allowed="$1" '
         function abs(v) { return v < 0 ? -v : v }
         NR == 1 { next } { off = abs($2 - cos(8 * $1)); if (off > worst) { worst = off } n++ }
         END { if (n < 10 || worst * 2 > allowed * 1.02) { print worst, n; exit 1 } }' >"$scratch/err"
     verdict $? "choose --error $1: the line it prints keeps it twice"
     derive=$(first '  as code *whirl ')
-    # shellcheck disable=SC2086
     "$whirl" $derive 2>"$scratch/err" | grep -q 'wh_scene'
     verdict $? "choose --error $1: its code"
     grep -q '^  load  .*%.* of a period of' "$scratch/out" && grep -q '^least flash ' "$scratch/out" &&
@@ -220,7 +215,6 @@ done
     grep -q '^  counted by .* mps2-an385-m0 fixed .* --until 2$' "$scratch/out"
 verdict $? "choose on a Cortex-M0: fixed point" "$scratch/out"
 derive=$(first '  as code *whirl ')
-# shellcheck disable=SC2086
 "$whirl" $derive 2>"$scratch/err" | grep -q 'wh_fixed_scene'
 verdict $? "and its code"
 "$whirl" choose --predict "$scratch/spring.whirl" --of x --error 0.1mm --rate 500Hz --effort 8e7 --board mps2-an505 >"$scratch/out" 2>&1
@@ -368,7 +362,6 @@ done
 named=0
 still=0
 for target in $("$whirl" list | awk '$1 == "mechanism" { print $2 }') "thomson_a --step 0.1s" ball_bounces; do
-    # shellcheck disable=SC2086 # words
     "$whirl" run $target --until 0.1s --board host >"$scratch/run" 2>/dev/null || continue
     command=$(sed -n 's/^accuracy and cost  not shown: .* shown by: whirl //p' "$scratch/run")
     if [ -n "$command" ]; then

@@ -21,7 +21,6 @@ for scene in $scenes; do
     # in double with the books inside the run, in float with those beside it
     for more in 'double --with ledger' 'float --without ledger'; do
         number=${more%% *}
-        # shellcheck disable=SC2086 # a list of words
         "$whirl" run "$scene" --until 5ms --number $more --csv "$scratch/$scene.$number.csv" \
             --columns "$scratch/$scene.$number.dat" >"$scratch/$scene.$number.txt" 2>/dev/null ||
             rm -f "$scratch/$scene.$number."*
@@ -52,7 +51,6 @@ END
 still=$scratch/still.whirl:still_rests
 for number in double float; do
     for more in '' '--with ledger' '--until 0' '--method euler'; do
-        # shellcheck disable=SC2086 # lists of words
         {
             "$whirl" run "$still" --number $number $more
             "$whirl" run "$still" --number $number $more --quiet --csv -

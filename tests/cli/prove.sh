@@ -73,7 +73,6 @@ coordinate x$i [m]"
     i=$((i + 1))
 done
 printf 'mechanism many%s\n%s\nscene lies { step 10 [ms]; until 0.1 [s] }\n' "$coordinates" "$energy" >"$scratch/many.whirl"
-# shellcheck disable=SC2086 # words
 "$whirl" prove "$scratch/many.whirl" $many >"$scratch/out" 2>"$scratch/err"
 many_status=$?
 { [ $many_status -eq 0 ] && [ "$(grep -c 'within 1.00e-03 m' "$scratch/out")" -eq 70 ]; } ||

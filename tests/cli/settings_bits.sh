@@ -8,7 +8,6 @@ scenes="13 two_mass_relative 13 epicyclic_conserved 13 mk/price/separable.whirl 
     13 tests/boards/settings.whirl:clapper_claps"
 here=$scratch/settings
 mkdir "$here"
-# shellcheck disable=SC2086 # a list of words
 "$whirl" emit-settings "$here" $steps $scenes >"$scratch/out" 2>"$scratch/err"
 verdict $? "scenes with settings are written" "$scratch/err"
 "$whirl" emit-settings "$here" 0 1 two_mass_relative 2>"$scratch/err"
@@ -40,7 +39,6 @@ as_run() { # as_run LIST NAME TARGET OPTION...: the hash of a line of LIST
 compared=0
 while read -r name words; do
     compared=$((compared + 1))
-    # shellcheck disable=SC2086 # a list of words
     set -- ${words% events *}
     case $name in
     *_fixed) as_run "$here/fixed.hashes" "$name" "$@" ;;
@@ -60,14 +58,11 @@ ways=$(awk '!/^[^ ]*_fixed / && n++ % 4 == 0 { print $1 }' "$here/settings.txt")
 cc -std=c11 -O1 -w -I. -c boards/host/board.c -o "$scratch/board.o" && for file in core/*.c; do
     cc -std=c11 -O1 -w -ffp-contract=off -I. -c "$file" -o "$scratch/$(basename "$file" .c).o" || exit 1
 done
-# shellcheck disable=SC2086
 mk/count/index.sh $ways >"$here/table.c"
 build() { # build PROGRAM: of what is in the folder now
-    # shellcheck disable=SC2046
     cc -std=c11 -O1 -w -ffp-contract=off -I. -I"$here" -o "$1" boards/programs/scenes.c "$here/table.c" \
         $(for name in $ways; do echo "$here/$name.c"; done) "$scratch"/*.o
 }
-# shellcheck disable=SC2046
 grep -E "$(echo $ways | sed 's/ / |^scene /g; s/^/^scene /; s/$/ /')" "$here/float.hashes" >"$scratch/expected"
 build "$scratch/same"
 sh tests/hashes.sh "$scratch/log" "the interpreter" "cat $scratch/expected" compiled "$scratch/same" >"$scratch/out"

@@ -119,7 +119,6 @@ check "a whole file: nothing to do" status 0 small --csv "$scratch/small.csv" --
 check "a whole file: says so" grep -q '5 of them found' "$scratch/said"
 for other in '--measure theta' '--measure X --step 0.5ms' '--measure X --set duty=0.1' \
     '--measure X --number float' '--measure X --shard 1/2' '--measure X --over duty=0..1:2'; do
-    # shellcheck disable=SC2086 # several words
     check "refused: $other" status 2 small --csv "$scratch/small.csv" $other
     check "refused with a way out: $other" grep -q -e '--fresh' "$scratch/said"
 done

@@ -13,7 +13,6 @@ verdict $? "build/pil_swing is there (make pil-images)"
 
 # swing WORD...: a run to its end; its words for what became of the swing in $why
 swing() {
-    # shellcheck disable=SC2086 # words
     sh tests/limit.sh 120 "$whirl" pil $rig "$@" </dev/null >"$scratch/run" 2>"$scratch/err" || [ $? -eq 1 ]
     ended=$?
     why=$(sed -n 's/^The swing in which it came to rest: //p' "$scratch/run")

@@ -22,7 +22,6 @@ row=0
 while read -r scene options; do
     row=$((row + 1))
     [ $((row % ${every:-1})) -eq 0 ] || continue
-    # shellcheck disable=SC2086 # words
     "$whirl" trust "$scene" $options --csv "$scratch/rows" >"$scratch/words" 2>"$scratch/err"
     status=$?
     end=$(end_of "$scratch/rows")
@@ -32,7 +31,6 @@ while read -r scene options; do
         [ $status -eq 0 ] && grep -q "^trusted until t = $end s of " "$scratch/words"
     fi
     verdict $? "$scene $options: $end, in words and in rows" "$scratch/words"
-    # shellcheck disable=SC2086
     "$whirl" run "$scene" $options --plot "$scratch/plot.svg" >"$scratch/summary" 2>"$scratch/err"
     if [ "$end" = end ]; then
         grep -q '^trusted  *to the end: every coordinate to 0.001 of its range$' "$scratch/summary" &&
@@ -81,7 +79,6 @@ done
 # --- a step that is the motion itself: right to the end, with sums of either kind ------------------------------------------
 for number in double float; do
     for sums in '' --compensated; do
-        # shellcheck disable=SC2086 # perhaps no word
         "$whirl" trust mk/stability/spring.whirl --matrix exact --step 100ms --until 10s --number $number $sums --csv "$scratch/rows" >"$scratch/words" 2>"$scratch/err" &&
             [ "$(end_of "$scratch/rows")" = end ] && grep -q '^  x  *to the end .* of its range, 0.2 m$' "$scratch/words"
         verdict $? "an exact matrix, $number $sums: to the end" "$scratch/words"

@@ -24,7 +24,6 @@ all_same() {
     bad=0
     while read -r line; do
         count=$((count + 1))
-        # shellcheck disable=SC2086 # words
         same $line || { bad=1 && echo "$line" >>"$scratch/differ" && head -n 2 "$scratch/err" >>"$scratch/differ"; }
     done
     [ $bad -eq 0 ] && [ $count -ge "$2" ]

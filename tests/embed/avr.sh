@@ -45,27 +45,22 @@ sines=$("$folder/pc")
 # Scenes: sines of phases; an angle in radians; contacts; books and compensated sums.
 compared=0
 while read -r scene until options; do
-    # shellcheck disable=SC2086 # a list of words
     "$whirl" derive "$scene" --as c --until "$until" $options --name tested --header "$folder/generated.h" \
         >"$folder/generated.c" || exit 1
-    # shellcheck disable=SC2086
     run=$("$whirl" run "$scene" --until "$until" $options --number float | sed -n 's/^state hash *0x//p')
     # a dialect knows nothing of scenes: all of them with the first
     others="c11 gnu++11,gnu11 c++11,gnu11 gnu++11,c11 c++11 -U__AVR_HAVE_LPMX__,"
     [ $compared -eq 0 ] || others=
     echo "${others}c11 c++11" | tr ',' '\n' >"$folder/dialects"
     while read -r dialect; do
-        # shellcheck disable=SC2086
         set -- $dialect
         what="$scene, -std=$1, from -std=$2 ${3:-}"
         objects=""
         for file in core/scene.c core/angle.c core/text.c core/noise.c "$folder/generated.c"; do
             object=$folder/$(basename "$file" .c).o
-            # shellcheck disable=SC2086
             avr-gcc -std="$1" ${3:-} $flags -c "$file" -o "$object" >"$folder/log" 2>&1 || wrong "$what: $file" "$folder/log"
             objects="$objects $object"
         done
-        # shellcheck disable=SC2086
         avr-g++ -std="$2" ${3:-} -fno-exceptions -Wconversion $flags -o "$folder/image.elf" tests/embed/avr_main.cpp $objects \
             >"$folder/log" 2>&1 || { wrong "$what: it does not link" "$folder/log"; continue; }
         # memory begins at 0x800000 in these files

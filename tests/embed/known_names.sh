@@ -16,9 +16,7 @@ iso="assert complex ctype fenv float inttypes limits locale math setjmp stdalign
 gnu="math complex stdlib string strings"
 
 : >"$scratch/none.h"
-# shellcheck disable=SC2086 # a list of words
 printf '#include <%s.h>\n' $iso >"$scratch/iso.h"
-# shellcheck disable=SC2086
 printf '#include <%s.h>\n' $gnu >"$scratch/gnu.h"
 
 # what stands in a program by itself
@@ -50,7 +48,6 @@ judge_with() {
         echo "#line 1 \"names\""
         sed 's/.*/extern const wh_scene_ &;/' "$4"
     } >"$scratch/names.c"
-    # shellcheck disable=SC2086
     "$1" -x $language -std="$2" -Wall -Wextra -fsyntax-only $many "$scratch/names.c" 2>&1 | grep -E '^names:[0-9]+:' |
         sed -E 's/^names:([0-9]+):.*/\1/' | sort -un >"$scratch/lines"
     awk -v by="$1 -std=$2, headers $3" 'NR == FNR { bad[$1]; next } FNR in bad { print by ": " $0 }' "$scratch/lines" "$4"
