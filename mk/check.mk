@@ -131,7 +131,7 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
 CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags foreign fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # Left to `make sanitizers-all`: scripts and suites that derive and step as others do to compare digits, or that try the
 # remedies of many runs.
-CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage columns command_line commands doc_examples \
+CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage command_line commands doc_examples \
     effects_cost_nothing embed_fixed embed_headers embed_names embed_sketch emitted_c faults figures fixed \
     float_range forms full_output measure memory noise odd_values pil plot plots price price_pages printed_zeros \
     prove recorded_bits recorded_lists settings_bits sizes suites summary swing trust undefined units \

@@ -89,7 +89,7 @@ rm -f .failed
         sed -n "s/^void suite_\([a-z0-9_]*\)(void);/$build \1/p" "$list"
     done
     ls tests/cli/*.sh | sed 's/^/cli /' |
-        grep -vE '/(embed_.*|emitted_c|effects_cost_nothing|flags|interrupt|no_libm|suites|worst_step_marks|columns)\.sh$'
+        grep -vE '/(embed_.*|emitted_c|effects_cost_nothing|flags|interrupt|no_libm|suites|worst_step_marks)\.sh$'
 } | awk -v never="${NEVER:-^$}" '$2 !~ never' | xargs -P "$JOBS" -n 2 sh "$here/times.sh" "$PWD" "$known" | sort -n
 if [ -e .failed ]; then
     echo "make mutants: these fail on the tree as it is:" $(cat .failed) >&2

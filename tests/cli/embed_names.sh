@@ -4,35 +4,24 @@
 # without compensated sums and energy balance, in float and double. WHIRL_SEED and WHIRL_CASES change the generated ones;
 # WHIRL_FULL=1 takes three times as many.
 . "$(dirname "$0")/../checks.sh"
+regex=-E
 
 build=$(dirname "$whirl")
 gen=build/gen
 flags="-ffp-contract=off -I. -I$gen -I$scratch -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror"
 
-# says STATUS PATTERN WORD...: exit status, and a matching line of standard error; a refusal has no other output.
-says() {
-    status=$1
-    pattern=$2
-    shift 2
-    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
-    [ $? -eq "$status" ] && grep -Eq -- "$pattern" "$scratch/err" && { [ "$status" -eq 0 ] || [ ! -s "$scratch/out" ]; }
-    verdict $? "$pattern"
-}
 
 # --- mistakes ---------------------------------------------------------------------------------------------
 "$whirl" derive --help | grep -q -- '--header FILE'
 verdict $? "--help tells of it"
-says 2 'error: --header needs a value' derive thomson_a --as c --header
-says 2 'error: --header goes with --as c' derive thomson_a --header "$scratch/x.h"
-says 2 'hint: --as c --header FILE' derive thomson_a --as latex --header "$scratch/x.h"
+exits 2 'error: --header needs a value' derive thomson_a --as c --header
+exits 2 'error: --header goes with --as c' derive thomson_a --header "$scratch/x.h"
+exits 2 'hint: --as c --header FILE' derive thomson_a --as latex --header "$scratch/x.h"
 [ ! -e "$scratch/x.h" ]
 verdict $? "nothing is written then"
-says 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header -
-says 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header=
-says 2 '/nonexistent/x.h: error: cannot be written: No such' derive thomson_a --as c --header /nonexistent/x.h
-says 2 "$scratch: error: cannot be written: Is a directory" derive thomson_a --as c --header "$scratch"
-[ ! -e /dev/full ] || says 1 '/dev/full: error: cannot be written: No space' derive thomson_a --as c --header /dev/full
-says 2 "unknown option '--haeder'" derive thomson_a --as c --haeder x.h
+exits 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header -
+exits 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header=
+exits 2 "unknown option '--haeder'" derive thomson_a --as c --haeder x.h
 grep -q 'hint: did you mean --header' "$scratch/err"
 verdict $? "and a hint"
 printf 'mechanism own\ncoordinate x [m]\nT = 2 [kg]*x'"'"'^2/2\n' >"$scratch/own.whirl"
@@ -40,7 +29,7 @@ cp "$scratch/own.whirl" "$scratch/kept"
 ln -s own.whirl "$scratch/soft"
 ln "$scratch/own.whirl" "$scratch/hard"
 for file in own.whirl soft hard; do
-    says 2 "$file: error: --header would write over the model" derive "$scratch/own.whirl" --as c --header "$scratch/$file"
+    exits 2 "$file: error: --header would write over the model" derive "$scratch/own.whirl" --as c --header "$scratch/$file"
 done
 cmp "$scratch/own.whirl" "$scratch/kept"
 verdict $? "the model is as it was"

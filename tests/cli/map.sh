@@ -2,16 +2,8 @@
 # map.sh: map, rows and picture of `whirl map` agree, and wrong input is refused. build/tests/host map checks that they are
 # right.
 . "$(dirname "$0")/../checks.sh"
+about=map
 
-# refused STATUS PATTERN WORD...: that status, these words on standard error, nothing on standard output
-refused() {
-    status=$1
-    pattern=$2
-    shift 2
-    sh tests/limit.sh 60 "$whirl" map "$@" >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
-    verdict $? "whirl map $*: status $status, $pattern"
-}
 spring=mk/stability/spring.whirl
 steps=--over=step=10ms..1s:21,log
 places=--over=k=50..200:5
@@ -64,50 +56,46 @@ verdict $? "a mass of nothing: no run, and the others are there" "$scratch/words
 "$whirl" map $spring --over=m=0..1:2 --over=step=10..20[ms]:2 --csv "$scratch/n.csv" --quiet >"$scratch/out" 2>&1 && [ ! -s "$scratch/out" ] &&
     [ "$(tr -d '\r' <"$scratch/n.csv" | grep -c '^0,0.0[12],none,,,$')" -eq 2 ] && [ "$(wc -l <"$scratch/n.csv")" -eq 5 ]
 verdict $? "in rows: no time, no energy" "$scratch/n.csv"
-refused 1 'error: no pair can be run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
-refused 1 'error: no pair can be run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
+exits 1 'error: no pair can be run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
+exits 1 'error: no pair can be run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
 
 # --- what is refused --------------------------------------------------------------------------------------------------------
-refused 2 'usage: whirl map'
-refused 2 'a map needs two --over: there is none' $spring
-refused 2 'a map needs two --over: there is one' $spring "$steps"
-refused 2 "a map has two --over: 'm=1..2:2' is a third" $spring "$steps" "$places" --over m=1..2:2
+exits 2 'usage: whirl map'
+exits 2 'a map needs two --over: there is none' $spring
+exits 2 'a map needs two --over: there is one' $spring "$steps"
+exits 2 "a map has two --over: 'm=1..2:2' is a third" $spring "$steps" "$places" --over m=1..2:2
 for bad in 'k=1..2' 'k=:3' '=1..2:3' 'k=1...2:3' '' 'k' 'k=1..2:x' 'k=1..2:0' 'k=1..2:1' 'k=1..2:-3' 'k=1..2:1.5' 'k=-1..2:3,log' \
     'k=0..2:3,log' 'k=nan..2:3' 'k=1..inf:3' 'k=1..nan:3' 'nothing=1..2:3' 'x=1..m:3' 'k=1..2:3,lin' 'k=1..2 [kg]:3' 'k=1..2:99999999999999'; do
-    refused 2 'error: ' $spring "$steps" --over "$bad"
+    exits 2 'error: ' $spring "$steps" --over "$bad"
 done
-refused 2 'step must be above zero' $spring "$places" --over step=0..1:3
-refused 2 'step must be above zero' $spring "$places" --over step=-1..1:3
-refused 2 'error: .*swept already' $spring "$steps" --over step=1ms..2ms:3
-refused 2 'error: .*swept already' $spring "$places" "$places"
-refused 2 "'k' is swept by --over and given by --set" $spring "$steps" "$places" --set 'k = 3'
-refused 2 "'x' is swept by --over and given by --start" $spring "$steps" --over x=1..2:2 --start x=3
-refused 2 "'step' is swept by --over and given by --step" $spring "$steps" "$places" --step 1ms
-refused 2 '1000000 pairs exceed the limit of 250000' $spring --over k=1..2:1000 --over x=1..2:1000
-refused 2 'pairs exceed the limit of 250000' $spring --over k=1..2:999999 --over x=1..2:999999
-refused 2 'this would take about .* minutes: 105 pairs' $spring "$places" --over step=1e-9..1e-3:21,log
-refused 2 'hint: use fewer pairs, .*; or --effort [0-9.e+]*$' $spring "$steps" "$places" --until 1e7s
-refused 2 "belongs to the effect 'rail_drag', which is not selected" epicyclic_from_rest --over=b=1..2:3 "$steps"
-refused 2 "there is no number 'fixed'" $spring "$steps" "$places" --number fixed
-refused 2 'is not defined here' tests/mechanisms/lorenz.whirl "$steps" --over x=1..2:2 --method leapfrog
-refused 2 'there is no file and no built-in scene' nothing "$steps" "$places"
-refused 2 'one scene at a time' $spring thomson_a "$steps" "$places"
-for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
-    refused 2 'error: --tolerance takes a number from 1e-15 to 1' $spring "$steps" "$places" --tolerance "$bad"
-    refused 2 'error: --effort takes a number from 10000 to 1e+15' $spring "$steps" "$places" --effort "${bad%2}x"
-done
+exits 2 'step must be above zero' $spring "$places" --over step=0..1:3
+exits 2 'step must be above zero' $spring "$places" --over step=-1..1:3
+exits 2 'error: .*swept already' $spring "$steps" --over step=1ms..2ms:3
+exits 2 'error: .*swept already' $spring "$places" "$places"
+exits 2 "'k' is swept by --over and given by --set" $spring "$steps" "$places" --set 'k = 3'
+exits 2 "'x' is swept by --over and given by --start" $spring "$steps" --over x=1..2:2 --start x=3
+exits 2 "'step' is swept by --over and given by --step" $spring "$steps" "$places" --step 1ms
+exits 2 '1000000 pairs exceed the limit of 250000' $spring --over k=1..2:1000 --over x=1..2:1000
+exits 2 'pairs exceed the limit of 250000' $spring --over k=1..2:999999 --over x=1..2:999999
+exits 2 'this would take about .* minutes: 105 pairs' $spring "$places" --over step=1e-9..1e-3:21,log
+exits 2 'hint: use fewer pairs, .*; or --effort [0-9.e+]*$' $spring "$steps" "$places" --until 1e7s
+exits 2 "belongs to the effect 'rail_drag', which is not selected" epicyclic_from_rest --over=b=1..2:3 "$steps"
+exits 2 "there is no number 'fixed'" $spring "$steps" "$places" --number fixed
+exits 2 'is not defined here' tests/mechanisms/lorenz.whirl "$steps" --over x=1..2:2 --method leapfrog
+exits 2 'there is no file and no built-in scene' nothing "$steps" "$places"
+exits 2 'one scene at a time' $spring thomson_a "$steps" "$places"
 # refused before the work, which would take hours
 slow="--over=step=1..2[us]:100 $places --until 10s --effort 1e15"
 for file in "$scratch" "$scratch/none/map.svg"; do
-    refused 2 'cannot be written' $spring $slow --csv "$file"
+    exits 2 'cannot be written' $spring $slow --csv "$file"
 done
-refused 2 'map.svg: error: cannot be written' $spring $slow --plot "$scratch/none/map.svg"
-refused 2 'draws .svg, .pdf and .png files' $spring $slow --plot map.gif
-refused 2 'cannot share a file' $spring $slow --plot "$scratch/map.svg" --csv "$scratch/map.svg"
+exits 2 'map.svg: error: cannot be written' $spring $slow --plot "$scratch/none/map.svg"
+exits 2 'draws .svg, .pdf and .png files' $spring $slow --plot map.gif
+exits 2 'cannot share a file' $spring $slow --plot "$scratch/map.svg" --csv "$scratch/map.svg"
 cp $spring "$scratch/mine.whirl"
-refused 2 'would write over the model' "$scratch/mine.whirl" $slow --csv "$scratch/mine.whirl"
+exits 2 'would write over the model' "$scratch/mine.whirl" $slow --csv "$scratch/mine.whirl"
 ln -s "$scratch/mine.whirl" "$scratch/mine.svg"
-refused 2 'would write over the model' "$scratch/mine.whirl" $slow --plot "$scratch/mine.svg"
+exits 2 'would write over the model' "$scratch/mine.whirl" $slow --plot "$scratch/mine.svg"
 mkdir "$scratch/bin"
 for tool in sh env timeout; do ln -s "$(command -v $tool)" "$scratch/bin/$tool"; done
 program=$(realpath "$whirl")

@@ -1,6 +1,6 @@
 #!/bin/sh
-# noise.sh: an output's noise in `whirl sweep` is that of `whirl run`, with any measures, jobs and shards, resumed or not,
-# with parameters swept or not.
+# noise.sh: an output's noise in `whirl sweep` is that of `whirl run`, with any jobs and shards, resumed or not, with parameters
+# swept or not. build/tests/host noise_measures draws mechanisms and lists of measures.
 . "$(dirname "$0")/../checks.sh"
 
 cat >"$scratch/read.whirl" <<'END'
@@ -22,40 +22,18 @@ for l in 0.4 0.5 0.6 0.7; do
     "$whirl" run "$scene" --set l=$l --csv - --quiet | tr -d '\r' | tail -n 1 | cut -d, -f4-6
 done >"$scratch/run"
 
-# rows ORDER FILE: a sweep's columns in the order height, side, both
-rows() {
-    tr -d '\r' <"$2" | tail -n +2 | cut -d, -f2- | awk -F, -v order="$1" '{
-        n = split(order, name, " ")
-        for (i = 1; i <= n; i++) value[name[i]] = $i
-        printf "%s,%s,%s\n", value["height"], value["side"], value["both"]
-    }'
-}
-# near FILE: its columns equal those of the runs, except for the last digit
-near() {
-    paste -d, "$scratch/run" "$1" | awk -F, '
-        { for (i = 1; i <= 3; i++) if ($(3 + i) != "" && ($i - $(3 + i))^2 > 1e-30) bad = 1 }
-        END { exit bad || NR != 4 }'
-}
-
-for order in 'height side both' 'both side height' 'side' 'both' 'both both' 'side height' 'height both'; do
-    set --
-    for name in $order; do
-        set -- "$@" --measure "$name"
-    done
-    "$whirl" sweep "$scene" --over l=0.4..0.7:4 "$@" --csv "$scratch/a.csv" --fresh --quiet --jobs 1
-    rows "$order" "$scratch/a.csv" >"$scratch/a"
-    check "measures $order: the noise of the runs" near "$scratch/a"
-    "$whirl" sweep "$scene" --over l=0.4..0.7:4 "$@" --csv - --quiet --jobs 3 >"$scratch/b.csv"
-    check "measures $order: the same from 3 jobs" cmp "$scratch/a.csv" "$scratch/b.csv"
-    for k in 1 2 3; do
-        "$whirl" sweep "$scene" --over l=0.4..0.7:4 "$@" --csv - --quiet --shard $k/3
-    done >"$scratch/b.csv"
-    check "measures $order: the same from shards" cmp "$scratch/a.csv" "$scratch/b.csv"
-    head -c 60 "$scratch/a.csv" >"$scratch/c.csv"
-    cp "$scratch/a.csv.sweep" "$scratch/c.csv.sweep"
-    "$whirl" sweep "$scene" --over l=0.4..0.7:4 "$@" --csv "$scratch/c.csv" --quiet
-    check "measures $order: the same when gone on with" cmp "$scratch/a.csv" "$scratch/c.csv"
-done
+swept() { "$whirl" sweep "$scene" --over l=0.4..0.7:4 --measure both --measure side "$@" --quiet; }
+swept --csv "$scratch/a.csv" --jobs 1
+swept --csv - --jobs 3 >"$scratch/b.csv"
+check "the same from 3 jobs" cmp "$scratch/a.csv" "$scratch/b.csv"
+for k in 1 2 3; do
+    swept --csv - --shard $k/3
+done >"$scratch/b.csv"
+check "the same from shards" cmp "$scratch/a.csv" "$scratch/b.csv"
+head -c 60 "$scratch/a.csv" >"$scratch/c.csv"
+cp "$scratch/a.csv.sweep" "$scratch/c.csv.sweep"
+swept --csv "$scratch/c.csv"
+check "the same when gone on with" cmp "$scratch/a.csv" "$scratch/c.csv"
 "$whirl" sweep "$scene" --over l=0.4..0.7:4 --csv - --quiet | tr -d '\r' | tail -n +2 | cut -d, -f4-6 >"$scratch/b"
 check "all outputs: the bits of the runs" cmp "$scratch/run" "$scratch/b"
 

@@ -379,75 +379,54 @@ done
 verdict $? "$named runs name a command, $still do not move" "$scratch/run"
 
 # --- bad input -------------------------------------------------------------------------------------------------------
-refused() { # TEXT COMMAND WORD...: exit status 2, and TEXT on standard error
-    text=$1
-    shift
-    "$whirl" "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
-    [ $? -eq 2 ] && grep -q "$text" "$scratch/err" && [ ! -s "$scratch/out" ]
-    verdict $? "refused: $*"
-}
 s=$scratch/spring.whirl
 for command in price choose; do
     e='--error=1e-3'
-    refused 'no scene' $command $e
-    refused 'one scene at a time' $command "$s" other $e
-    refused "there is no board 'nix'" $command "$s" $e --board nix
-    refused 'hint: --board mps2-an386 has the processor' $command "$s" $e --board stm32-h405
-    refused 'is no output, coordinate or rate' $command "$s" $e --of y
-    refused "did you mean 'x_mm'" $command "$s" $e --of x_mn
-    refused "is no output, coordinate or rate" $command "$s" $e --of "x''"
-    refused 'has noise' $command "$s" $e --of shaky
-    refused 'length' $command "$s" --of x --error 1s
-    refused 'error:' $command "$s" --error 1mm
-    refused 'above zero' $command "$s" --error=-1
-    refused "no quantity stands before '='" $command "$s" --error =0.1mm
-    refused 'above zero' $command "$s" --error 0
-    refused 'error:' $command "$s" --error much
-    refused 'error:' $command "$s" $e --horizon x
-    refused 'the horizon is 0 s' $command "$s" $e --horizon 0
-    refused 'is not NAME=FROM..TO' $command "$s" $e --vary push
-    refused 'error:' $command "$s" $e --vary nothing=1..2
-    refused 'cannot change the step' $command "$s" $e --vary step=1..2
-    refused 'the limit of 64' $command "$s" $e --vary push=0..1:100
-    refused 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
-    for option in --board --of --error --horizon --vary --effort --method; do
-        for value in '' ' ' nan inf -1 1e400; do
-            refused 'error:' $command "$s" $e $option "$value"
-        done
-    done
-    refused 'from 10000 to 1e+15' $command "$s" $e --effort 0
-    refused 'from 10000 to 1e+15' $command "$s" $e --effort lots
-    refused "unknown option '--bord'" $command "$s" $e --bord x
-    refused 'did you mean --board' $command "$s" $e --bord x
-    refused 'unknown option' $command "$s" $e --step 1ms
-    refused 'cannot be' $command "$scratch/none.whirl" $e
+    exits 2 'no scene' $command $e
+    exits 2 'one scene at a time' $command "$s" other $e
+    exits 2 "there is no board 'nix'" $command "$s" $e --board nix
+    exits 2 'hint: --board mps2-an386 has the processor' $command "$s" $e --board stm32-h405
+    exits 2 'is no output, coordinate or rate' $command "$s" $e --of y
+    exits 2 "did you mean 'x_mm'" $command "$s" $e --of x_mn
+    exits 2 "is no output, coordinate or rate" $command "$s" $e --of "x''"
+    exits 2 'has noise' $command "$s" $e --of shaky
+    exits 2 'length' $command "$s" --of x --error 1s
+    exits 2 'error:' $command "$s" --error 1mm
+    exits 2 'above zero' $command "$s" --error=-1
+    exits 2 "no quantity stands before '='" $command "$s" --error =0.1mm
+    exits 2 'above zero' $command "$s" --error 0
+    exits 2 'error:' $command "$s" --error much
+    exits 2 'error:' $command "$s" $e --horizon x
+    exits 2 'the horizon is 0 s' $command "$s" $e --horizon 0
+    exits 2 'is not NAME=FROM..TO' $command "$s" $e --vary push
+    exits 2 'error:' $command "$s" $e --vary nothing=1..2
+    exits 2 'cannot change the step' $command "$s" $e --vary step=1..2
+    exits 2 'the limit of 64' $command "$s" $e --vary push=0..1:100
+    exits 2 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
+    exits 2 'from 10000 to 1e+15' $command "$s" $e --effort 0
+    exits 2 'from 10000 to 1e+15' $command "$s" $e --effort lots
+    exits 2 "unknown option '--bord'" $command "$s" $e --bord x
+    exits 2 'did you mean --board' $command "$s" $e --bord x
+    exits 2 'unknown option' $command "$s" $e --step 1ms
+    exits 2 'cannot be' $command "$scratch/none.whirl" $e
 done
 # A file that cannot be written is reported before any run. An existing file stays if there is no result.
-refused 'cannot be written' price "$s" --csv "$scratch/none/p.csv"
-refused 'error:' price "$s" --csv "$s"
-refused 'error is missing' choose "$s"
-refused 'exclude each other' choose "$s" --error 1e-3 --predict --measure
-refused 'error:' choose "$s" --error 1e-3 --rate 1ms
-refused 'above zero' choose "$s" --error 1e-3 --rate 0
-refused 'error:' choose "$s" --error 1e-3 --clock fast
-for option in --rate --clock --flash --ram; do
-    for value in '' ' ' nan inf -1 0 1e400 1m; do
-        refused 'error:' choose "$s" --error 1e-3 $option "$value"
-    done
-done
-refused 'number of bytes' choose "$s" --error 1e-3 --flash 32XB
-refused 'number of bytes' choose "$s" --error 1e-3 --flash=-1
-refused 'number of bytes' choose "$s" --error 1e-3 --ram KB
-refused 'not one period' choose "$s" --error 1e-3 --rate 0.1Hz
+exits 2 'cannot be written' price "$s" --csv "$scratch/none/p.csv"
+exits 2 'error:' price "$s" --csv "$s"
+exits 2 'error is missing' choose "$s"
+exits 2 'exclude each other' choose "$s" --error 1e-3 --predict --measure
+exits 2 'error:' choose "$s" --error 1e-3 --rate 1ms
+exits 2 'above zero' choose "$s" --error 1e-3 --rate 0
+exits 2 'error:' choose "$s" --error 1e-3 --clock fast
+exits 2 'number of bytes' choose "$s" --error 1e-3 --flash 32XB
+exits 2 'number of bytes' choose "$s" --error 1e-3 --flash=-1
+exits 2 'number of bytes' choose "$s" --error 1e-3 --ram KB
+exits 2 'not one period' choose "$s" --error 1e-3 --rate 0.1Hz
 
 # --- interrupted ------------------------------------------------------------------------------------------------------
 for signal in INT TERM; do
-    "$whirl" price thomson_b_conserved --effort 5e11 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
-    process=$!
-    await has_worked 10 $process
-    kill -$signal $process
-    wait $process
-    [ $? -eq 130 ] && grep -q '^whirl price: interrupted' "$scratch/err" && [ ! -e "$scratch/i.csv" ]
+    stop $signal "has_worked 10" price thomson_b_conserved --effort 5e11 --csv "$scratch/i.csv"
+    [ "$code" -eq 130 ] && grep -q '^whirl price: interrupted' "$scratch/err" && [ ! -e "$scratch/i.csv" ]
     verdict $? "price, $signal: exit status 130, and no file is begun"
 done
 exit $failed

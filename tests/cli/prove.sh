@@ -2,6 +2,7 @@
 # prove.sh: `whirl prove`: its answer, rows, bounds and refusals. build/tests/host enclosure prove prove_drawn checks that
 # they are right.
 . "$(dirname "$0")/../checks.sh"
+about=prove
 
 # proved PATTERN WORD...: status 0, and these words on standard output
 proved() {
@@ -10,14 +11,6 @@ proved() {
     "$whirl" prove "$@" >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 0 ] && grep -qE -- "$pattern" "$scratch/out" && [ ! -s "$scratch/err" ]
     verdict $? "whirl prove $*: $pattern" "$scratch/out"
-}
-# refused PATTERN WORD...: status 2, these words on standard error, nothing on standard output
-refused() {
-    pattern=$1
-    shift
-    "$whirl" prove "$@" >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq 2 ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
-    verdict $? "whirl prove $*: $pattern" "$scratch/err"
 }
 # ended STATUS PATTERN WORDS WORD...: that status, the pattern on standard error, the words on standard output
 ended() {
@@ -60,25 +53,6 @@ noise read deviation 0.1 [rad] seed 7
 scene swings { start a = 2 [rad]; step 1 [ms]; until 1 [s] }
 END
 proved '^proved to the end, t = 1 s$' "$scratch/noisy.whirl" --number float
-# more names than there is any list for
-many=''
-coordinates=''
-energy='T = 0 [J]'
-i=0
-while [ $i -lt 70 ]; do
-    coordinates="$coordinates
-coordinate x$i [m]"
-    energy="$energy + 1 [kg]*x$i'^2/2"
-    many="$many --within x$i=1mm"
-    i=$((i + 1))
-done
-printf 'mechanism many%s\n%s\nscene lies { step 10 [ms]; until 0.1 [s] }\n' "$coordinates" "$energy" >"$scratch/many.whirl"
-"$whirl" prove "$scratch/many.whirl" $many >"$scratch/out" 2>"$scratch/err"
-many_status=$?
-{ [ $many_status -eq 0 ] && [ "$(grep -c 'within 1.00e-03 m' "$scratch/out")" -eq 70 ]; } ||
-    { [ $many_status -eq 2 ] && grep -q 'coordinates' "$scratch/err"; }
-verdict $? "70 --within: as many as there are names" "$scratch/err"
-
 # --- rows ------------------------------------------------------------------------------------------------------------------
 "$whirl" prove epicyclic_from_rest --until 0.5s --number float --csv "$scratch/rows" --quiet >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && [ ! -s "$scratch/out" ] && [ ! -s "$scratch/err" ]
@@ -161,50 +135,38 @@ ended 0 'the tube ends at t = 0 s' 'there the tube ends$' "$scratch/root.whirl"
 ended 1 'error: the run diverged in the step after t = 0 s' '^proved until t = 0 s of' tests/mechanisms/kepler.whirl
 proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # it hangs still
 for signal in INT TERM; do
-    "$whirl" prove thomson_a --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
-    process=$!
-    await has_bytes 200000 "$scratch/i.csv.part"
-    kill -$signal $process
-    wait $process
-    [ $? -eq 130 ] && grep -q '^whirl prove: interrupted at t = [0-9.]* s of 10 s$' "$scratch/err" &&
+    stop $signal "has_bytes 200000 $scratch/i.csv.part" prove thomson_a --csv "$scratch/i.csv"
+    [ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted at t = [0-9.]* s of 10 s$' "$scratch/err" &&
         grep -q 'there it was interrupted$' "$scratch/out" &&
         grep -q "^proved until t = $(tail -n 1 "$scratch/i.csv" | cut -d, -f1) s of 10 s" "$scratch/out"
     verdict $? "$signal: status 130, and what is proved until the last row" "$scratch/out"
     rm -f "$scratch/i.csv"
 done
 
-"$whirl" prove thomson_a --until 100000s --effort 1e15 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
-process=$!
-await has_worked 50 $process
-kill -INT $process
-wait $process
-[ $? -eq 130 ] && grep -q '^whirl prove: interrupted in the run that tells the range' "$scratch/err" &&
+stop INT "has_worked 50" prove thomson_a --until 100000s --effort 1e15 --csv "$scratch/i.csv"
+[ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted in the run that tells the range' "$scratch/err" &&
     [ ! -s "$scratch/out" ] && [ ! -e "$scratch/i.csv" ]
 verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
 
 # --- what is refused -------------------------------------------------------------------------------------------------------
-refused 'the stop changes the equations' carriage_stop
-refused 'the hold changes the equations' thomson_magnet
-refused 'the friction changes the equations' incline_slides
-refused 'abs of a moving quantity has no enclosure' epicyclic_from_rest --with air_drag
-refused 'a number above zero is wanted' epicyclic_from_rest --within X=-1mm
-refused 'a number above zero is wanted' epicyclic_from_rest --within X=0
-refused "'Y' is unknown" epicyclic_from_rest --within Y=1mm
-refused "'X' is given twice" epicyclic_from_rest --within X=1mm --within X=2mm
-refused '--within needs a value' epicyclic_from_rest --within
-refused "there is no number 'fixed'" epicyclic_from_rest --number fixed
-for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
-    refused 'error: --tolerance takes a number from 1e-15 to 1' epicyclic_from_rest --tolerance "$bad"
-    refused 'error: --effort takes a number from 10000 to 1e+15' epicyclic_from_rest --effort "${bad%2}x"
-done
-refused '--csv is given twice' epicyclic_from_rest --csv a --csv b
-refused 'error: the run alone, of .* steps, would take about' thomson_a --until 1e6s
-refused 'or --effort [0-9.e+]*$' thomson_a --until 1e6s
-refused 'one scene at a time' thomson_a thomson_b
-refused "unknown option '--plot'" thomson_a --plot x.svg
-refused 'is not defined here' thomson_a --method leapfrog
-refused 'cannot be written' epicyclic_from_rest --csv "$scratch"
+exits 2 'the stop changes the equations' carriage_stop
+exits 2 'the hold changes the equations' thomson_magnet
+exits 2 'the friction changes the equations' incline_slides
+exits 2 'abs of a moving quantity has no enclosure' epicyclic_from_rest --with air_drag
+exits 2 'a number above zero is wanted' epicyclic_from_rest --within X=-1mm
+exits 2 'a number above zero is wanted' epicyclic_from_rest --within X=0
+exits 2 "'Y' is unknown" epicyclic_from_rest --within Y=1mm
+exits 2 "'X' is given twice" epicyclic_from_rest --within X=1mm --within X=2mm
+exits 2 '--within needs a value' epicyclic_from_rest --within
+exits 2 "there is no number 'fixed'" epicyclic_from_rest --number fixed
+exits 2 '--csv is given twice' epicyclic_from_rest --csv a --csv b
+exits 2 'error: the run alone, of .* steps, would take about' thomson_a --until 1e6s
+exits 2 'or --effort [0-9.e+]*$' thomson_a --until 1e6s
+exits 2 'one scene at a time' thomson_a thomson_b
+exits 2 "unknown option '--plot'" thomson_a --plot x.svg
+exits 2 'is not defined here' thomson_a --method leapfrog
+exits 2 'cannot be written' epicyclic_from_rest --csv "$scratch"
 cp "$scratch/pole.whirl" "$scratch/mine.whirl"
-refused 'would write over the model' "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+exits 2 'would write over the model' "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
 
 exit $failed

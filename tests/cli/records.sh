@@ -1,6 +1,6 @@
 #!/bin/sh
-# records.sh: the CSV of a run: form (RFC 4180), names, digits, spacing; and its state after a run that diverges, is
-# interrupted, or fills the disk.
+# records.sh: the CSV of a run: form (RFC 4180), names, digits, spacing; its state after a run that diverges; and the same
+# numbers as plain columns. (interrupt.sh interrupts runs, odd_values.sh fills the disk.)
 . "$(dirname "$0")/../checks.sh"
 
 # Every line ends in CR LF and has as many fields as the header; every field below it is a finite number.
@@ -79,20 +79,23 @@ run tests/mechanisms/lorenz.whirl --start x=1 --step 1 --method euler --csv "$sc
 [ $? -eq 1 ] && grep -Eq 'after t = [0-9]+ s: [xyz] left all bounds' "$scratch/err" && well_formed "$scratch/l.csv"
 verdict $? "a system of first order in float: status 1, records well formed"
 
-if [ -e /dev/full ]; then
-    run thomson_a --until 2s --quiet --csv /dev/full
-    [ $? -eq 1 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
-    verdict $? "a full disc is told"
-fi
+# --- plain columns ----------------------------------------------------------------------------------------
+run epicyclic_from_rest --until 1s --every 10ms --quiet --csv "$scratch/run.csv" --columns "$scratch/run.txt"
+[ "$(head -n 1 "$scratch/run.txt")" = '% time theta X der(theta) der(X) projection x_2 x_cm' ]
+verdict $? "columns: the header is a comment with the columns' names" "$scratch/run.txt"
+tr -d '\r' <"$scratch/run.csv" | sed '1d; s/,/ /g' >"$scratch/numbers"
+sed 1d "$scratch/run.txt" | cmp - "$scratch/numbers" >"$scratch/err" && [ "$(wc -l <"$scratch/numbers")" -eq 101 ]
+verdict $? "columns: the same digits as the CSV, a record for each 10 ms, and one at zero"
+run epicyclic_from_rest --until 1s --every 10ms --columns - && cmp -s "$scratch/run.txt" "$scratch/out" && grep -q '^state hash' "$scratch/err"
+verdict $? "columns: - is standard output; the summary then goes to standard error"
+exits 2 error: run epicyclic_from_rest --quiet --columns "$scratch/missing/run.txt"
+exits 2 error: run epicyclic_from_rest --quiet --csv - --columns -
 
-# --- interrupted --------------------------------------------------------------------------------------------
-"$whirl" run thomson_b --until 1e6s --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
-pid=$!
-await test -s "$scratch/i.csv.part"
-kill -INT $pid
-wait $pid
-[ $? -eq 130 ] && grep -q '^state hash ' "$scratch/out"
-verdict $? "an interrupt: status 130, with the summary"
-well_formed "$scratch/i.csv"
-verdict $? "and whole records"
+# The last state is recorded once, whatever the spacing.
+for every in 1 2 3 7 13 125 333 999 1000 1001 5000; do
+    "$whirl" run epicyclic_from_rest --until 1s --every ${every}ms --csv - --quiet | tr -d '\r' >"$scratch/e.csv"
+    [ "$(tail -n 1 "$scratch/e.csv" | cut -d, -f1)" = 1 ] && [ "$(grep -c '^1,' "$scratch/e.csv")" -eq 1 ] &&
+        [ "$(wc -l <"$scratch/e.csv")" -eq $(((1000 + every - 1) / every + 2)) ]
+    verdict $? "records each $every ms end with the last state"
+done
 exit $failed

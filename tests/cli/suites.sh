@@ -39,9 +39,4 @@ for kind in core host chip; do
     verdict $? "the suites of tests/$kind have their own files"
 done
 
-for suite in sine suite_sine; do
-    "$folder/core_double" $suite >"$scratch/out" 2>"$scratch/err" &&
-        grep -q 'test_sine.c:.*:PASS$' "$scratch/out" && ! grep -q 'test_angle.c:' "$scratch/out"
-    verdict $? "core_double $suite runs that suite alone"
-done
 exit $failed

@@ -2,18 +2,10 @@
 # trust.sh: `whirl trust`, the line of `whirl run` and the shade of its plot agree. They change no bit of a run and no
 # output for programs. Also refusals. build/tests/host trust trust_drawn trust_scenes checks that they are right.
 . "$(dirname "$0")/../checks.sh"
+about=trust
 
 # end_of FILE: the least end of the rows that --csv wrote, or "end"
 end_of() { awk -F, '$3 == "until" && (least == "" || $4 + 0 < least + 0) { least = $4 } END { print least == "" ? "end" : least }' "$1"; }
-# refused STATUS PATTERN WORD...: that status, these words on standard error, nothing on standard output
-refused() {
-    status=$1
-    pattern=$2
-    shift 2
-    "$whirl" trust "$@" >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq "$status" ] && grep -q -- "$pattern" "$scratch/err" && [ ! -s "$scratch/out" ]
-    verdict $? "whirl trust $*: status $status, $pattern"
-}
 
 # --- one answer, three places ------------------------------------------------------------------------------------------
 # Under the sanitizers every third row.
@@ -129,33 +121,24 @@ verdict $? "whirl run says nothing of trust where it fails" "$scratch/out"
 verdict $? "a run of no step" "$scratch/out"
 "$whirl" trust ball_between >"$scratch/out" 2>"$scratch/err" && grep -q '^after t = 0 s a step had more events than its limit' "$scratch/out"
 verdict $? "steps with more events than they take: nothing is known" "$scratch/out"
-for signal in INT TERM; do
-    "$whirl" trust thomson_a --step 0.001ms --until 1000s --effort 1e14 --csv "$scratch/i.csv" >"$scratch/out" 2>"$scratch/err" &
-    process=$!
-    await has_worked 50 $process
-    kill -$signal $process
-    wait $process
-    [ $? -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/i.csv" ]
-    verdict $? "$signal: exit status 130, and no rows"
-done
 
 # --- what is refused -------------------------------------------------------------------------------------------------------
 for bad in 0 -1 2 1e-16 nan x 1e-3m ''; do
-    refused 2 "error: --tolerance takes a number from 1e-15 to 1" thomson_a --tolerance "$bad"
-    refused 2 "error: --effort takes a number from 10000 to 1e+15" thomson_a --effort "${bad%2}x"
+    exits 2 "error: --tolerance takes a number from 1e-15 to 1" thomson_a --tolerance "$bad"
+    exits 2 "error: --effort takes a number from 10000 to 1e+15" thomson_a --effort "${bad%2}x"
 done
-refused 2 "error: this would take about .* minutes" thomson_a --until 1e5s
-refused 2 "or --effort [0-9.e+]*$" thomson_a --until 1e5s
-refused 2 "^hint: use an earlier --until" thomson_a --until 1e5s
-refused 2 "is less than one step" thomson_a --until 0.0001s
-refused 2 "there is no file and no built-in scene" nothing
-refused 2 "one scene at a time" thomson_a thomson_b
-refused 2 "unknown option '--plot'" thomson_a --plot x.svg
-refused 2 "is not defined here" thomson_a --method leapfrog
-refused 2 "there are no events in fixed point" carriage_stop --number fixed
-refused 2 "cannot be written" epicyclic_from_rest --csv "$scratch"
+exits 2 "error: this would take about .* minutes" thomson_a --until 1e5s
+exits 2 "or --effort [0-9.e+]*$" thomson_a --until 1e5s
+exits 2 "^hint: use an earlier --until" thomson_a --until 1e5s
+exits 2 "is less than one step" thomson_a --until 0.0001s
+exits 2 "there is no file and no built-in scene" nothing
+exits 2 "one scene at a time" thomson_a thomson_b
+exits 2 "unknown option '--plot'" thomson_a --plot x.svg
+exits 2 "is not defined here" thomson_a --method leapfrog
+exits 2 "there are no events in fixed point" carriage_stop --number fixed
+exits 2 "cannot be written" epicyclic_from_rest --csv "$scratch"
 cp "$scratch/pole.whirl" "$scratch/mine.whirl"
-refused 2 "would write over the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+exits 2 "would write over the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
 
 # --- what docs/dev/stability.md prints -----------------------------------------------------------------------------------------
 mkdir "$scratch/board" "$scratch/board/build"

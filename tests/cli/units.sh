@@ -16,17 +16,6 @@ sed -n 's/^| \(length\|mass\|time\|angle\|frequency.*\|force\|energy.*\|power\|p
     docs/language.md | grep -o '`[A-Za-z]*`' | tr -d '`' >"$scratch/documented"
 cut -f 1 "$scratch/names" | diff "$scratch/documented" - >"$scratch/err"
 verdict $? "docs/language.md lists the same"
-# and what they are worth: a length, a mass, ... that is written so is that much of SI
-awk '{ print "parameter p" NR " = 1 [" $1 "]\noutput o" NR " = p" NR }' "$scratch/names" >"$scratch/worth"
-{
-    printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x%s^2/2\n' "'"
-    cat "$scratch/worth"
-    echo 'scene s { until 0 }'
-} >"$scratch/worth.whirl"
-"$whirl" run "$scratch/worth.whirl" --quiet --csv - 2>"$scratch/err" | tr -d '\r' | tail -n 1 | tr ',' '\n' | sed 1,3d >"$scratch/is"
-cut -f 3 "$scratch/names" | diff "$scratch/is" - >>"$scratch/err"
-verdict $? "each is worth what is listed"
-
 # Writes CASES pairs of files, N.declared.whirl and N.si.whirl, that are the same but for declarations.
 awk -v seed="$seed" -v cases="$cases" -v folder="$scratch" '
 function pick(n) { return int(rand() * n) }
