@@ -1,9 +1,6 @@
-
 #include "test.h"
 
 #include "made_sweep.h"
-
-#include <unistd.h>
 
 const char made_sweep_floor[] =
     "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
@@ -47,47 +44,4 @@ void made_sweep_close(made_sweep *m) {
     grid_free(&m->grid);
     model_free(m->model);
     diags_free(m->errors);
-}
-
-static char folder[80];
-static char path[100];
-
-void sessions_open(void) {
-    char beside[110];
-    if (folder[0] == '\0') {
-        snprintf(folder, sizeof folder, "/tmp/whirl-sweeps-XXXXXX");
-        TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-        snprintf(path, sizeof path, "%s/s.csv", folder);
-    }
-    snprintf(beside, sizeof beside, "%s.sweep", path);
-    (void)remove(path);
-    (void)remove(beside);
-}
-
-void sessions_close(void) {
-    sessions_open();
-    TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
-    folder[0] = '\0';
-}
-
-static void read_rows(char *rows) {
-    FILE *in = fopen(path, "rb");
-    TEST_ASSERT_NOT_NULL(in);
-    rows[fread(rows, 1, SAID_SIZE - 1, in)] = '\0';
-    fclose(in);
-}
-
-const char *sessions_path(void) { return path; }
-
-void sessions_cut(size_t length) { TEST_ASSERT_EQUAL_INT(0, truncate(path, (off_t)length)); }
-
-session_said sessions_sit(const made_sweep *m, session_settings settings) {
-    session_said made;
-    settings.csv = path;
-    settings.fingerprint = "made\n";
-    errors_catch();
-    made.code = session_run(&m->sweep, &settings);
-    snprintf(made.err, sizeof made.err, "%s", errors_caught());
-    read_rows(made.rows);
-    return made;
 }

@@ -1,4 +1,4 @@
-/* made_sweep.h: a sweep of a text, set up as `whirl sweep` does it, with a CSV file of its own. For tests of host/study. */
+/* made_sweep.h: a sweep of a text, set up as `whirl sweep` does it. For tests of host/study. */
 #ifndef TESTS_HOST_MADE_SWEEP_H
 #define TESTS_HOST_MADE_SWEEP_H
 
@@ -24,18 +24,5 @@ void made_sweep_close(made_sweep *m);
 
 /* A body above a floor at x = 0, and its neighbours. */
 extern const char made_sweep_floor[];
-
-typedef struct session_said {
-    int code;
-    char rows[SAID_SIZE];
-    char err[SAID_SIZE];
-} session_said;
-
-/* sessions_open() makes an empty folder for the file; sessions_close() deletes it. */
-void sessions_open(void);
-void sessions_close(void);
-const char *sessions_path(void);
-void sessions_cut(size_t length);
-session_said sessions_sit(const made_sweep *m, session_settings settings);
 
 #endif

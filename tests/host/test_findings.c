@@ -1,11 +1,9 @@
 /* test_findings.c: findings of short runs and of small numbers, against closed forms; the report of a sweep; each
  * finding on both sides of its limit. */
 #include "host/base/exit.h"
-#include "host/check/energy_residual.h"
 #include "host/check/finding.h"
 #include "host/cli/commands.h"
 #include "host/engine/engine.h"
-#include "host/os/system.h"
 
 #include "blocks.h"
 #include "command.h"
@@ -225,16 +223,6 @@ TEST(small_told, lost_powers) {
 SUITE(small_told) { die = dice_of("small told", 90); }
 
 /* === sweeps told ============================================================================== */
-/* Output of a whole sweep: its rows; the points that failed, overran their events, turned too slowly or cannot be
- * trusted; and the first of each. The grids have known results at every point. */
-
-static size_t row_at(const char *rows, uint64_t row) {
-    const char *at = rows;
-    for (uint64_t i = 0; i <= row; i++) {
-        at = strchr(at, '\n') + 1;
-    }
-    return (size_t)(at - rows);
-}
 
 static unsigned times_in(const char *text, const char *words) {
     unsigned times = 0;
@@ -244,109 +232,30 @@ static unsigned times_in(const char *text, const char *words) {
     return times;
 }
 
-/* --- points that fail --------------------------------------------------------------------------------------------*/
-
-/* The final summary: count, number of points, and the number of workers. */
-static void expect_end(const char *err, uint64_t points, uint64_t found, int workers) {
-    char wanted[300];
-    const int length = snprintf(wanted, sizeof wanted, "%llu points", (unsigned long long)points);
-    const char *at = strstr(err, wanted);
-    TEST_ASSERT_NOT_NULL_MESSAGE(at, err);
-    while (at != err && at[-1] != '\n') { /* "3 of 7 points failed" */
-        at = strstr(at + 1, wanted);
-        TEST_ASSERT_NOT_NULL_MESSAGE(at, err);
-    }
-    at += length;
-    if (found > 0) {
-        snprintf(wanted, sizeof wanted, ", %llu of them found in %s", (unsigned long long)found,
-                 sessions_path());
-        at = said_exactly(at, wanted);
-    }
-    if (found < points) {
-        double seconds = 0.0;
-        double rate = 0.0;
-        at = said_number(said_exactly(at, "; "), &seconds);
-        at = said_number(said_exactly(at, " s, "), &rate);
-        snprintf(wanted, sizeof wanted, " points/s with --jobs %d", workers);
-        at = said_exactly(at, wanted);
-        TEST_ASSERT_TRUE(seconds > 0.0 && seconds < 60.0);
-        TEST_ASSERT_TRUE(fabs(seconds * rate / (double)(points - found) - 1.0) < 0.012);
-    }
-    TEST_ASSERT_EQUAL_STRING("\n", at);
-}
-
-/* A start below the floor fails at any point: the first twenty are reported in order, then that there are more, and the
- * total at the end. A resumed file counts those that it already has. */
-static void test_failures(void) {
-    for (unsigned c = 0; c < dice_cases(usual_or(8, 4)); c++) {
-        made_sweep m;
-        char over[2][80];
-        const char *const axes[] = {over[0], over[1]};
-        const char *const asked[] = {"x"};
-        const unsigned below = 1 + dice_one_of(&die, 9);
-        const unsigned above = 1 + dice_one_of(&die, 5);
-        const unsigned lines = c == 0 ? 1 : 1 + dice_one_of(&die, 5);
-        const unsigned columns = below + above;
-        const uint64_t points = (uint64_t)lines * columns;
-        const uint64_t first = c % 3U == 2 ? dice_one_of(&die, (unsigned)points) : 0;
-        const int most = 1 + (int)dice_one_of(&die, 6);
-        const uint64_t rows = points - first;
-        snprintf(over[0], sizeof over[0], "y=%s:%u", lines == 1 ? "7..7" : "1..9", lines);
-        snprintf(over[1], sizeof over[1], "x=%d..%u:%u", -(int)below, above - 1, columns);
-        made_sweep_open(&m, made_sweep_floor, axes, 2, asked, 1, &engine_double);
-        session_settings settings = {.first = first, .end = points, .header = true, .jobs = most};
-        sessions_open();
-        session_said s = sessions_sit(&m, settings);
-        unsigned failed = 0;
-        for (uint64_t i = first; i < points; i++) {
-            const unsigned column = (unsigned)(i % columns);
-            const uint64_t row = i / columns;
-            if (column < below && ++failed <= 20) {
-                char wanted[200];
-                char y[NUMBER_SIZE];
-                const double line = lines == 1 ? 7.0 : 1.0 + 8.0 * (double)row / (lines - 1.0);
-                snprintf(wanted, sizeof wanted,
-                         "whirl sweep: error: point %u (y=%s, x=%d): the run starts beyond this "
-                         "stop, by %u m",
-                         (unsigned)i + 1, number_shortest(line, y), (int)column - (int)below,
-                         below - column);
-                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(s.err, wanted), s.err);
-            }
-        }
-        TEST_ASSERT_EQUAL_UINT(failed < 20 ? failed : 20, times_in(s.err, "error: point "));
-        TEST_ASSERT_EQUAL_UINT(
-            failed > 20 ? 1 : 0,
-            times_in(s.err, "\nfurther failures are not listed: their measures are empty\n"));
+/* A start below the floor fails at any point: the first twenty are reported in order, then that there are more. */
+TEST(sweeps_told, failures) {
+    for (unsigned below = 19; below <= 21; below++) {
+        char over[60];
         char wanted[200];
-        snprintf(wanted, sizeof wanted,
-                 "whirl sweep: error: %u of %u points failed: their measures are empty\n", failed,
-                 (unsigned)rows);
-        TEST_ASSERT_EQUAL_UINT(failed > 0 ? 1 : 0, times_in(s.err, wanted));
-        TEST_ASSERT_EQUAL_INT(failed > 0 ? EXIT_RUN_FAILED : EXIT_DONE, s.code);
-        expect_end(s.err, rows, 0, (uint64_t)most < rows ? most : (int)rows);
-        TEST_ASSERT_EQUAL_STRING_LEN("start(y),start(x),x,energy_residual\r\n", s.rows, 37);
-
-        const uint64_t kept = c % 2U == 0 ? rows : dice_one_of(&die, (unsigned)rows + 1U);
-        sessions_cut(kept < rows ? row_at(s.rows, kept) : strlen(s.rows));
-        settings.quiet = c % 4U == 3;
-        const session_said again = sessions_sit(&m, settings);
-        TEST_ASSERT_EQUAL_STRING(s.rows, again.rows);
-        TEST_ASSERT_EQUAL_INT(s.code, again.code);
-        TEST_ASSERT_EQUAL_UINT(failed > 0 ? 1 : 0, times_in(again.err, wanted));
-        if (!settings.quiet) {
-            const uint64_t rest = rows - kept;
-            expect_end(again.err, rows, kept, (uint64_t)most < rest ? most : (int)rest);
-        } else {
-            TEST_ASSERT_NULL_MESSAGE(strstr(again.err, "points/s"), again.err);
+        said what;
+        snprintf(over, sizeof over, "x=-%u..3:%u", below, below + 4);
+        const char *words[] = {model_keep(made_sweep_floor), "--over", over, "--quiet", NULL};
+        command_say(command_sweep, words, &what);
+        const char *at = what.err;
+        for (unsigned i = 0; i < 20 && i < below; i++) {
+            snprintf(wanted, sizeof wanted,
+                     "error: point %u (x=-%u): the run starts beyond this stop, by %u m", i + 1,
+                     below - i, below - i);
+            at = strstr(at, wanted);
+            TEST_ASSERT_NOT_NULL_MESSAGE(at, what.err);
         }
-        made_sweep_close(&m);
+        TEST_ASSERT_EQUAL_UINT(below < 20 ? below : 20, times_in(what.err, "error: point "));
+        TEST_ASSERT_EQUAL_UINT(below > 20, times_in(what.err, "\nfurther failures are not listed"));
+        snprintf(wanted, sizeof wanted, "error: %u of %u points failed", below, below + 4);
+        TEST_ASSERT_EQUAL_UINT(1, times_in(what.err, wanted));
+        TEST_ASSERT_EQUAL_INT(EXIT_RUN_FAILED, what.status);
     }
-    sessions_close();
-}
-
-SUITE(sweeps_told) {
-    die = dice_of("sweeps_told", 62);
-    RUN_TEST(test_failures);
+    model_drop();
 }
 
 /* === thresholds =============================================================================== */

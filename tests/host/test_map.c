@@ -1,12 +1,11 @@
 /* test_map.c: stability maps of drawn springs, dampers and decays, per method, compared with closed forms from both
- * sides. Limits: unbounded runs, tolerance, energy. Also pairs without a run, interrupted maps and refused words. */
+ * sides. Limits: unbounded runs, tolerance, energy. Also interrupted maps. */
 #include "test.h"
 
 #include <complex.h>
 
 #include "command.h"
 #include "derived.h"
-#include "host/cli/commands.h"
 #include "host/os/system.h"
 #include "host/study/stability_map.h"
 
@@ -295,28 +294,6 @@ TEST(map, where_a_tolerance_and_the_energy_end) {
     TEST_ASSERT_TRUE(seen[MAP_KEEPS] > cases && seen[MAP_OFF] > cases && seen[MAP_LOSES] > cases);
 }
 
-/* Pairs without a run: no mass, so no acceleration; a start beyond the stop; a step longer than the run. */
-TEST(map, pairs_without_a_run) {
-    static const char ball[] =
-        "mechanism ball\ncoordinate z [m]\nparameter e = 0.5\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"
-        "stop z >= 0 [m] restitution e\n"
-        "scene s { start z = 1 [m]; step 1 [ms]; until 0.2 [s] }\n";
-    drawn_map m;
-    open_map(&m, &(map_asked){spring_text, {"step=0.01..400:2", "m=0..1:2"}, WH_RK4, 1e-3, NULL});
-    TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
-    TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 1, 0)->verdict);
-    TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 1, 1)->verdict);
-    close_map(&m);
-    open_map(&m, &(map_asked){ball, {"z=-1..1:3", "step=1e-3..2e-3:2"}, WH_RK4, 1e-3, NULL});
-    TEST_ASSERT_EQUAL_INT(MAP_NONE, cell_of(&m, 0, 0)->verdict);
-    TEST_ASSERT_EQUAL_INT(MAP_KEEPS, cell_of(&m, 2, 1)->verdict);
-    close_map(&m);
-    open_map(&m, &(map_asked){ball, {"z=0.5..1:3", "e=0.1..0.9:2"}, WH_RK4, 1e-3, NULL});
-    TEST_ASSERT_FALSE(m.map.by_step);
-    TEST_ASSERT_EQUAL_UINT64(6, map_count(&m.map, MAP_KEEPS));
-    close_map(&m);
-}
-
 static void stop_after_six(double runs, void *told) {
     (void)told;
     interrupted = runs >= 6.0;
@@ -341,26 +318,4 @@ TEST(map, stopped_maps_keep_what_is_done) {
     TEST_ASSERT_EQUAL_UINT(7, lines);
     free(text);
     close_map(&m);
-}
-
-TEST(map, words_that_are_refused) {
-    static const char *const wrong[][10] = {
-        {"two_mass_relative", NULL},
-        {"two_mass_relative", "--over", "step=1ms..10ms:3", NULL},
-        {"two_mass_relative", "--over", "step=1ms..10ms:3", "--over", "nothing=1..2:3", NULL},
-        {"two_mass_relative", "--over", "step=1ms..10ms:3", "--over", NULL},
-        {"two_mass_relative", "--over=step=1ms..10ms:3", "--over=m1=1..2:2",
-         "--over=step=1ms..3ms:2", NULL},
-        {"two_mass_relative", "--over=step=1ms..10ms:3", "--over=step=1ms..3ms:2", NULL},
-        {"two_mass_relative", "--tolerance", "2", NULL},
-        {"--over", "step=1ms..10ms:3", "--over", "m1=1..2:3", NULL},
-        {"no_such_scene", "--over", "step=1ms..10ms:3", "--over", "m1=1..2:3", NULL}};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        said what;
-        command_say(command_map, wrong[i], &what);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, what.err);
-        TEST_ASSERT_TRUE_MESSAGE(
-            strstr(what.err, "error: ") != NULL || strstr(what.err, "usage: ") != NULL, what.err);
-        TEST_ASSERT_EQUAL_STRING("", what.out);
-    }
 }

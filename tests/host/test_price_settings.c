@@ -546,36 +546,6 @@ TEST(price_trials, errors_have_the_unit_of_what_is_asked) {
     }
 }
 
-static int begin_of(int count, char **words) {
-    (void)count;
-    priced p;
-    priced_open(&p, places, 2);
-    const int status = priced_begin(&p, "mps2-an386", spacing, RECORDS, words[0]) ? 0 : 3;
-    priced_close(&p);
-    return status;
-}
-
-TEST(price_trials, what_is_no_component_is_told) {
-    said what;
-    command_say(begin_of, (const char *const[]){"twise", NULL}, &what);
-    TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_EQUAL_STRING("whirl: error: twise is no output, coordinate or rate of 's'\n"
-                             "hint: did you mean 'twice'?\n",
-                             what.err);
-    command_say(begin_of, (const char *const[]){"x''", NULL}, &what);
-    TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: x'' is no output"));
-    command_say(begin_of, (const char *const[]){"zzzzzzzzzz", NULL}, &what);
-    TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_NULL(strstr(what.err, "hint"));
-    command_say(begin_of, (const char *const[]){"heard", NULL}, &what);
-    TEST_ASSERT_EQUAL_INT(3, what.status);
-    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: heard has noise, so"));
-    command_say(begin_of, (const char *const[]){"a'", NULL}, &what);
-    TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
-    TEST_ASSERT_EQUAL_STRING("", what.err);
-}
-
 /* --- the horizon -----------------------------------------------------------------------------------------*/
 
 /* y' = y^2 from y(0) ends at 1/y(0). */

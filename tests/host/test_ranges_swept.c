@@ -1,6 +1,6 @@
 /* test_ranges_swept.c: axes of a sweep (host/study/grid.h, changes.h), drawn: linear or geometric values in counting
- * order, and the changes of each point. An error names its option and leaves the grid unchanged. Also the CSV file,
- * and leaks. */
+ * order, and the changes of each point. An error names its option and leaves the grid unchanged. Also leaks, and
+ * the CSV file of a resumed sweep. */
 #include "test.h"
 
 #include <fcntl.h>
@@ -590,21 +590,6 @@ static void close_folder(void) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, rmdir(folder), "something else was left there");
 }
 
-/* A session starts if there is no file or an empty one, whoever made it. */
-TEST(sheet, begun) {
-    open_folder();
-    for (int c = 0; c < 8; c++) {
-        draw_sheet();
-        (void)remove(path);
-        (void)remove(path_beside);
-        if (c % 2 == 0) {
-            put_file(path, "", 0);
-        }
-        expect_gone_on(0);
-    }
-    close_folder();
-}
-
 /* A file is resumed after it was truncated at any byte, mostly near line ends. */
 TEST(sheet, gone_on_with) {
     open_folder();
@@ -623,20 +608,6 @@ TEST(sheet, gone_on_with) {
             leave(length);
             expect_gone_on(rows);
         }
-    }
-    close_folder();
-}
-
-TEST(sheet, fresh) {
-    open_folder();
-    for (int c = 0; c < 6; c++) {
-        draw_sheet();
-        d.settings.fresh = true;
-        put_file(path, "anything\n", 9);
-        put_file(path_beside, "another: sweep\n", 15);
-        expect_gone_on(0);
-        leave(strlen(d.whole));
-        expect_gone_on(0);
     }
     close_folder();
 }
@@ -674,16 +645,6 @@ TEST(sheet, rows_of_others) {
                                                  : c % 5 == 4 ? strlen(text + strlen(d.whole))
                                                               : 0);
         expect_refused(text, length, fingerprint, why);
-    }
-    close_folder();
-}
-
-TEST(sheet, too_few_fields) {
-    open_folder();
-    for (unsigned c = 0; c < dice_cases(usual_or(20, 10)); c++) {
-        draw_sheet();
-        d.settings.measures++;
-        expect_refused(d.whole, strlen(d.whole), fingerprint, "row 1 is not from this sweep");
     }
     close_folder();
 }

@@ -1,6 +1,5 @@
 /* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. Rows have closed forms. The
- * report covers runs that are interrupted, diverge, have an output that ends, or are not trusted. Also write errors
- * and leaks. */
+ * report covers runs that diverge, have an output that ends, or are not trusted. Also write errors and leaks. */
 #include "test.h"
 
 #include <unistd.h>
@@ -10,7 +9,6 @@
 #include "derived.h"
 #include "host/check/finding.h"
 #include "host/check/simulate.h"
-#include "host/os/system.h"
 
 enum { TEXT = 200000 };
 
@@ -134,46 +132,6 @@ TEST(simulated, rows) {
         }
         derived_free(&d);
     }
-    end();
-}
-
-/* An interrupt is checked before each step. The rows end with the step before it. */
-TEST(simulated, interrupted) {
-    char text[500];
-    begin();
-    snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
-    derived d = scene_of(text);
-    interrupted = 1;
-    for (unsigned c = 0; c < 6U; c++) {
-        const uint64_t every = 1 + dice_one_of(&die, 100);
-        const simulation_settings s = {.kind = c < 3U ? &engine_double : &engine_float,
-                                       .every = every,
-                                       .csv = c % 3U == 1 ? path_of("r.csv") : NULL,
-                                       .columns = c % 3U == 2 ? path_of("r.txt") : NULL,
-                                       .quiet = true};
-        const char *told = simulated(d.image, &s, SIMULATION_INTERRUPTED);
-        TEST_ASSERT_EQUAL_STRING(
-            c % 3U == 0 ? "whirl run: interrupted at t = 0 s of 1 s\n"
-                        : "whirl run: interrupted at t = 0 s of 1 s; the records so far are kept\n",
-            told);
-        if (c % 3U > 0) {
-            const char *rows = read_file(path_of(c % 3U == 1 ? "r.csv" : "r.txt"));
-            TEST_ASSERT_EQUAL_INT(2, lines_in(rows));
-        }
-    }
-    /* no accuracy is reported for an incomplete run */
-    derived far =
-        scene_of("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nscene s { start x = 1e6 "
-                 "[m], x' = 1 [m/s]; step 1 [ms]; until 1 [s] }\n");
-    const simulation_settings float_settings = {.kind = &engine_float, .every = 1, .quiet = true};
-    TEST_ASSERT_EQUAL_STRING("whirl run: interrupted at t = 0 s of 1 s\n",
-                             simulated(far.image, &float_settings, SIMULATION_INTERRUPTED));
-    derived_free(&far);
-    d.image->steps = 0; /* done before the first check */
-    const simulation_settings s = {.kind = &engine_double, .every = 1, .quiet = true};
-    TEST_ASSERT_EQUAL_STRING("", simulated(d.image, &s, SIMULATION_DONE));
-    interrupted = 0;
-    derived_free(&d);
     end();
 }
 
