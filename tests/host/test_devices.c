@@ -1,7 +1,51 @@
-/* test_devices.c: the particle in two coordinate sets (row S4) and the devices with guided weights (S11 Laskowitz, S13
- * Cuff). Thresholds and sources as in test_dissertation.c. */
+/* test_devices.c: the dissertation's force on the load frame (figure 19), the particle in two coordinate sets (row S4),
+ * the devices with guided weights (S11 Laskowitz, S13 Cuff) and Thomson's mirrored pair, with two-sided thresholds and
+ * their source. "dissertation" is its text or a figure's caption. The others are a closed form. docs/conclusions.md has
+ * the dissertation's other claims. */
 #include "ranges.h"
 #include "test.h"
+
+#define PI 3.14159265358979323846
+#define LBF_N 4.4482216152605
+#define INCH_M 0.0254
+
+/* --- the load frame ---------------------------------------------------------------------------------------- */
+
+TEST(devices, figure_19_force_on_the_load_frame) {
+    range r[] = {{.name = "pin_force"}, {.name = "cell_force"}};
+    ranges_of("carriage_fixed", IN_DOUBLE, 2.0, 1e-3, r, 2);
+    /* dissertation: 9.3 lbf in the computer model, 9.5 lbf measured (figures 17 and 19) */
+    expect_between("fig 19: peak force, lbf", 9.3, 9.5, r[0].most / LBF_N);
+    /* closed form: sum of m r w^2 = 2 (0.152 x 3.625 + 0.15 x 6.5) lb in at 330 rpm */
+    const double w = 330.0 * 2.0 * PI / 60.0;
+    const double S = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * INCH_M;
+    expect_between("fig 19: peak / (m r w^2)", 1.0 - 1e-6, 1.0 + 1e-6, r[0].most / (S * w * w));
+    /* dissertation: the force fully reverses. Sampled every 12 degrees of the arm's turn. */
+    expect_between("fig 17, 19: -least / peak", 0.9999, 1.0001, -r[0].least / r[0].most);
+    /* the load cell also carries the weight, 12 lb and the masses */
+    expect_between("fig 19: tare, lbf", 12.604 - 1e-3, 12.604 + 1e-3,
+                   (r[1].most + r[1].least) / 2.0 / LBF_N);
+}
+
+TEST(devices, figure_20_from_the_energies_too) {
+    range by_energy[] = {{.name = "pin_force"}, {.name = "X"}, {.name = "carriage_force"}};
+    range outright[] = {{.name = "pin_force"}, {.name = "X"}};
+    ranges_of("carriage_free", IN_DOUBLE, 2.0, 1e-3, by_energy, 3);
+    ranges_of("carriage_ratio", IN_DOUBLE, 2.0, 1e-3, outright, 2);
+    for (unsigned i = 0; i < 2; i++) {
+        const double same = range_width(&outright[i]) / range_width(&by_energy[i]);
+        expect_between("fig 20: outright / by energy", 1.0 - 1e-12, 1.0 + 1e-12, same);
+    }
+    /* Newton's third law */
+    expect_between("fig 18: force on the carriage / pin force", 1.0 - 1e-12, 1.0 + 1e-12,
+                   range_width(&by_energy[2]) / range_width(&by_energy[0]));
+    /* closed form: 2 m r/(m + M) = 2 x 3.05200 lb in/0.604 lb x 1/4 */
+    const double swing_m = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) / (0.152 + 0.15) * INCH_M / 4.0;
+    expect_between("carriage swing / closed form", 0.99999, 1.00001,
+                   range_width(&by_energy[1]) / swing_m);
+}
+
+/* --- the particle ------------------------------------------------------------------------------------------- */
 
 static double largest_distance(const char *one, const char *other, double until_s) {
     motion a;
@@ -199,4 +243,23 @@ TEST(devices, laskowitz_shifting_moves_the_carriage_once) {
     expect_between("S11: carriage's place at last, mm", -16.27, -16.25, 500.0 * (low + high));
     /* own measurement, the same at 1 ms and 0.5 ms: 0.91 um */
     expect_between("S11: carriage's oscillation after 2 s, um", 0.8, 1.0, 1e6 * (high - low));
+}
+
+/* --- Thomson's pair ------------------------------------------------------------------------------------------ */
+
+static void check_pair(const char *which, stepping how, double cm_bound) {
+    range r[] = {{.name = "X"}, {.name = "Y"}, {.name = "x_cm"}, {.name = "y_cm"}};
+    ranges_of(which, how, 10.0, 1e-3, r, 4);
+    printf("  %s\n", which);
+    /* by symmetry; the bound is the project's */
+    expect_between("pair: |Y|, m", 0.0, 1e-12, range_drift(&r[1]));
+    expect_between("pair: drift of the centre of mass, m", 0.0, cm_bound, range_drift(&r[2]));
+    /* as on the slider: 1 m from end to end */
+    expect_between("pair: X's width, m", 0.99, 1.0 + 2.0 * cm_bound, range_width(&r[0]));
+}
+
+TEST(devices, mirrored_pair_moves_along_its_line_only) {
+    check_pair("thomson_pair_a", IN_DOUBLE, 1e-8);
+    check_pair("thomson_pair_b", IN_DOUBLE, 1e-8);
+    check_pair("thomson_pair_a", IN_FLOAT_COMPENSATED, 1e-5);
 }
