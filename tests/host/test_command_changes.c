@@ -1,5 +1,4 @@
-/* test_command_changes.c: changes on every command's line. A bare number for a quantity with a unit other than SI is
- * refused, and so is a name given twice. A sweep's measure that overflows is a failure. */
+/* test_command_changes.c: changes on every command's line. A name given twice is refused. A sweep's measure that overflows is a failure. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -38,26 +37,6 @@ static void tell(const way *w, const char *const *changes, int count, said *what
     }
     words[used] = NULL;
     command_say(w->command, words, what);
-}
-
-TEST(command_changes, bare_numbers_are_refused_where_the_unit_is_not_SI) {
-    static const char *const bare[] = {"th=20", "th'=-1", "x=1e-3", "x'=2"};
-    static const char *const with_unit[] = {"th=20 [deg]", "th'=1 [rpm]", "x=1 mm",
-                                            "th=0",        "b=3",         "M=1"};
-    for (int w = 0; w < WAYS; w++) {
-        said what;
-        for (size_t i = 0; i < sizeof bare / sizeof bare[0]; i++) {
-            tell(&ways[w], &bare[i], 1, &what);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(2, what.status, ways[w].name);
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "this value has no unit"), what.err);
-        }
-        for (size_t i = 0; i < sizeof with_unit / sizeof with_unit[0]; i++) {
-            tell(&ways[w], &with_unit[i], 1, &what);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, ways[w].name);
-            TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "error:"), what.err);
-        }
-    }
-    model_drop();
 }
 
 TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {

@@ -1,4 +1,5 @@
-/* test_derive.c: operation lists of every mechanism against their equations and the energy balance; and their cost. */
+/* test_derive.c: operation lists of every mechanism against the energy balance; large expressions, powers and exponents.
+ * test_octave.c has the lists against their equations. */
 #include <time.h>
 
 #include "derived.h"
@@ -28,77 +29,12 @@ static const char *const lagrangian[] = {"bead_on_hoop",
                                          "tan_well",
                                          "triple_pendulum",
                                          "vortex"};
-static const char *const systems[] = {"dc_motor", "implicit_pair", "jerk",
-                                      "lorenz",   "mixed_order",   "van_der_pol"};
-
 static derived mechanism_file(const char *name) {
     char path[128];
     snprintf(path, sizeof path, "tests/mechanisms/%s.whirl", name);
     derived d = derived_file(path);
     derived_expect(&d, name);
     return d;
-}
-
-/* Solves the n by n equations for the highest derivatives by elimination with pivots. */
-static void dense_solution(const equations *e, state_values *s, double x[UNKNOWNS]) {
-    const int n = e->count;
-    long double a[UNKNOWNS][UNKNOWNS + 1];
-    long double solved[UNKNOWNS];
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) {
-            a[i][j] = (long double)poly_evaluate(e->mass[i * n + j], state_value, s);
-        }
-        a[i][n] = (long double)poly_evaluate(equations_force(e, i), state_value, s);
-    }
-    dense_solve(n, UNKNOWNS + 1, a[0], solved);
-    for (int k = 0; k < n; k++) {
-        x[k] = (double)solved[k];
-    }
-}
-
-static void check_list(const derived *d, const char *name, double *worst) {
-    const image *p = d->image;
-    uint64_t seed = 5;
-    for (int k = 0; k < STATES; k++) {
-        state_values s;
-        random_state(&s, d, &seed);
-        double wanted[UNKNOWNS];
-        double got[4 * UNKNOWNS];
-        dense_solution(d->equations, &s, wanted);
-        derived_run(p->list[IMAGE_STEP], d, &s, got);
-        double largest = 0.0;
-        for (int i = 0; i < d->equations->count; i++) {
-            largest = fmax(largest, fabs(wanted[i]));
-        }
-        for (int c = 0; c < p->list[IMAGE_STEP]->results; c++) {
-            component of = {c, 1};
-            if (p->form == WH_FIRST_ORDER) {
-                of = c < p->angles ? p->angle[c] : p->real[c - p->angles];
-            } else {
-                while (p->place[of.unknown = (of.unknown + 1) % d->equations->count] != c) {
-                }
-            }
-            const bool highest = of.primes + 1 == d->equations->unknowns[of.unknown].order;
-            const double want = highest ? wanted[of.unknown] : s.value[of.unknown][of.primes + 1];
-            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-10 * largest, want, got[c], name);
-            *worst = fmax(*worst, fabs(want - got[c]) / fmax(largest, 1e-300));
-        }
-    }
-}
-
-TEST(derive, operation_lists_solve_the_equations) {
-    double worst = 0.0;
-    for (size_t i = 0; i < sizeof lagrangian / sizeof lagrangian[0]; i++) {
-        derived d = mechanism_file(lagrangian[i]);
-        check_list(&d, lagrangian[i], &worst);
-        derived_free(&d);
-    }
-    for (size_t i = 0; i < sizeof systems / sizeof systems[0]; i++) {
-        derived d = mechanism_file(systems[i]);
-        check_list(&d, systems[i], &worst);
-        derived_free(&d);
-    }
-    printf("  largest deviation %.1e of the largest derivative\n", worst);
 }
 
 /* h = sum q' dL/dq' - L changes by the power of the inputs minus the losses. dh/dt uses the accelerations of the

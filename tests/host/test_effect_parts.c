@@ -282,30 +282,6 @@ TEST(effect_parts, noise_is_on_the_records_only) {
     compare_noise("eccentric_coupled", "sensor_noise", "speed", 1, 0.05);
 }
 
-/* The interpreter's float numbers equal the generated C's to the bit. */
-extern const wh_scene rig_coupled;
-
-TEST(effect_parts, noise_is_the_same_in_generated_code) {
-    uint64_t memory[64];
-    wh_state state;
-    wh_real output[8];
-    motion m;
-    TEST_ASSERT_EQUAL_INT(WH_OK, wh_scene_start(&rig_coupled, &state, memory, sizeof memory));
-    motion_open(&m, "rig_coupled", IN_FLOAT);
-    TEST_ASSERT_EQUAL_UINT(3, rig_coupled.outputs);
-    for (unsigned i = 0; i < 2000; i++) {
-        double interpreted[8];
-        m.kind->outputs(m.run, interpreted);
-        rig_coupled.observe(&rig_coupled, &state, output);
-        for (unsigned k = 0; k < 3; k++) {
-            TEST_ASSERT_TRUE((double)output[k] == interpreted[k]);
-        }
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
-        TEST_ASSERT_EQUAL_INT(WH_OK, wh_scene_step(&rig_coupled, &state));
-    }
-    motion_close(&m);
-}
-
 /* --- an effect's input ------------------------------------------------------------------------------------------- */
 
 /* An inactive effect leaves no trace, nor does its input; when active, its input acts. */

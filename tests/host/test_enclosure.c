@@ -200,18 +200,6 @@ static void test_not_finite(void) {
     }
 }
 
-static void test_roots(void) {
-#ifdef QUAD_KNOWN
-    for (unsigned i = 0; i < dice_cases(50000); i++) {
-        const double x = fabs(drawn());
-        const enclosure root = enclosure_root(enclosure_of(x));
-        TEST_ASSERT_TRUE((quad)root.low * (quad)root.low <= (quad)x);
-        TEST_ASSERT_TRUE((quad)root.high * (quad)root.high >= (quad)x);
-        expect_narrow("a root", root, 4.0);
-    }
-#endif
-}
-
 static void test_sines(void) {
 #ifdef QUAD_KNOWN
     for (unsigned i = 0; i < dice_cases(20000); i++) {
@@ -294,7 +282,6 @@ void suite_enclosure(void) {
     RUN_TEST(test_smallest_and_largest);
     RUN_TEST(test_whole_range);
     RUN_TEST(test_not_finite);
-    RUN_TEST(test_roots);
     RUN_TEST(test_sines);
     RUN_TEST(test_exponentials);
     RUN_TEST(test_functions);

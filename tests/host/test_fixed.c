@@ -396,29 +396,8 @@ TEST(fixed_runs, ranges_keep_denominators_from_zero) {
     derived_free(&d);
 }
 
-/* An invalid range is reported with its place. */
+/* Bounds in any unit, and of parameters; mistakes are in tests/bad/scene.texts. */
 TEST(fixed_runs, ranges_in_the_language) {
-    static const char *const tried[][2] = {
-        {"range x = 1 .. -1 [m]", "is empty"},
-        {"range x = 1 [m]", "'..' is missing"},
-        {"range x = -1 .. 1 [s]", "is length"},
-        {"range k = -1 .. 1", "coordinates, their rates and inputs"},
-        {"range x'' = -1 .. 1 [m/s^2]", "too many primes"},
-        {"range u' = -1 .. 1 [N/s]", "leave out the prime"},
-        {"range x = -1 .. 1 [m], x = -2 .. 2 [m]", "already given"},
-        {"range nobody = 0 .. 1", "is unknown"},
-    };
-    char text[TEXT_SIZE];
-    for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
-        snprintf(
-            text, sizeof text,
-            "mechanism m\ncoordinate x [m]\nparameter k = 3\ninput u = 1 [N]\nT = 1 [kg]*x'^2/2\nQ(x) = u\n"
-            "scene s { %s }\n",
-            tried[i][0]);
-        derived d = derived_scene(text, "s");
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, tried[i][1]), d.errors);
-        derived_free(&d);
-    }
     derived d =
         derived_scene("mechanism m\ncoordinate x [m]\nparameter vm = 3 [m/s]\nT = 1 [kg]*x'^2/2\n"
                       "scene s { range x = -500..250 [mm],\n x' = -vm .. 2*vm }\n",

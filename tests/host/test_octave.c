@@ -414,46 +414,6 @@ static const char *read_line(comparison *c, const char *line, latex_number *left
 
 /* --- solving -----------------------------------------------------------------------------------------*/
 
-typedef struct square {
-    int n;
-    double at[UNKNOWNS][UNKNOWNS];
-} square;
-
-static bool invert(square a, square *inverse) {
-    const int n = a.n;
-    *inverse = (square){.n = n};
-    for (int i = 0; i < n; i++) {
-        inverse->at[i][i] = 1.0;
-    }
-    for (int k = 0; k < n; k++) {
-        int best = k;
-        for (int i = k + 1; i < n; i++) {
-            best = fabs(a.at[i][k]) > fabs(a.at[best][k]) ? i : best;
-        }
-        const double pivot = a.at[best][k];
-        if (!(fabs(pivot) > 0.0) || !isfinite(pivot)) {
-            return false;
-        }
-        for (int j = 0; j < n; j++) {
-            const double swap[2] = {a.at[k][j], inverse->at[k][j]};
-            a.at[k][j] = a.at[best][j] / pivot;
-            inverse->at[k][j] = inverse->at[best][j] / pivot;
-            if (best != k) {
-                a.at[best][j] = swap[0];
-                inverse->at[best][j] = swap[1];
-            }
-        }
-        for (int i = 0; i < n; i++) {
-            const double times = i != k ? a.at[i][k] : 0.0;
-            for (int j = 0; j < n && times != 0.0; j++) {
-                a.at[i][j] -= times * a.at[k][j];
-                inverse->at[i][j] -= times * inverse->at[k][j];
-            }
-        }
-    }
-    return true;
-}
-
 static bool hold_against(comparison *c, int i, double printed_value, double bound) {
     const double apart = fabs(printed_value - c->runs[i]);
     if (!isfinite(printed_value) || !(bound <= TELLING * fmax(fabs(c->runs[i]), 1e-3))) {
@@ -472,8 +432,8 @@ static bool hold_against(comparison *c, int i, double printed_value, double boun
 /* A x = b from n printed lines "LEFT &= RIGHT". Returns the rest of the text. */
 static const char *check_equations(comparison *c, const char *line) {
     const int n = c->of->equations->count;
-    square a = {.n = n};
-    square inverse;
+    long double a[UNKNOWNS][UNKNOWNS];
+    long double inverse[UNKNOWNS][UNKNOWNS];
     double b[UNKNOWNS];
     double off[UNKNOWNS]; /* bound of A x - b at the list's x */
     for (int i = 0; i < n; i++) {
@@ -483,24 +443,35 @@ static const char *check_equations(comparison *c, const char *line) {
         b[i] = right.value[0] - left.value[0];
         off[i] = left.off[0] + right.off[0] + DBL_EPSILON * fabs(b[i]);
         for (int j = 0; j < n; j++) {
-            a.at[i][j] = left.value[1 + j] - right.value[1 + j];
+            a[i][j] = (long double)(left.value[1 + j] - right.value[1 + j]);
             off[i] += (left.off[1 + j] + right.off[1 + j]) * fabs(c->runs[j]);
         }
     }
-    const bool solvable = invert(a, &inverse);
+    for (int k = 0; k < n; k++) { /* column k */
+        long double m[UNKNOWNS][UNKNOWNS + 1];
+        long double column[UNKNOWNS];
+        for (int i = 0; i < n; i++) {
+            memcpy(m[i], a[i], sizeof a[i]);
+            m[i][n] = i == k ? 1.0L : 0.0L;
+        }
+        dense_solve(n, UNKNOWNS + 1, m[0], column);
+        for (int i = 0; i < n; i++) {
+            inverse[i][k] = column[i];
+        }
+    }
     for (int i = 0; i < n; i++) {
         double x = 0.0;
         double bound = c->off[i];
-        for (int j = 0; j < n && solvable; j++) {
+        for (int j = 0; j < n; j++) {
             double size = fabs(b[j]);
             for (int k = 0; k < n; k++) {
-                size += fabs(a.at[j][k] * c->runs[k]);
+                size += fabs((double)a[j][k] * c->runs[k]);
             }
-            x += inverse.at[i][j] * b[j];
-            bound += fabs(inverse.at[i][j]) * (off[j] + n * DBL_EPSILON * size);
+            x += (double)inverse[i][j] * b[j];
+            bound += fabs((double)inverse[i][j]) * (off[j] + n * DBL_EPSILON * size);
         }
         c->asked++;
-        c->compared += solvable && hold_against(c, i, x, SLACK * bound);
+        c->compared += hold_against(c, i, x, SLACK * bound);
     }
     return line;
 }
