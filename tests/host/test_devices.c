@@ -1,6 +1,6 @@
-/* test_devices.c: the dissertation's force on the load frame (figure 19), the particle in two coordinate sets (row S4),
- * the devices with guided weights (S11 Laskowitz, S13 Cuff) and Thomson's mirrored pair, with two-sided thresholds and
- * their source. "dissertation" is its text or a figure's caption. The others are a closed form. docs/conclusions.md has
+/* test_devices.c: devices of the dissertation against two-sided thresholds, each with its source. The devices are the
+ * load frame (figure 19), the particle in two coordinate sets (row S4), Laskowitz (S11), Cuff (S13) and Thomson's
+ * mirrored pair. "dissertation" is its text or a figure's caption. The others are a closed form. docs/conclusions.md has
  * the dissertation's other claims. */
 #include "ranges.h"
 #include "test.h"
