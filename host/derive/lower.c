@@ -11,34 +11,35 @@
 /* === turn angles ============================================================================== */
 /* The choice of turn angles: coordinates that occur only inside sines and cosines, with whole factors. */
 
+static bool whole_in_angle(const poly *angle, const symbol *sym);
+
+/* Does `sym` occur in this product only inside sines and cosines, or inside tangents too if they are allowed? */
+static bool is_in_waves(const mono *m, const symbol *sym, bool tangents) {
+    for (int k = 0; k < m->count; k++) {
+        const atom *x = m->factors[k].atom;
+        if (x->kind == ATOM_SYMBOL && x->symbol == sym && x->primes == 0) {
+            return false;
+        }
+        const bool tangent = tangents && lower_is_tangent(x);
+        for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+            if (!(tangent ? whole_in_angle : lower_only_in_waves)(x->argument[j], sym)) {
+                return false;
+            }
+        }
+    }
+    return m->angle == NULL || whole_in_angle(m->angle, sym);
+}
+
 static bool whole_in_angle(const poly *angle, const symbol *sym) {
     for (int i = 0; i < angle->count; i++) {
         const poly_term *t = &angle->terms[i];
         const bool alone = t->mono->trig == TRIG_NONE && t->mono->count == 1 &&
                            t->mono->factors[0].exponent == 1.0 &&
                            t->mono->factors[0].atom->kind == ATOM_SYMBOL;
-        if (alone && t->mono->factors[0].atom->symbol == sym &&
-            t->mono->factors[0].atom->primes == 0) {
-            if (t->coefficient != number_floor(t->coefficient) || fabs(t->coefficient) > 1e6) {
-                return false;
-            }
-            continue;
-        }
-        for (int k = 0; k < t->mono->count; k++) {
-            const atom *x = t->mono->factors[k].atom;
-            if (x->kind == ATOM_SYMBOL) {
-                if (x->symbol == sym && x->primes == 0) {
-                    return false;
-                }
-                continue;
-            }
-            for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
-                if (!lower_only_in_waves(x->argument[j], sym)) {
-                    return false;
-                }
-            }
-        }
-        if (t->mono->angle != NULL && !whole_in_angle(t->mono->angle, sym)) {
+        const bool is_sym = alone && t->mono->factors[0].atom->symbol == sym &&
+                            t->mono->factors[0].atom->primes == 0;
+        const bool whole = t->coefficient == number_floor(t->coefficient);
+        if (is_sym ? !(whole && fabs(t->coefficient) <= 1e6) : !is_in_waves(t->mono, sym, false)) {
             return false;
         }
     }
@@ -46,33 +47,11 @@ static bool whole_in_angle(const poly *angle, const symbol *sym) {
 }
 
 bool lower_only_in_waves(const poly *p, const symbol *sym) {
-    if (!poly_may_contain(p, sym, 0)) {
-        return true;
+    bool only = true;
+    for (int i = 0; i < p->count && only && poly_may_contain(p, sym, 0); i++) {
+        only = is_in_waves(p->terms[i].mono, sym, true);
     }
-    for (int i = 0; i < p->count; i++) {
-        const mono *m = p->terms[i].mono;
-        for (int k = 0; k < m->count; k++) {
-            const atom *x = m->factors[k].atom;
-            if (x->kind == ATOM_SYMBOL && x->symbol == sym && x->primes == 0) {
-                return false;
-            }
-            if (lower_is_tangent(x)) {
-                if (!whole_in_angle(x->argument[0], sym)) {
-                    return false;
-                }
-                continue;
-            }
-            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
-                if (!lower_only_in_waves(x->argument[j], sym)) {
-                    return false;
-                }
-            }
-        }
-        if (m->angle != NULL && !whole_in_angle(m->angle, sym)) {
-            return false;
-        }
-    }
-    return true;
+    return only;
 }
 
 /* === powers from multiple angles ============================================================== */
@@ -345,10 +324,7 @@ static int find(const lowering *l, const poly *angle) {
 }
 
 static int append(lowering *l, wave w) {
-    if (l->wave_count == l->wave_room) {
-        l->wave_room = l->wave_room == 0 ? 16 : l->wave_room * 2;
-        l->waves = alloc_more(l->waves, l->wave_room, sizeof *l->waves);
-    }
+    l->waves = alloc_more(l->waves, l->wave_count + 1, sizeof *l->waves);
     w.sine = -1;
     w.cosine = -1;
     l->waves[l->wave_count] = w;
@@ -413,11 +389,12 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         if (other < 0 || !may_be_part(l, i, angle) || !may_be_part(l, other, angle)) {
             continue;
         }
-        if (other == i) {
-            *w = (wave){angle, WAVE_DOUBLE, i, i, -1, -1};
-            return true;
-        }
-        *w = (wave){angle, flipped ? WAVE_DIFFERENCE : WAVE_SUM, i, other, -1, -1};
+        *w = (wave){.angle = angle,
+                    .rule = other == i ? WAVE_DOUBLE
+                            : flipped  ? WAVE_DIFFERENCE
+                                       : WAVE_SUM,
+                    .p = i,
+                    .q = other};
         return true;
     }
     return false;
@@ -609,22 +586,16 @@ static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, pl
 /* Coefficients that differ by less than this part count as equal: they come from the same number. */
 #define SAME 1e-13
 
-static piece *piece_room(const poly *p) {
-    piece *pieces = alloc(p->count, sizeof *pieces);
-    return pieces;
-}
-
 /* --- planning the sines --------------------------------------------------------------------------*/
 
 typedef struct angle_list {
     const poly **angles;
     int count;
-    int room;
 } angle_list;
 
 static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
     algebra *a = l->algebra;
-    piece *pieces = piece_room(p);
+    piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(a, p, pieces);
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < pieces[i].mono->count; j++) {
@@ -645,10 +616,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
             known = known || list->angles[k] == pieces[i].angle;
         }
         if (!known) {
-            if (list->count == list->room) {
-                list->room = list->room == 0 ? 16 : list->room * 2;
-                list->angles = alloc_more(list->angles, list->room, sizeof *list->angles);
-            }
+            list->angles = alloc_more(list->angles, list->count + 1, sizeof *list->angles);
             list->angles[list->count++] = pieces[i].angle;
         }
     }
@@ -666,9 +634,10 @@ void lower_plan(lowering *l, const poly *const *polys, int count) {
 
 void lower_done(lowering *l) {
     free(l->waves);
+    free(l->uses);
     l->waves = NULL;
-    l->wave_count = 0;
-    l->wave_room = 0;
+    l->uses = NULL;
+    l->wave_count = l->uses_room = 0;
 }
 
 /* --- factoring -----------------------------------------------------------------------------------*/
@@ -806,75 +775,24 @@ static int sum_flat(lowering *l, const product *products, int count) {
     return sum;
 }
 
-static int by_number(const void *x, const void *y) {
-    const int left = *(const int *)x;
-    const int right = *(const int *)y;
-    return (left > right) - (left < right);
-}
-
-/* Most sums are short, and qsort() has a high fixed cost. */
-static void sort_numbers(int *numbers, int count) {
-    enum { SHORT = 24 };
-    if (count > SHORT) {
-        qsort(numbers, (size_t)count, sizeof *numbers, by_number);
-        return;
-    }
-    for (int i = 1; i < count; i++) {
-        const int moving = numbers[i];
-        int at = i;
-        for (; at > 0 && numbers[at - 1] > moving; at--) {
-            numbers[at] = numbers[at - 1];
-        }
-        numbers[at] = moving;
-    }
-}
-
-/* The nodes of all products, sorted; *total is their number. */
-static int *sorted_nodes(const product *products, int count, int *total) {
-    *total = 0;
-    for (int i = 0; i < count; i++) {
-        *total += products[i].count;
-    }
-    int *nodes = alloc_more(NULL, *total, sizeof *nodes);
-    int at = 0;
-    for (int i = 0; i < count; i++) {
-        for (int k = 0; k < products[i].count; k++) {
-            nodes[at++] = products[i].powers[k].node;
-        }
-    }
-    sort_numbers(nodes, *total);
-    return nodes;
-}
-
-/* The number of occurrences of `node` among the sorted nodes. */
-static int times_in(const int *nodes, int total, int node) {
-    int edge[2]; /* the first not below the node, the first above it */
-    for (int side = 0; side < 2; side++) {
-        int low = 0;
-        int high = total;
-        while (low < high) {
-            const int middle = low + (high - low) / 2;
-            if (nodes[middle] < node + side) {
-                low = middle + 1;
-            } else {
-                high = middle;
-            }
-        }
-        edge[side] = low;
-    }
-    return edge[1] - edge[0];
-}
-
 /* The node that most products share, or -1. Rates are preferred, so that sums of sines stay whole. */
-static int most_shared(const lowering *l, const product *products, int count) {
-    int total;
-    int *nodes = sorted_nodes(products, count, &total);
+static int most_shared(lowering *l, const product *products, int count) {
     int best = -1;
     int best_uses = 1;
+    if (l->uses_room < l->list->count) {
+        free(l->uses);
+        l->uses_room = 2 * l->list->count;
+        l->uses = alloc(l->uses_room, sizeof *l->uses);
+    }
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < products[i].count; k++) {
+            l->uses[products[i].powers[k].node]++;
+        }
+    }
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < products[i].count; k++) {
             const int node = products[i].powers[k].node;
-            const int uses = times_in(nodes, total, node);
+            const int uses = l->uses[node];
             const bool rate = l->list->ops[node].code == OP_RATE;
             const bool best_rate = best >= 0 && l->list->ops[best].code == OP_RATE;
             if (uses > best_uses || (uses == best_uses && best >= 0 && rate && !best_rate)) {
@@ -883,7 +801,11 @@ static int most_shared(const lowering *l, const product *products, int count) {
             }
         }
     }
-    free(nodes);
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < products[i].count; k++) {
+            l->uses[products[i].powers[k].node] = 0;
+        }
+    }
     return best;
 }
 
@@ -942,7 +864,7 @@ static int sum_of(lowering *l, product *products, int count) {
 }
 
 int lower(lowering *l, const poly *p) {
-    piece *pieces = piece_room(p);
+    piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(l->algebra, p, pieces);
     product *products = alloc(count, sizeof *products);
     for (int i = 0; i < count; i++) {

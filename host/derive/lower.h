@@ -37,7 +37,8 @@ typedef struct lowering {
     int lead;
     wave *waves;
     int wave_count;
-    int wave_room;
+    int *uses; /* [uses_room] by operation: scratch of zeros */
+    int uses_room;
 } lowering;
 
 /* Announce all polys before lowering the first: the choice of evaluated sines depends on all of them. */

@@ -18,6 +18,8 @@ static int minus_product(op_list *t, int from, int x, int y) {
     return op_list_sub(t, from, op_list_mul(t, x, y));
 }
 
+/* mass[n * n] and force[n] are operations (overwritten). solution[n] receives the operations. */
+
 /* --- symmetric positive definite -----------------------------------------------------------------*/
 
 /* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
@@ -43,6 +45,8 @@ static void solve_pair(op_list *t, int n, const int *mass, const int *force, int
     solution[j] = op_list_mul(t, y, inverse);
 }
 
+/* order[n] is the order of elimination. The first `done` unknowns are already eliminated symbolically, and only need back
+ * substitution. */
 static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
                                 int done, int *solution) {
     int left = n - 1; /* the last place with a value that is still needed */
@@ -164,6 +168,12 @@ static void solve_cramer(op_list *t, int n, const int *mass, const int *force, c
     free(swapped);
 }
 
+static void exchange(int *a, int *b) {
+    const int kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 /* Move the best pivot among the equations and unknowns from `at` on to position `at`. It is a constant one if there is
  * any, else the largest at the sample state. Returns true if it is constant. */
 static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int *columns, int at) {
@@ -186,15 +196,13 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int
         }
     }
     free(v);
-    int swap = rows[at];
-    rows[at] = rows[row];
-    rows[row] = swap;
-    swap = columns[at];
-    columns[at] = columns[column];
-    columns[column] = swap;
+    exchange(&rows[at], &rows[row]);
+    exchange(&columns[at], &columns[column]);
     return best_constant;
 }
 
+/* With the largest pivot at a sample state, and by Cramer's rule for the last three equations: no division by a vanishing
+ * pivot occurs if the determinant is nonzero. */
 static void eliminate_general(op_list *t, int n, int *mass, int *force, int *solution) {
     int *rows = alloc(2 * (int64_t)n, sizeof *rows);
     int *columns = rows + n;
@@ -228,20 +236,6 @@ static void eliminate_general(op_list *t, int n, int *mass, int *force, int *sol
         solution[columns[at]] = op_list_div(t, rest, mass[rows[at] * n + columns[at]]);
     }
     free(rows);
-}
-
-/* mass[n * n] and force[n] are operations (overwritten). order[n] is the order of elimination. The first `done`
- * unknowns are already eliminated symbolically, and only need back substitution. solution[n] receives the operations. A
- * symmetric matrix is assumed to be positive definite. Any other matrix is solved with the largest pivot at a sample
- * state, and by Cramer's rule for the last three equations. So no division by a vanishing pivot occurs if the
- * determinant is nonzero. */
-static void eliminate(op_list *t, bool symmetric, int n, int *mass, int *force, const int *order,
-                      int done, int *solution) {
-    if (symmetric) {
-        eliminate_symmetric(t, n, mass, force, order, done, solution);
-    } else {
-        eliminate_general(t, n, mass, force, solution);
-    }
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
@@ -503,15 +497,11 @@ static const poly *scale_simply(algebra *a, const poly *p, double scale) {
 
 /* --- symbolic elimination ------------------------------------------------------------------------*/
 
-static bool number_at(const poly *const *mass, int n, int i, double *value) {
-    return poly_is_number(mass[i * n + i], value) && *value != 0.0;
-}
-
 /* Eliminate unknown k from the others symbolically. False, with nothing changed, if an entry would grow too much. */
 static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone, int k) {
     double diagonal;
-    if (!number_at(mass, n, k, &diagonal)) {
+    if (!poly_is_number(mass[k * n + k], &diagonal) || diagonal == 0.0) {
         return false;
     }
     for (int i = 0; i < n; i++) {
@@ -552,6 +542,20 @@ static void forget_unwanted(algebra *a, const linear_system *s, const poly **mas
     }
 }
 
+static void scale_equations(algebra *a, int n, const poly **mass, const poly **force,
+                            const bool *gone, double scale) {
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n && !gone[i]; j++) {
+            if (!gone[j]) {
+                mass[i * n + j] = scale_simply(a, mass[i * n + j], scale);
+            }
+        }
+        if (!gone[i]) {
+            force[i] = scale_simply(a, force[i], scale);
+        }
+    }
+}
+
 /* Divide the remaining equations by the most frequent size of their numbers, which becomes one. */
 static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone) {
@@ -566,17 +570,7 @@ static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly 
             tally_add(&all, force[i]);
         }
     }
-    const double scale = 1.0 / tally_favourite(&all);
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n && !gone[i]; j++) {
-            if (!gone[j]) {
-                mass[i * n + j] = scale_simply(a, mass[i * n + j], scale);
-            }
-        }
-        if (!gone[i]) {
-            force[i] = scale_simply(a, force[i], scale);
-        }
-    }
+    scale_equations(a, n, mass, force, gone, 1.0 / tally_favourite(&all));
 }
 
 /* --- one arrangement -----------------------------------------------------------------------------*/
@@ -678,16 +672,7 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     for (int h = 0; h < w->hinges; h++) {
         w->inverse[h] = scale_number(w->inverse[h], common);
     }
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n && !w->gone[i]; j++) {
-            if (!w->gone[j]) {
-                w->mass[i * n + j] = scale_simply(a, w->mass[i * n + j], common);
-            }
-        }
-        if (!w->gone[i]) {
-            w->force[i] = scale_simply(a, w->force[i], common);
-        }
-    }
+    scale_equations(a, n, w->mass, w->force, w->gone, common);
     for (int i = 0; i < n; i++) {
         if (w->gone[i] || s->turning[i]) {
             continue;
@@ -773,7 +758,8 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
     lowering l = *like;
     l.list = t;
     l.waves = NULL;
-    l.wave_count = l.wave_room = 0;
+    l.uses = NULL;
+    l.wave_count = l.uses_room = 0;
     l.lead = how->lead;
     arranged w;
     const bool can = arrange(l.algebra, s, how, &w);
@@ -788,7 +774,11 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
             const int *across = node + n * n + n + h * (n + 1);
             add_across(t, n, across, w.inverse[h], node, node + n * n);
         }
-        eliminate(t, s->symmetric, n, node, node + n * n, w.order, w.eliminated, solution);
+        if (s->symmetric) {
+            eliminate_symmetric(t, n, node, node + n * n, w.order, w.eliminated, solution);
+        } else {
+            eliminate_general(t, n, node, node + n * n, solution);
+        }
         for (int i = 0; i < n; i++) {
             solution[i] = op_list_mul(t, op_list_constant(t, w.scale[i]), solution[i]);
         }
@@ -829,13 +819,9 @@ static bool next_order(int *order, int n) {
     while (order[j] < order[i]) {
         j--;
     }
-    int swap = order[i];
-    order[i] = order[j];
-    order[j] = swap;
+    exchange(&order[i], &order[j]);
     for (int x = i + 1, y = n - 1; x < y; x++, y--) {
-        swap = order[x];
-        order[x] = order[y];
-        order[y] = swap;
+        exchange(&order[x], &order[y]);
     }
     return true;
 }
@@ -866,6 +852,15 @@ static void try_it(const lowering *l, const linear_system *s, const arrangement 
     }
 }
 
+/* As it is, and rescaled if that may help. */
+static void try_scales(const lowering *l, const linear_system *s, arrangement how, bool rescales,
+                       choice *best) {
+    for (int again = 0; again <= rescales; again++) {
+        how.rescaled = again == 1;
+        try_it(l, s, &how, best);
+    }
+}
+
 /* Tries all methods of elimination in the order of `like`. */
 static void try_order(const lowering *l, const linear_system *s, const arrangement *like,
                       bool permuted, choice *best) {
@@ -874,18 +869,12 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
         how.scaled = scaled == 1;
         for (int first = -2; first < (permuted ? s->n : 0); first++) {
             how.first = first;
-            for (int again = 0; again < (first == -1 || !s->sparing ? 1 : 2); again++) {
-                how.rescaled = again == 1;
-                try_it(l, s, &how, best);
-            }
+            try_scales(l, s, how, s->sparing && first != -1, best);
         }
         if (s->sparing && !s->precise) {
             how.first = -1;
             how.hinged = true;
-            for (int again = 0; again < 2; again++) {
-                how.rescaled = again == 1;
-                try_it(l, s, &how, best);
-            }
+            try_scales(l, s, how, true, best);
         }
     }
 }

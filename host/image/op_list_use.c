@@ -379,16 +379,19 @@ static int *ending_lives(const op_list_needs *n, int count, first_of way) {
 /* --- the list in its new order -------------------------------------------------------------------*/
 
 typedef struct placing {
-    const op_list_needs *needs;
-    int *order;  /* [ops]: operation at each position */
-    int *number; /* [ops]: its position, or -1 */
+    const op_list *t;
+    const op_list_needs *needs; /* NULL: an operation follows only its operands */
+    int *order;                 /* [ops]: operation at each position */
+    int *number;                /* [ops]: its position, or -1 */
     int count;
 } placing;
 
-/* Place operation i, after its given operands that are not placed yet. */
+/* Place operation i, after its operands that are not placed yet. */
 static void put_next(placing *p, int i) {
     int found[NEEDED_MOST];
-    const int count = p->number[i] < 0 ? op_list_needed(p->needs, i, found) : 0;
+    const int count = p->number[i] >= 0  ? 0
+                      : p->needs != NULL ? op_list_needed(p->needs, i, found)
+                                         : op_list_operands(&p->t->ops[i], found);
     for (int k = 0; k < count; k++) {
         put_next(p, found[k]);
     }
@@ -398,14 +401,15 @@ static void put_next(placing *p, int i) {
     }
 }
 
+/* The operations of the sequence lead; the others are given, only results, or unused. */
 static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int count) {
-    placing p = {n, alloc_more(NULL, t->count, sizeof *p.order),
+    placing p = {t, n, alloc_more(NULL, t->count, sizeof *p.order),
                  alloc_more(NULL, t->count, sizeof *p.number), 0};
     memset(p.number, -1, (size_t)t->count * sizeof *p.number);
     for (int at = 0; at < count; at++) {
         put_next(&p, sequence[at]);
     }
-    for (int i = 0; i < t->count; i++) { /* given operations that are only results, or unused */
+    for (int i = 0; i < t->count; i++) {
         put_next(&p, i);
     }
     op_list_renumber(t, p.order, p.number);
@@ -489,41 +493,6 @@ static int *uses_of(const op_list *t) {
     return uses;
 }
 
-typedef struct walk {
-    const op_list *t;
-    int *order;
-    int *number; /* -1: not there yet */
-    int count;
-} walk;
-
-/* Place operation i after all its operands, most of which are already placed. */
-static void put(walk *w, int i) {
-    int operand[2];
-    if (w->number[i] >= 0) {
-        return;
-    }
-    const int count = op_list_operands(&w->t->ops[i], operand);
-    for (int k = 0; k < count; k++) {
-        put(w, operand[k]);
-    }
-    w->number[i] = w->count;
-    w->order[w->count++] = i;
-}
-
-/* Restores the order, because a half may come after its new user. */
-static void put_in_order(op_list *t) {
-    walk w = {t, alloc(t->count, sizeof *w.order), alloc(t->count, sizeof *w.number), 0};
-    for (int i = 0; i < t->count; i++) {
-        w.number[i] = -1;
-    }
-    for (int i = 0; i < t->count; i++) {
-        put(&w, i);
-    }
-    op_list_renumber(t, w.order, w.number);
-    free(w.order);
-    free(w.number);
-}
-
 void op_list_share_sums(op_list *t) {
     int *uses = uses_of(t);
     bool shared = false;
@@ -542,7 +511,7 @@ void op_list_share_sums(op_list *t) {
     }
     free(uses);
     if (shared) {
-        put_in_order(t);
+        reorder(t, NULL, NULL, 0); /* a half may come after its new user */
         op_list_prune(t);
     }
 }
@@ -570,17 +539,8 @@ static void renumber(op *o, const int *number) {
 
 /* x * (1/y) becomes x/y if 1/y has no other use: saves one rounding and one operation. */
 static void fuse_reciprocals(op_list *t) {
-    int *uses = alloc(t->count, sizeof *uses);
-    int operand[2];
+    int *uses = uses_of(t);
     double one;
-    for (int i = 0; i < t->count; i++) {
-        for (int k = op_list_operands(&t->ops[i], operand); k > 0; k--) {
-            uses[operand[k - 1]]++;
-        }
-    }
-    for (int i = 0; i < t->results; i++) {
-        uses[t->result[i]]++;
-    }
     for (int i = 0; i < t->count; i++) {
         op *o = &t->ops[i];
         for (int k = 0; k < 2 && o->code == OP_MUL; k++) {
