@@ -83,6 +83,13 @@ void *arena_room(struct arena *arena, void *array, int count, size_t element_siz
     return longer;
 }
 
+void *arena_push(struct arena *arena, const void *array, int *count, const void *element,
+                 size_t element_size) {
+    unsigned char *longer = arena_room(arena, (void *)(uintptr_t)array, *count, element_size);
+    memcpy(longer + (size_t)(*count)++ * element_size, element, element_size);
+    return longer;
+}
+
 /* === the heap ================================================================================= */
 
 void alloc_none(void) {

@@ -28,7 +28,7 @@ typedef struct diags diags;
 diags *diags_new(void);
 void diags_free(diags *diags);
 
-/* Report an error at `at`; `hint` may be NULL. Copies its texts. A repeat at the same place is dropped. */
+/* Report an error at `at`; `hint` may be NULL or "". Copies its texts. A repeat at the same place is dropped. */
 void diag_error(diags *diags, place at, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -1,6 +1,7 @@
 /* spelling.c: UTF-8 characters, and the known name closest to a misspelt one. */
 #include "host/base/spelling.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* === well-formed, printable UTF-8 characters ================================================== */
@@ -87,4 +88,9 @@ void nearest_offer(nearest *search, const char *candidate) {
         search->cost = last[columns];
         search->best = candidate;
     }
+}
+
+char *nearest_hint(const nearest *search, char *hint, size_t size) {
+    snprintf(hint, size, search->best != NULL ? "did you mean '%s'?" : "", search->best);
+    return hint;
 }

@@ -22,5 +22,7 @@ typedef struct nearest {
 
 nearest nearest_start(const char *wanted, size_t length);
 void nearest_offer(nearest *search, const char *candidate);
+/* "did you mean 'NAME'?" in hint[size], or "" without a similar name. Returns `hint`. */
+char *nearest_hint(const nearest *search, char *hint, size_t size);
 
 #endif

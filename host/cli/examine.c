@@ -108,7 +108,7 @@ static void print_stored(const show *s, const equations *e, const symmetry *of,
     const poly **row = alloc(e->count, sizeof *row);
     for (int k = 0; k < m->term_count; k++) {
         const term *from = &m->terms[k];
-        if (from->kind != TERM_V || !instance_has_term(e->instance, from)) {
+        if (from->kind != TERM_V || !instance_has(e->instance, from->effect)) {
             continue;
         }
         const poly *stored = poly_from_expr(a, from->value);

@@ -37,7 +37,7 @@ static const char *influence_on(const equations *e, int i, char text[INFLUENCE_T
     *count = 0;
     for (int k = 0; k < m->term_count; k++) {
         const term *each = &m->terms[k];
-        if (!instance_has_term(e->instance, each)) {
+        if (!instance_has(e->instance, each->effect)) {
             continue;
         }
         const poly *value = poly_from_expr(a, each->value);
@@ -77,7 +77,7 @@ static bool influence_of(const equations *e, const symbol *q) {
     bool found = false;
     for (int k = 0; k < m->term_count && !found; k++) {
         const term *each = &m->terms[k];
-        found = instance_has_term(e->instance, each) &&
+        found = instance_has(e->instance, each->effect) &&
                 (each->kind == TERM_Q || each->kind == TERM_F) &&
                 names(poly_from_expr(e->algebra, each->value), q);
     }

@@ -300,7 +300,7 @@ static void ask_all(maker *k) {
     const mechanism *m = e->instance->mechanism;
     image *im = k->made;
     for (int i = 0; i < m->term_count; i++) {
-        if (instance_has_term(e->instance, &m->terms[i])) {
+        if (instance_has(e->instance, m->terms[i].effect)) {
             ask_term(k, &m->terms[i]);
         }
     }

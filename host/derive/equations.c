@@ -120,7 +120,7 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
             const contact_statement *h =
                 i < m->contact_count ? &m->contacts[i] : &inst->scene->whens[i - m->contact_count];
             if (h->kind != (contact_kind)k ||
-                (i < m->contact_count && !instance_has_contact(inst, h))) {
+                (i < m->contact_count && !instance_has(inst, h->effect))) {
                 continue;
             }
             make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);
@@ -189,7 +189,7 @@ statement_force *forces_derive(algebra *a, const instance *inst, int *count) {
     *count = 0;
     for (int i = 0; i < m->term_count; i++) {
         const term *t = &m->terms[i];
-        if ((t->kind == TERM_Q || t->kind == TERM_F) && instance_has_term(inst, t)) {
+        if ((t->kind == TERM_Q || t->kind == TERM_F) && instance_has(inst, t->effect)) {
             forces[(*count)++] = force_of(a, m, t);
         }
     }
@@ -224,7 +224,7 @@ const poly *forces_power(algebra *a, const statement_force *forces, int count, t
 place equations_kinetic_place(const instance *inst) {
     const mechanism *m = inst->mechanism;
     for (int i = 0; i < m->term_count; i++) {
-        if (m->terms[i].kind == TERM_T && instance_has_term(inst, &m->terms[i])) {
+        if (m->terms[i].kind == TERM_T && instance_has(inst, m->terms[i].effect)) {
             return m->terms[i].at;
         }
     }

@@ -193,7 +193,7 @@ static int dependent_row(const equations *e) {
 static place place_of_equation(const equations *e, int row) {
     const mechanism *m = e->instance->mechanism;
     for (int t = 0, at = 0; t < m->term_count; t++) {
-        if (m->terms[t].kind == TERM_EQUATION && instance_has_term(e->instance, &m->terms[t]) &&
+        if (m->terms[t].kind == TERM_EQUATION && instance_has(e->instance, m->terms[t].effect) &&
             at++ == row) {
             return m->terms[t].at;
         }
@@ -233,7 +233,7 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     const mechanism *m = e->instance->mechanism;
     for (int i = 0; i < m->term_count; i++) {
         const term *t = &m->terms[i];
-        if (t->kind == TERM_T && !instance_has_term(e->instance, t) &&
+        if (t->kind == TERM_T && !instance_has(e->instance, t->effect) &&
             poly_contains(poly_from_expr(e->algebra, t->value), s, 1)) {
             return m->effects[t->effect].name;
         }
@@ -259,7 +259,7 @@ static const term *negative_part(const equations *e, int *most) {
     *most = 0;
     for (int i = 0; i < of->term_count; i++) {
         const term *t = &of->terms[i];
-        const bool takes_part = t->kind == TERM_T && instance_has_term(e->instance, t);
+        const bool takes_part = t->kind == TERM_T && instance_has(e->instance, t->effect);
         const int negative = takes_part ? times_negative(e, t) : 0;
         if (negative > *most) {
             found = t;
@@ -417,7 +417,7 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < m->term_count; i++) {
         const term *t = &m->terms[i];
-        if (t->kind == kind && instance_has_term(inst, t)) {
+        if (t->kind == kind && instance_has(inst, t->effect)) {
             sum = poly_add(a, sum, poly_from_expr(a, t->value));
         }
     }
@@ -527,7 +527,7 @@ static bool derive_system(equations *e, diags *errors) {
     bool good = true;
     int rows = 0;
     for (int t = 0; t < m->term_count && rows < n; t++) {
-        if (m->terms[t].kind == TERM_EQUATION && instance_has_term(e->instance, &m->terms[t])) {
+        if (m->terms[t].kind == TERM_EQUATION && instance_has(e->instance, m->terms[t].effect)) {
             term_at[rows] = &m->terms[t];
             left[rows++] = poly_sub(a, poly_from_expr(a, m->terms[t].value),
                                     poly_from_expr(a, m->terms[t].right));

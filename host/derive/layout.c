@@ -25,7 +25,7 @@ void noise_on_outputs(const equations *e, lowering *l, int *result) {
     for (int k = 0; k < m->noise_count; k++) {
         const noise *each = &m->noises[k];
         const int at = each->output->index;
-        if (instance_has_noise(e->instance, each) && at < m->output_count &&
+        if (instance_has(e->instance, each->effect) && at < m->output_count &&
             m->outputs[at] == each->output) {
             result[at] = with_noise(e, l, each, result[at]);
         }
@@ -36,7 +36,7 @@ void noise_on_outputs(const equations *e, lowering *l, int *result) {
 static bool is_noisy(const equations *e, const symbol *record) {
     const mechanism *m = e->instance->mechanism;
     for (int k = 0; k < m->noise_count; k++) {
-        if (m->noises[k].record == record && instance_has_noise(e->instance, &m->noises[k])) {
+        if (m->noises[k].record == record && instance_has(e->instance, m->noises[k].effect)) {
             return true;
         }
     }
@@ -95,7 +95,7 @@ void noise_records_lower(const equations *e, lowering *l, noise_records *r) {
         r->node[k] = lower(l, r->exact[k]);
         for (int i = 0; i < m->noise_count; i++) {
             if (m->noises[i].record == m->noises[k].record &&
-                instance_has_noise(e->instance, &m->noises[i])) {
+                instance_has(e->instance, m->noises[i].effect)) {
                 r->node[k] = with_noise(e, l, &m->noises[i], r->node[k]);
             }
         }

@@ -200,8 +200,7 @@ static bool parse_set(parser *in, contact_statement *made) {
         return false;
     }
     dimension wanted;
-    if (usable && dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
-        dim_multiply(set.symbol->dim, wanted, &wanted)) {
+    if (usable && dim_derivative(set.symbol->dim, name.primes, &wanted)) {
         char rule[RULE_SIZE];
         token_words(&name, words, sizeof words);
         if (check_unit(in, at, set.value, set.symbol, name.primes)) {
@@ -209,10 +208,7 @@ static bool parse_set(parser *in, contact_statement *made) {
         }
     }
     if (usable) {
-        assignment *longer =
-            arena_room(in->arena, (assignment *)made->sets, made->set_count, sizeof *longer);
-        longer[made->set_count++] = set;
-        made->sets = longer;
+        made->sets = arena_push(in->arena, made->sets, &made->set_count, &set, sizeof set);
     }
     return true;
 }
@@ -230,9 +226,7 @@ static bool parse_sets(parser *in, contact_statement *made) {
             return parser_end_statement(in, "the expression");
         }
         parser_next(in);
-        while (in->token.kind == TOKEN_NEWLINE) {
-            parser_next(in);
-        }
+        parser_skip_newlines(in);
     }
 }
 
@@ -302,9 +296,7 @@ bool read_when(parser *in, const statement_word *word) {
     if (!take_direction(in, &made)) {
         return false;
     }
-    while (in->token.kind == TOKEN_NEWLINE) {
-        parser_next(in);
-    }
+    parser_skip_newlines(in);
     return parser_expect_sign(in, '{', "after what is crossed") && parse_block(in, &made) &&
            add_contact(in, &made);
 }
@@ -316,17 +308,12 @@ void contact_on_system(parser *in, const contact_statement *each) {
                "'%s' does not go with state and equation", contact_word(each->kind));
 }
 
-/* Are the two contacts active together whenever the one that belongs to an effect is active? */
-static bool always_meet(const contact_statement *a, const contact_statement *b) {
-    return a->effect == b->effect || a->effect < 0 || b->effect < 0;
-}
-
 static void check_friction_once(parser *in, const contact_statement *made) {
     const mechanism *into = in->builder->made;
     for (int i = 0; i < into->contact_count && made->kind == CONTACT_FRICTION; i++) {
         const contact_statement *each = &into->contacts[i];
         if (each->kind == CONTACT_FRICTION && each->coordinate == made->coordinate &&
-            made->coordinate != NULL && always_meet(each, made)) {
+            made->coordinate != NULL && always_meet(each->effect, made->effect)) {
             diag_error(in->diags, made->at, "add its normal forces up in one statement",
                        "friction on '%s' was already given in line %d", made->coordinate->name,
                        each->at.line);
@@ -335,25 +322,19 @@ static void check_friction_once(parser *in, const contact_statement *made) {
     }
 }
 
-static void append(parser *in, const contact_statement **list, int *count,
-                   const contact_statement *made) {
-    contact_statement *longer =
-        arena_room(in->arena, (contact_statement *)*list, *count, sizeof *longer);
-    longer[(*count)++] = *made;
-    *list = longer;
-}
-
 static bool add_contact(parser *in, const contact_statement *made) {
     mechanism *into = in->builder->made;
     if (in->draft == NULL) {
         check_friction_once(in, made);
-        append(in, &into->contacts, &into->contact_count, made);
+        into->contacts =
+            arena_push(in->arena, into->contacts, &into->contact_count, made, sizeof *made);
         return true;
     }
     if (into->is_system) {
         contact_on_system(in, made);
     }
-    append(in, &in->draft->made->whens, &in->draft->made->when_count, made);
+    scene *of = in->draft->made;
+    of->whens = arena_push(in->arena, of->whens, &of->when_count, made, sizeof *made);
     return true;
 }
 

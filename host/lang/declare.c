@@ -27,10 +27,10 @@ static const symbol *find_output(parser *in, const token *name) {
     }
     if (later > 0) {
         snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
-    } else if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+    } else {
+        nearest_hint(&search, hint, sizeof hint);
     }
-    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown output %s", words);
+    diag_error(in->diags, name->at, hint, "unknown output %s", words);
     return NULL;
 }
 
@@ -62,24 +62,17 @@ static const symbol *record_of(parser *in, const symbol *output) {
     return record;
 }
 
-/* Are the two noises active together whenever the one that belongs to an effect is active? */
-static bool always_meet(const noise *a, const noise *b) {
-    return a->effect == b->effect || a->effect < 0 || b->effect < 0;
-}
-
 static void add_noise(parser *in, const noise *made) {
     mechanism *into = in->builder->made;
     for (int i = 0; i < into->noise_count; i++) {
         const noise *each = &into->noises[i];
-        if (each->output == made->output && always_meet(each, made)) {
+        if (each->output == made->output && always_meet(each->effect, made->effect)) {
             diag_error(in->diags, made->at, NULL, "noise on '%s' was already given in line %d",
                        made->output->name, each->at.line);
             break;
         }
     }
-    noise *longer = arena_room(in->arena, (noise *)into->noises, into->noise_count, sizeof *longer);
-    longer[into->noise_count++] = *made;
-    into->noises = longer;
+    into->noises = arena_push(in->arena, into->noises, &into->noise_count, made, sizeof *made);
 }
 
 bool read_noise(parser *in, const statement_word *word) {
@@ -154,10 +147,8 @@ static named *claim_name(parser *in, const token *name) {
 }
 
 static void append(parser *in, const symbol ***list, int *count, symbol *made) {
-    const symbol **longer = arena_room(in->arena, *list, *count, sizeof *longer);
     made->index = *count;
-    longer[(*count)++] = made;
-    *list = longer;
+    *list = arena_push(in->arena, *list, count, &made, sizeof made);
 }
 
 static symbol *declare(parser *in, const token *name, symbol_kind kind) {

@@ -91,13 +91,11 @@ static void report_unknown(parser *in, const token *name) {
                 nearest_offer(&search, function_name((function_id)f));
             }
         }
-        if (search.best != NULL) {
-            snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-        }
+        nearest_hint(&search, hint, sizeof hint);
     }
     token plain = *name;
     plain.primes = 0;
-    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown name %s",
+    diag_error(in->diags, name->at, hint, "unknown name %s",
                token_words(&plain, words, sizeof words));
 }
 
@@ -156,12 +154,14 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
         }
         break;
     case CONTEXT_FORCE:
+    case CONTEXT_EVENT:
         if (order > 1) {
             diag_error(
                 in->diags, name->at,
                 "write it with coordinates and rates: whirl derive prints the expression of each second derivative",
-                "T, V, F and Q cannot contain a second derivative: %s %s one", words,
-                by_let ? "has" : "is");
+                "%s cannot contain a second derivative: %s %s one",
+                in->context == CONTEXT_FORCE ? "T, V, F and Q" : "stop, friction, hold and when",
+                words, by_let ? "has" : "is");
             return false;
         }
         break;
@@ -171,17 +171,6 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
                        "write the position that is to be limited or held, not its rate",
                        "stop and hold limit coordinates, not rates: %s %s a rate", words,
                        by_let ? "has" : "is");
-            return false;
-        }
-        break;
-    case CONTEXT_EVENT:
-        if (order > 1) {
-            diag_error(
-                in->diags, name->at,
-                "write it with coordinates and rates: whirl derive prints the expression "
-                "of each second derivative",
-                "stop, friction, hold and when cannot contain a second derivative: %s %s one",
-                words, by_let ? "has" : "is");
             return false;
         }
         break;
@@ -199,15 +188,11 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
 }
 
 static void set_dimension(parser *in, expr *made, const token *name) {
-    dimension per_time = dim_none();
     made->dim = made->symbol->dim;
-    if (name->primes > 0 && !made->dim.unknown) {
-        if (!dim_power(dim_of(0, 0, -1, 0, 0), name->primes, &per_time) ||
-            !dim_multiply(made->dim, per_time, &made->dim)) {
-            diag_error(in->diags, name->at, NULL,
-                       "the exponents of this dimension are out of range");
-            made->dim.unknown = true;
-        }
+    if (name->primes > 0 && !made->dim.unknown &&
+        !dim_derivative(made->dim, name->primes, &made->dim)) {
+        diag_error(in->diags, name->at, NULL, "the exponents of this dimension are out of range");
+        made->dim.unknown = true;
     }
 }
 
@@ -315,17 +300,23 @@ static const expr *expr_name(parser *in, const token *name) {
 
 void no_such_coordinate(parser *in, const token *name) {
     char words[80];
-    token_words(name, words, sizeof words);
+    char hint[120];
     nearest search = nearest_start(name->text, name->length);
-    char hint[120] = "";
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->coordinate_count; i++) {
         nearest_offer(&search, inside->coordinates[i]->name);
     }
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    }
-    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint, "unknown coordinate %s", words);
+    diag_error(in->diags, name->at, nearest_hint(&search, hint, sizeof hint),
+               "unknown coordinate %s", token_words(name, words, sizeof words));
+}
+
+void no_such_symbol(parser *in, const mechanism *of, const token *name) {
+    char words[80];
+    char hint[120];
+    nearest search = nearest_start(name->text, name->length);
+    names_offer(of->names, -2, &search);
+    diag_error(in->diags, name->at, nearest_hint(&search, hint, sizeof hint),
+               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words), of->name);
 }
 
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
@@ -370,8 +361,8 @@ bool parse_unit(parser *in, unit_scale *result, const char **text) {
     const token bracket = in->token;
     const bool good = unit_parse(bracket.text, bracket.length, result, &error);
     if (!good) {
-        diag_error(in->diags, place_after(bracket.at, 1 + error.offset),
-                   error.hint[0] == '\0' ? NULL : error.hint, "%s", error.message);
+        diag_error(in->diags, place_after(bracket.at, 1 + error.offset), error.hint, "%s",
+                   error.message);
         *result = (unit_scale){1.0, 1.0, dim_none(), enclosure_of(1.0)};
         result->dim.unknown = true;
     }
@@ -447,25 +438,18 @@ static const expr *parse_call(parser *in, function_id function, place at) {
     }
     const expr *arguments[2] = {NULL, NULL};
     int count = 0;
-    if (!parser_is_sign(in, ')')) {
-        for (;;) {
-            if (count == wanted) {
-                parser_fail(in, NULL, "%s takes %s", name,
-                            wanted == 1 ? "one argument" : "two arguments");
-                return NULL;
-            }
-            arguments[count] = parse_sum(in);
-            if (arguments[count] == NULL) {
-                return NULL;
-            }
-            count++;
-            if (!parser_is_sign(in, ',')) {
-                break;
-            }
+    bool more = !parser_is_sign(in, ')');
+    while (more && count < wanted) {
+        arguments[count] = parse_sum(in);
+        if (arguments[count++] == NULL) {
+            return NULL;
+        }
+        more = parser_is_sign(in, ',');
+        if (more) {
             parser_next(in);
         }
     }
-    if (count < wanted && parser_is_sign(in, ')')) {
+    if (more || (count < wanted && parser_is_sign(in, ')'))) {
         parser_fail(in, NULL, "%s takes %s", name, wanted == 1 ? "one argument" : "two arguments");
         return NULL;
     }
@@ -592,34 +576,31 @@ static const expr *parse_signed(parser *in) {
     return expr_negate(in, sign.at, operand);
 }
 
-static const expr *parse_product(parser *in) {
-    const expr *left = parse_signed(in);
-    while (left != NULL && (parser_is_sign(in, '*') || parser_is_sign(in, '/'))) {
+/* PART { sign PART } with the two signs of one level, from left to right. */
+static const expr *parse_level(parser *in, const expr *(*part)(parser *), const char *signs,
+                               expr_op first, expr_op second) {
+    const expr *left = part(in);
+    while (left != NULL && (parser_is_sign(in, signs[0]) || parser_is_sign(in, signs[1]))) {
         const token sign = in->token;
         parser_next(in);
         if (sign.sign == '*' && parser_is_sign(in, '*')) {
             parser_fail(in, "write powers with ^: r^2", "'**' is no operator");
             return NULL;
         }
-        const expr *right = parse_signed(in);
+        const expr *right = part(in);
         left = right == NULL
                    ? NULL
-                   : expr_binary(in, sign.sign == '*' ? EXPR_MUL : EXPR_DIV, sign.at, left, right);
+                   : expr_binary(in, sign.sign == signs[0] ? first : second, sign.at, left, right);
     }
     return left;
 }
 
+static const expr *parse_product(parser *in) {
+    return parse_level(in, parse_signed, "*/", EXPR_MUL, EXPR_DIV);
+}
+
 static const expr *parse_sum(parser *in) {
-    const expr *left = parse_product(in);
-    while (left != NULL && (parser_is_sign(in, '+') || parser_is_sign(in, '-'))) {
-        const token sign = in->token;
-        parser_next(in);
-        const expr *right = parse_product(in);
-        left = right == NULL
-                   ? NULL
-                   : expr_binary(in, sign.sign == '+' ? EXPR_ADD : EXPR_SUB, sign.at, left, right);
-    }
-    return left;
+    return parse_level(in, parse_product, "+-", EXPR_ADD, EXPR_SUB);
 }
 
 const expr *parse_expression(parser *in, expr_context context) {

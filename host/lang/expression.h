@@ -18,6 +18,8 @@ bool parse_unit(parser *in, unit_scale *result, const char **text);
 int name_declared_later(const token *name);
 /* Report an unknown coordinate, with the nearest known name as a hint. */
 void no_such_coordinate(parser *in, const token *name);
+/* The same for a name that a scene or the command line changes. */
+void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
 /* The coordinate of that name, or NULL (reported). Messages name the owner with `whose`. */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose);

@@ -36,20 +36,21 @@ static bool has_sign_of_rate(const expr *tree, const symbol *own) {
 }
 
 static double term_at(const term *of, const symbol *coordinate, valuation *known, double rate) {
-    known->state[coordinate->index][1] = rate;
+    double *now = &known->state[coordinate->index][1];
+    const double start = *now;
+    *now = rate;
     memset(known->let_known, 0, (size_t)known->of->let_count * sizeof *known->let_known);
-    return expr_value(of->value, known);
+    const double value = expr_value(of->value, known);
+    *now = start;
+    return value;
 }
 
 /* Does the force jump against the motion at rest? False if it is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
-    double *rate = &known->state[of->coordinate->index][1];
-    const double start = *rate;
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
     const double nearer =
         term_at(of, own, known, 0.1 * NEAR_REST) - term_at(of, own, known, -0.1 * NEAR_REST);
-    *rate = start;
     return jump < 0.0 && nearer < 0.5 * jump;
 }
 
@@ -61,12 +62,9 @@ static double bend(const term *of, const symbol *coordinate, valuation *known, d
 
 /* Has F a kink at rest of this coordinate? The second difference of a smooth F shrinks to a hundredth at a tenth of the rate. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
-    double *rate = &known->state[coordinate->index][1];
-    const double start = *rate;
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);
     const double near = bend(of, coordinate, known, 0.1 * NEAR_REST);
-    *rate = start;
     return far > 1e-12 * (size < 0.0 ? -size : size) && near > 0.05 * far;
 }
 
@@ -85,13 +83,13 @@ const term *hint_friction(const instance *made, const symbol **on) {
     known.primes_most = 1;
     for (int i = 0; i < of->term_count && found == NULL; i++) {
         const term *each = &of->terms[i];
-        if (each->kind == TERM_Q && each->coordinate != NULL && instance_has_term(made, each) &&
+        if (each->kind == TERM_Q && each->coordinate != NULL && instance_has(made, each->effect) &&
             has_sign_of_rate(each->value, each->coordinate) && opposes_at_rest(each, &known)) {
             found = each;
             *on = each->coordinate;
         }
         for (int c = 0; c < of->coordinate_count && each->kind == TERM_F && found == NULL &&
-                        instance_has_term(made, each);
+                        instance_has(made, each->effect);
              c++) {
             if (has_kink(each, of->coordinates[c], &known)) {
                 found = each;

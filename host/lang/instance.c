@@ -9,21 +9,10 @@
 #include "host/lang/value.h"
 #include "host/lang/words.h"
 
-bool instance_has_term(const instance *of, const term *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_contact(const instance *of, const contact_statement *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
-
-bool instance_has_noise(const instance *of, const noise *each) {
-    return each->effect < 0 || of->with[each->effect];
-}
+bool instance_has(const instance *of, int within) { return within < 0 || of->with[within]; }
 
 const effect *instance_lacks(const instance *of, const symbol *what) {
-    return what->effect < 0 || of->with[what->effect] ? NULL
-                                                      : &of->mechanism->effects[what->effect];
+    return instance_has(of, what->effect) ? NULL : &of->mechanism->effects[what->effect];
 }
 
 /* === ranges of contacts and of noise ========================================================== */
@@ -80,11 +69,11 @@ static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
     for (int i = 0; i < of->contact_count; i++) {
         const contact_statement *a = &of->contacts[i];
-        for (int k = 0; k < i && a->kind == CONTACT_FRICTION && instance_has_contact(made, a);
+        for (int k = 0; k < i && a->kind == CONTACT_FRICTION && instance_has(made, a->effect);
              k++) {
             const contact_statement *b = &of->contacts[k];
             if (b->kind == CONTACT_FRICTION && b->coordinate == a->coordinate &&
-                instance_has_contact(made, b)) {
+                instance_has(made, b->effect)) {
                 diag_error(all, a->at, "select only one of these effects",
                            "friction on '%s' was already given in line %d", a->coordinate->name,
                            b->at.line);
@@ -94,9 +83,9 @@ static void check_pairs(const instance *made, diags *all) {
     }
     for (int i = 0; i < of->noise_count; i++) {
         const noise *a = &of->noises[i];
-        for (int k = 0; k < i && instance_has_noise(made, a); k++) {
+        for (int k = 0; k < i && instance_has(made, a->effect); k++) {
             const noise *b = &of->noises[k];
-            if (b->output == a->output && instance_has_noise(made, b)) {
+            if (b->output == a->output && instance_has(made, b->effect)) {
                 diag_error(all, a->at, "select only one of these effects",
                            "noise on '%s' was already given in line %d", a->output->name,
                            b->at.line);
@@ -150,7 +139,7 @@ static void limits_check(const instance *made, valuation *known) {
     int sets = 0;
     for (int i = 0; i < of->contact_count; i++) {
         const contact_statement *each = &of->contacts[i];
-        if (!instance_has_contact(made, each)) {
+        if (!instance_has(made, each->effect)) {
             continue;
         }
         count_event(each, &events, &sets, known->diags);
@@ -169,7 +158,7 @@ static void limits_check(const instance *made, valuation *known) {
         }
     }
     for (int i = 0; i < of->noise_count; i++) {
-        if (instance_has_noise(made, &of->noises[i])) {
+        if (instance_has(made, of->noises[i].effect)) {
             check_noise(&of->noises[i], known);
         }
     }

@@ -113,27 +113,23 @@ static void skip_space(lexer *in) {
     }
 }
 
-static void read_number(lexer *in, token *made) {
-    size_t length = 0;
-    while (is_digit(at_offset(in, length))) {
-        length++;
+static size_t behind_digits(const lexer *in, size_t from) {
+    while (is_digit(at_offset(in, from))) {
+        from++;
     }
+    return from;
+}
+
+static void read_number(lexer *in, token *made) {
+    size_t length = behind_digits(in, 0);
     if (at_offset(in, length) == '.' && at_offset(in, length + 1) != '.') { /* 1 .. 2 */
-        length++;
-        while (is_digit(at_offset(in, length))) {
-            length++;
-        }
+        length = behind_digits(in, length + 1);
     }
     const int mark = at_offset(in, length);
     if (mark == 'e' || mark == 'E') {
         const int sign = at_offset(in, length + 1);
         const size_t digits = length + (sign == '+' || sign == '-' ? 2 : 1);
-        if (is_digit(at_offset(in, digits))) {
-            length = digits;
-            while (is_digit(at_offset(in, length))) {
-                length++;
-            }
-        }
+        length = is_digit(at_offset(in, digits)) ? behind_digits(in, digits) : length;
     }
     made->kind = TOKEN_NUMBER;
     made->length = length;

@@ -289,12 +289,8 @@ typedef struct instance {
     struct arena *arena;
 } instance;
 
-/* Active terms: those of the mechanism itself and of the effects in instance->with. */
-bool instance_has_term(const instance *instance, const term *term);
-/* The same for a contact of the mechanism. */
-bool instance_has_contact(const instance *instance, const contact_statement *contact);
-/* The same for a noise. */
-bool instance_has_noise(const instance *instance, const noise *noise);
+/* Is a statement of this effect active? One of the mechanism itself (-1) always is. */
+bool instance_has(const instance *of, int within);
 
 /* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to
  * no effect. */

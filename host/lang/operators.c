@@ -109,7 +109,7 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
     if (is_bare_number(value)) {
         number_hint(hint, sizeof hint, value, wanted);
     }
-    diag_error(in->diags, at, hint[0] == '\0' ? NULL : hint, "%s, but this is %s", rule,
+    diag_error(in->diags, at, hint, "%s, but this is %s", rule,
                dim_text(value->dim, is, sizeof is));
     return false;
 }
@@ -208,7 +208,7 @@ static dimension common_dimension(parser *in, place at, const expr *left, const 
     }
     dim_text(left->dim, a, sizeof a);
     dim_text(right->dim, b, sizeof b);
-    diag_error(in->diags, at, hint[0] == '\0' ? NULL : hint, "cannot %s %s %s %s", before,
+    diag_error(in->diags, at, hint, "cannot %s %s %s %s", before,
                dim_is_none(left->dim) ? "a dimensionless number" : a, between,
                dim_is_none(right->dim) ? "a dimensionless number" : b);
     common.unknown = true;

@@ -46,8 +46,8 @@ static const expr *parse_plain_quantity(parser *in) {
         made->exact = enclosure_mul(number.exact, written.exact);
         made->dim = written.dim;
     } else {
-        diag_error(in->diags, place_after(in->token.at, error.offset),
-                   error.hint[0] == '\0' ? NULL : error.hint, "%s", error.message);
+        diag_error(in->diags, place_after(in->token.at, error.offset), error.hint, "%s",
+                   error.message);
         made->dim.unknown = true;
     }
     while (in->token.kind != TOKEN_END) {
@@ -80,23 +80,6 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
         check_dimension(in, at, made, wanted, dimension_rule(rule, what, "is", wanted));
     }
     return made;
-}
-
-static named *find_name(parser *in, const mechanism *of, const token *name) {
-    named *found = names_find(of->names, name->text, name->length);
-    if (found != NULL) {
-        return found;
-    }
-    nearest search = nearest_start(name->text, name->length);
-    char hint[120] = "";
-    char words[80];
-    names_offer(of->names, -2, &search);
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    }
-    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint,
-               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words), of->name);
-    return NULL;
 }
 
 /* Can this symbol be changed this way? */
@@ -134,7 +117,10 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
                            "a name is missing");
     }
     parser_next(&in);
-    const named *found = find_name(&in, of, &name);
+    const named *found = names_find(of->names, name.text, name.length);
+    if (found == NULL) {
+        no_such_symbol(&in, of, &name);
+    }
     if (found == NULL || !check_target(&in, kind, &name, &found->symbol)) {
         return false;
     }
@@ -144,8 +130,7 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text, s
     }
     parser_next(&in);
     dimension wanted = dim_none();
-    if (!dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) ||
-        !dim_multiply(found->symbol.dim, wanted, &wanted)) {
+    if (!dim_derivative(found->symbol.dim, name.primes, &wanted)) {
         return false;
     }
     char words[80];
@@ -182,8 +167,7 @@ const expr *override_size(const mechanism *of, const char *name, const char *wha
     int primes;
     const symbol *known = quantity_named(of, name, &primes);
     dimension wanted = dim_none();
-    wanted.unknown = known == NULL || !dim_power(dim_of(0, 0, -1, 0, 0), (double)primes, &wanted) ||
-                     !dim_multiply(known->dim, wanted, &wanted);
+    wanted.unknown = known == NULL || !dim_derivative(known->dim, primes, &wanted);
     parser in = begin(of, text, arena, all);
     const place at = in.token.at;
     const expr *made = parse_quantity(&in, wanted, what);

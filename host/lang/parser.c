@@ -58,8 +58,7 @@ named *names_add(names *all, const char *text, size_t length) {
     entry->symbol.text = "";
     entry->symbol.unit = "";
     entry->symbol.effect = -1;
-    all->entries = arena_room(all->arena, all->entries, all->count, sizeof *all->entries);
-    all->entries[all->count++] = entry;
+    all->entries = arena_push(all->arena, all->entries, &all->count, &entry, sizeof entry);
     link_in(all, entry);
     return entry;
 }
@@ -178,6 +177,12 @@ bool parser_expect_word(parser *in, word_id word, word_id statement) {
 
 void parser_skip_lines(parser *in) {
     while (in->token.kind == TOKEN_NEWLINE || parser_is_sign(in, ';')) {
+        parser_next(in);
+    }
+}
+
+void parser_skip_newlines(parser *in) {
+    while (in->token.kind == TOKEN_NEWLINE) {
         parser_next(in);
     }
 }
@@ -360,8 +365,6 @@ bool statement_unknown(parser *in, unsigned where) {
                  energy != NULL ? energy : "", energy != NULL ? "; or " : "", length, word.text,
                  length, word.text);
     }
-    diag_error(in->diags, word.at, hint[0] == '\0' ? NULL : hint, "unknown statement %s", name);
+    diag_error(in->diags, word.at, hint, "unknown statement %s", name);
     return false;
 }
-
-/* === the state of the parser ================================================================== */

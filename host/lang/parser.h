@@ -125,7 +125,8 @@ bool parser_expect_sign(parser *in, int sign, const char *where);
 const char *token_words(const token *each, char *buffer, size_t size);
 /* Skip to the end of a failed statement, including the braces it opened. */
 void parser_skip_statement(parser *in);
-void parser_skip_lines(parser *in); /* skip empty lines */
+void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
+void parser_skip_newlines(parser *in); /* skip empty lines only */
 /* The hint for a missing operator before the current name, number or '('; returns `hint`. */
 enum { OPERATOR_HINT = 200 };
 const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]);

@@ -73,8 +73,7 @@ static bool range_item(parser *in, const statement_word *word) {
         return false;
     }
     bool usable = found != NULL && !found->is_placeholder && has_range(in, &name, found);
-    usable = usable && dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
-             dim_multiply(found->symbol.dim, wanted, &wanted);
+    usable = usable && dim_derivative(found->symbol.dim, name.primes, &wanted);
     token_words(&name, words, sizeof words);
     if (!parser_expect_sign(in, '=', "after the name")) {
         return false;
@@ -101,11 +100,8 @@ static bool range_item(parser *in, const statement_word *word) {
         check_unit(in, low_at, low, &found->symbol, name.primes) &&
         check_dimension(in, low_at, low, wanted, rule) &&
         check_dimension(in, high_at, high, wanted, rule)) {
-        range_statement *longer = arena_room(in->arena, (range_statement *)made->ranges,
-                                             made->range_count, sizeof *longer);
-        longer[made->range_count++] =
-            (range_statement){&found->symbol, name.primes, low, high, name.at};
-        made->ranges = longer;
+        const range_statement one = {&found->symbol, name.primes, low, high, name.at};
+        made->ranges = arena_push(in->arena, made->ranges, &made->range_count, &one, sizeof one);
     }
     return true;
 }
@@ -159,19 +155,9 @@ static bool scene_take_symbol(parser *in, draft *into, const statement_word *wor
     *name = in->token;
     parser_next(in);
     *found = names_find(into->of->names, name->text, name->length);
-    if (*found != NULL) {
-        return true;
+    if (*found == NULL) {
+        no_such_symbol(in, into->made->mechanism, name);
     }
-    nearest search = nearest_start(name->text, name->length);
-    char hint[120] = "";
-    char words[80];
-    names_offer(into->of->names, -2, &search);
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    }
-    diag_error(in->diags, name->at, hint[0] == '\0' ? NULL : hint,
-               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words),
-               into->made->mechanism->name);
     return true;
 }
 
@@ -227,10 +213,8 @@ static bool set_item(parser *in, const statement_word *word) {
         scene *made = into->made;
         found->mark = into->number;
         found->mark_at = name.at;
-        assignment *longer =
-            arena_room(in->arena, (assignment *)made->sets, made->set_count, sizeof *longer);
-        longer[made->set_count++] = (assignment){&found->symbol, 0, value, name.at};
-        made->sets = longer;
+        const assignment set = {&found->symbol, 0, value, name.at};
+        made->sets = arena_push(in->arena, made->sets, &made->set_count, &set, sizeof set);
     }
     return true;
 }
@@ -286,18 +270,16 @@ static bool start_item(parser *in, const statement_word *word) {
         usable = false;
     } else if (usable) {
         check_started_once(in, into->made, &found->symbol, &name);
-        usable = dim_power(dim_of(0, 0, -1, 0, 0), name.primes, &wanted) &&
-                 dim_multiply(found->symbol.dim, wanted, &wanted);
+        usable = dim_derivative(found->symbol.dim, name.primes, &wanted);
     }
     if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, wanted, &value)) {
         return false;
     }
     if (usable) {
         scene *made = into->made;
-        assignment *longer =
-            arena_room(in->arena, (assignment *)made->starts, made->start_count, sizeof *longer);
-        longer[made->start_count++] = (assignment){&found->symbol, name.primes, value, name.at};
-        made->starts = longer;
+        const assignment start = {&found->symbol, name.primes, value, name.at};
+        made->starts =
+            arena_push(in->arena, made->starts, &made->start_count, &start, sizeof start);
     }
     return true;
 }
@@ -329,9 +311,7 @@ static bool scene_list(parser *in, const statement_word *word, statement_reader 
             return parser_end_statement(in, "the list");
         }
         parser_next(in);
-        while (in->token.kind == TOKEN_NEWLINE) {
-            parser_next(in);
-        }
+        parser_skip_newlines(in);
     }
 }
 
@@ -372,13 +352,10 @@ bool read_use(parser *in, const statement_word *word) {
         }
         nearest_offer(&search, in->builders[i]->made->name);
     }
-    char hint[120] = "";
+    char hint[120];
     char words[80];
-    if (search.best != NULL) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-    }
-    diag_error(in->diags, name.at, hint[0] == '\0' ? NULL : hint, "no mechanism %s in this file",
-               token_words(&name, words, sizeof words));
+    diag_error(in->diags, name.at, nearest_hint(&search, hint, sizeof hint),
+               "no mechanism %s in this file", token_words(&name, words, sizeof words));
     into->of = NULL;
     return true;
 }
@@ -489,9 +466,7 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     parser_next(in);
     into->made->title = parser_title(in);
-    while (in->token.kind == TOKEN_NEWLINE) {
-        parser_next(in);
-    }
+    parser_skip_newlines(in);
     if (!parser_expect_sign(in, '{', "after the scene's name")) {
         return;
     }

@@ -8,9 +8,7 @@
 
 static void add_term(parser *in, term made) {
     mechanism *into = in->builder->made;
-    term *longer = arena_room(in->arena, (term *)into->terms, into->term_count, sizeof *longer);
-    longer[into->term_count++] = made;
-    into->terms = longer;
+    into->terms = arena_push(in->arena, into->terms, &into->term_count, &made, sizeof made);
 }
 
 /* `=` in the mechanism, `+=` in an effect. */
@@ -159,47 +157,30 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === which statement comes next =============================================================== */
 
-enum { SEEN_IN_EQUATION = 1, SEEN_IN_OUTPUT = 2 };
-
-/* The highest derivative of each state in the equations. Each let is visited once; EXPR_HEIGHT_MAX bounds the recursion. */
-static void raise_orders(const expr *tree) {
+/* Without a parser, raises the order of each state to its highest derivative in an equation. With a parser, reports a higher
+ * derivative in an output. Each let is visited once; EXPR_HEIGHT_MAX bounds the recursion. */
+static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;
     }
     if (tree->op == EXPR_SYMBOL && tree->symbol != NULL) {
         named *entry = (named *)tree->symbol;
-        if (entry->symbol.kind == SYM_STATE && tree->primes > entry->symbol.order) {
-            entry->symbol.order = tree->primes;
-        }
-        if (entry->symbol.kind == SYM_LET && entry->mark != SEEN_IN_EQUATION) {
-            entry->mark = SEEN_IN_EQUATION;
-            raise_orders(entry->symbol.value);
-        }
-    }
-    raise_orders(tree->left);
-    raise_orders(tree->right);
-}
-
-/* Outputs may use a state up to its highest derivative. */
-static void check_orders(parser *in, const expr *tree) {
-    if (tree == NULL) {
-        return;
-    }
-    if (tree->op == EXPR_SYMBOL && tree->symbol != NULL) {
-        named *entry = (named *)tree->symbol;
-        if (entry->symbol.kind == SYM_STATE && tree->primes > entry->symbol.order) {
+        symbol *s = &entry->symbol;
+        const bool above = s->kind == SYM_STATE && tree->primes > s->order;
+        if (above && in == NULL) {
+            s->order = tree->primes;
+        } else if (above) {
             diag_error(in->diags, tree->at, NULL,
                        "no equation has this derivative of '%s': its highest has %d prime%s",
-                       entry->symbol.name, entry->symbol.order,
-                       entry->symbol.order == 1 ? "" : "s");
+                       s->name, s->order, s->order == 1 ? "" : "s");
         }
-        if (entry->symbol.kind == SYM_LET && entry->mark == 0) {
-            entry->mark = SEEN_IN_OUTPUT;
-            check_orders(in, entry->symbol.value);
+        if (s->kind == SYM_LET && entry->mark == 0) {
+            entry->mark = 1;
+            walk_orders(in, s->value);
         }
     }
-    check_orders(in, tree->left);
-    check_orders(in, tree->right);
+    walk_orders(in, tree->left);
+    walk_orders(in, tree->right);
 }
 
 static void finish_system(parser *in, builder *done) {
@@ -217,8 +198,8 @@ static void finish_system(parser *in, builder *done) {
         return;
     }
     for (int i = 0; i < made->term_count; i++) {
-        raise_orders(made->terms[i].value);
-        raise_orders(made->terms[i].right);
+        walk_orders(NULL, made->terms[i].value);
+        walk_orders(NULL, made->terms[i].right);
     }
     for (int i = 0; i < made->coordinate_count; i++) {
         const symbol *state = made->coordinates[i];
@@ -229,7 +210,7 @@ static void finish_system(parser *in, builder *done) {
         }
     }
     for (int i = 0; i < made->output_count; i++) {
-        check_orders(in, made->outputs[i]->value);
+        walk_orders(in, made->outputs[i]->value);
     }
 }
 
@@ -317,9 +298,7 @@ static bool read_effect(parser *in, const statement_word *word) {
     longer[into->effect_count] = made;
     into->effects = longer;
     in->effect = into->effect_count++;
-    while (in->token.kind == TOKEN_NEWLINE) {
-        parser_next(in);
-    }
+    parser_skip_newlines(in);
     if (!parser_expect_sign(in, '{', "after the effect's name")) {
         return false;
     }
@@ -352,8 +331,7 @@ static builder *begin_mechanism(parser *in, place at) {
     made->names = names_new(in->arena);
     made->made->names = made->names;
     made->force_at = arena_alloc(in->arena, COORDINATES_MAX * sizeof *made->force_at);
-    in->builders = arena_room(in->arena, in->builders, in->builder_count, sizeof *in->builders);
-    in->builders[in->builder_count++] = made;
+    in->builders = arena_push(in->arena, in->builders, &in->builder_count, &made, sizeof made);
     in->builder = made;
     in->names = made->names;
     return made;
@@ -392,9 +370,8 @@ static bool read_scene(parser *in, const statement_word *word) {
         in->lexer.stopped = true;
         return parser_fail(in, NULL, "more than %d scenes in one file", SCENES_MAX);
     }
-    in->pending = arena_room(in->arena, in->pending, in->pending_count, sizeof *in->pending);
-    in->pending[in->pending_count++] =
-        (pending_scene){in->lexer, in->token, in->statement_at, in->builder};
+    const pending_scene noted = {in->lexer, in->token, in->statement_at, in->builder};
+    in->pending = arena_push(in->arena, in->pending, &in->pending_count, &noted, sizeof noted);
     while (in->token.kind == TOKEN_NAME || in->token.kind == TOKEN_STRING ||
            in->token.kind == TOKEN_NEWLINE) {
         if (in->token.starts_line && parser_is_body_word(in)) {

@@ -18,6 +18,9 @@ statement_reader read_noise;                               /* declare.c */
 /* Begin the contact of the current statement. Add it to its mechanism or to the current scene; returns true. */
 void contact_on_system(parser *in, const contact_statement *each);
 
+/* Are statements of these effects active together whenever one of them is? -1: of no effect. */
+static inline bool always_meet(int one, int other) { return one == other || one < 0 || other < 0; }
+
 /* Read the whole text except the scenes. These are noted and read last: they may name later effects. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_inputs(parser *in, mechanism *made);                 /* derivative.c */

@@ -191,9 +191,7 @@ static bool unknown_unit(reader *in, size_t start, size_t length) {
         for (int i = 0; i < UNIT_COUNT; i++) {
             nearest_offer(&search, units[i].name);
         }
-        if (search.best != NULL) {
-            snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-        }
+        nearest_hint(&search, hint, sizeof hint);
     }
     return fail(in, start, message, hint);
 }
@@ -476,6 +474,12 @@ bool dim_power(dimension base, double exponent, dimension *power) {
     }
     *power = made;
     return true;
+}
+
+bool dim_derivative(dimension of, int primes, dimension *derivative) {
+    dimension per_time;
+    return dim_power(dim_of(0, 0, -1, 0, 0), primes, &per_time) &&
+           dim_multiply(of, per_time, derivative);
 }
 
 static void append(char *buffer, size_t size, const char *text) {

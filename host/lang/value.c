@@ -27,8 +27,6 @@ unit_scale shown_unit(const symbol *s, int primes) {
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }
 
-static char *copy_of(const char *text) { return alloc_copy(text, strlen(text)); }
-
 char *shown_si_name(const symbol *s, int primes) {
     char text[DIM_TEXT_SIZE];
     dimension dim = s->dim;
@@ -36,11 +34,11 @@ char *shown_si_name(const symbol *s, int primes) {
         s->is_angle || unit_is_angle(s->unit, strlen(s->unit)) || strcmp(s->unit, "mrad") == 0;
     if (is_angle && primes > 0) {
         snprintf(text, sizeof text, primes > 1 ? "rad/s^%d" : "rad/s", primes);
-        return copy_of(text);
+        return alloc_words("%s", text);
     }
     dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR * primes);
     dim.any = dim.any && primes == 0;
-    return copy_of(dimension_unit(dim, is_angle, text, sizeof text));
+    return alloc_words("%s", dimension_unit(dim, is_angle, text, sizeof text));
 }
 
 char *shown_unit_name(const symbol *s, int primes) {

@@ -24,7 +24,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
     for (int i = 0; i < m->contact_count; i++) {
         const contact_statement *c = &m->contacts[i];
-        if (instance_has_contact(inst, c)) {
+        if (instance_has(inst, c->effect)) {
             diag_error(errors, c->at,
                        "use whirl trust, which estimates; a proof needs a smooth scene",
                        "%s changes the equations during a run, and the proof cannot enclose when",
@@ -59,7 +59,7 @@ static int sum_of_terms(making *k, term_kind kind, int unknown) {
     int sum = graph_whole(k->graph, 0);
     for (int i = 0; i < m->term_count && sum >= 0; i++) {
         const term *t = &m->terms[i];
-        if (t->kind != kind || !instance_has_term(k->instance, t) ||
+        if (t->kind != kind || !instance_has(k->instance, t->effect) ||
             (unknown >= 0 && t->coordinate->index != unknown)) {
             continue;
         }
@@ -115,7 +115,7 @@ static bool given_outright(making *k) {
     int row = 0;
     for (int i = 0; i < m->term_count && row < k->count; i++) {
         const term *t = &m->terms[i];
-        if (t->kind != TERM_EQUATION || !instance_has_term(k->instance, t)) {
+        if (t->kind != TERM_EQUATION || !instance_has(k->instance, t->effect)) {
             continue;
         }
         const int left = read_node(&k->symbols, t->value);

@@ -44,8 +44,8 @@ static void test_noise_comes_with_its_effect(void) {
                                     "effect hum { noise angle deviation 1 [deg] }\n"
                                     "effect still { noise angle deviation 0 seed 0 }\n");
     TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
-    TEST_ASSERT_TRUE(instance_has_noise(made, &m->noises[0]));
-    TEST_ASSERT_FALSE(instance_has_noise(made, &m->noises[1]));
+    TEST_ASSERT_TRUE(instance_has(made, m->noises[0].effect));
+    TEST_ASSERT_FALSE(instance_has(made, m->noises[1].effect));
     const char *both[] = {"hum", "still"};
     refuse(-1, &(overrides){.with = both, .with_count = 2},
            "noise on 'angle' was already given in line 15");
@@ -60,13 +60,13 @@ static void test_effects_bring_their_events(void) {
     const char *wall[] = {"wall"};
     const overrides swap = {.with = rub, .with_count = 1, .without = wall, .without_count = 1};
     TEST_ASSERT_NOT_NULL(instance_of(0, NULL));
-    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[0]));
-    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[1]));
-    TEST_ASSERT_FALSE(instance_has_contact(made, &m->contacts[2]));
+    TEST_ASSERT_TRUE(instance_has(made, m->contacts[0].effect));
+    TEST_ASSERT_TRUE(instance_has(made, m->contacts[1].effect));
+    TEST_ASSERT_FALSE(instance_has(made, m->contacts[2].effect));
     TEST_ASSERT_NOT_NULL(instance_of(0, &swap));
-    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[0]));
-    TEST_ASSERT_FALSE(instance_has_contact(made, &m->contacts[1]));
-    TEST_ASSERT_TRUE(instance_has_contact(made, &m->contacts[2]));
+    TEST_ASSERT_TRUE(instance_has(made, m->contacts[0].effect));
+    TEST_ASSERT_FALSE(instance_has(made, m->contacts[1].effect));
+    TEST_ASSERT_TRUE(instance_has(made, m->contacts[2].effect));
 }
 
 /* Inputs count with their initial value: declared, the scene's, or the command line's. */

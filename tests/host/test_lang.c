@@ -136,7 +136,7 @@ static void test_the_sample(void) {
     TEST_ASSERT_FALSE(made->with[1]);
     int taking_part = 0;
     for (int i = 0; i < of->term_count; i++) {
-        taking_part += instance_has_term(made, &of->terms[i]);
+        taking_part += instance_has(made, of->terms[i].effect);
     }
     TEST_ASSERT_EQUAL_INT(3, taking_part);
 }

@@ -418,7 +418,7 @@ static int check_scene(const scene *of) {
             int wanted = kinds[kind] == CONTACT_WHEN ? of->when_count : 0;
             for (int k = 0; k < m->contact_count; k++) {
                 wanted += m->contacts[k].kind == kinds[kind] &&
-                          instance_has_contact(d.instance, &m->contacts[k]);
+                          instance_has(d.instance, m->contacts[k].effect);
             }
             const int rows = kinds[kind] == CONTACT_FRICTION && latex ? 2 : 1;
             TEST_ASSERT_EQUAL_INT_MESSAGE(rows * wanted, lines_with(text_of, begins[kind][latex]),
