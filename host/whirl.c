@@ -53,11 +53,7 @@ enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 static void print_usage(FILE *out) {
     static const char *const why[EXITS] = {
-        [EXIT_ROW_OF(EXIT_DONE)] = "",
-        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-            "a run did, or an output could not be written whole (a full disk)",
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""};
+        "", "a run did, or an output could not be written whole (a full disk)", "", ""};
     fputs("usage: whirl COMMAND ...\n"
           "\n"
           "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"

@@ -1,6 +1,6 @@
 #include "exit.h"
 
-#define ROW(name, status, meaning) [EXIT_ROW_OF(name)] = {status, meaning},
+#define ROW(name, status, meaning) {status, meaning},
 static const struct {
     int status;
     const char *meaning;

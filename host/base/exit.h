@@ -15,13 +15,12 @@
 enum { EXIT_ROWS(EXIT_VALUE) };
 #undef EXIT_VALUE
 
-#define EXIT_ROW_OF(name) name##_ROW
-#define EXIT_ROW(name, status, meaning) EXIT_ROW_OF(name),
-enum { EXIT_ROWS(EXIT_ROW) EXITS };
-#undef EXIT_ROW
+#define EXIT_ONE(name, status, meaning) +1
+enum { EXITS = 0 EXIT_ROWS(EXIT_ONE) };
+#undef EXIT_ONE
 
-/* Print the part of a help text that lists the exit statuses, one line each. why[EXIT_ROW_OF(name)] adds the meaning
- * for this command: "" adds nothing, NULL omits the line. Lines of `why` after its first begin with seven spaces. */
+/* Print the part of a help text that lists the exit statuses, one line each. why[EXITS], in the order of the rows, adds the
+ * meaning for this command: "" adds nothing, NULL omits the line. Further lines of an entry begin with seven spaces. */
 void exit_describe(FILE *out, const char *const *why);
 
 #endif

@@ -372,7 +372,7 @@ static bool read_options(int count, char **words, derive_options *o) {
                               {.word = "--folded", .flag = &o->folded},
                               {.word = NULL}};
     const target_reader reader = {.command = "derive",
-                                  .groups = options_of_derive.groups,
+                                  .usage = &options_of_derive,
                                   .table = own,
                                   .own = other,
                                   .take = take_one,

@@ -30,10 +30,7 @@ static const command_usage accel_usage = {
         "state is 0, and an input or parameter has its declared value. A scene includes its effects and\n"
         "their parameters.\n",
     .tail = "",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "an acceleration is not a finite number; the message names the expression",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = ""}};
+    .why = {"", "an acceleration is not a finite number; the message names the expression", ""}};
 
 static bool is_finite(const image *im, const double *result) {
     for (int i = 0; i < im->count; i++) {
@@ -136,8 +133,8 @@ static const command_usage check_usage = {
         "Reads each FILE and derives its mechanisms and scenes, without running anything. Errors go to\n"
         "standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
     .tail = "",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "every scene of every file can be run",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "a file has an error, or cannot be read"}};
+    .why = {"every scene of every file can be run", NULL,
+            "a file has an error, or cannot be read"}};
 
 static int derive_all(source_model *from) {
     const load_wish wish = {.use = IMAGE_TO_RUN};
@@ -220,7 +217,8 @@ typedef struct describe_options {
     bool as_json;
 } describe_options;
 
-static int describe_loaded(source_model *from, const describe_options *o) {
+static int describe_source(source_model *from, void *options) {
+    const describe_options *o = options;
     loaded made;
     const int code =
         target_load(&made, from, &o->common, (load_wish){.use = IMAGE_TO_WRITE, .conserve = true});
@@ -237,21 +235,10 @@ static int describe_loaded(source_model *from, const describe_options *o) {
 int command_describe(int count, char **words) {
     describe_options o = {.common = options_defaults()};
     const own_option own[] = {{.word = "--json", .flag = &o.as_json}, {.word = NULL}};
-    const target_reader reader = {
-        .command = "describe", .groups = usage.groups, .table = own, .derives = true};
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (target_read(&reader, count, words, &o.common, &o, &o.target) &&
-        target_is_there(o.target, &usage)) {
-        source_model from;
-        code = source_open(&from, o.target);
-        if (code == EXIT_DONE) {
-            code = describe_loaded(&from, &o);
-        }
-        source_close(&from);
-    }
-    options_forget(&o.common);
-    return code;
+    const target_reader reader = {.command = "describe",
+                                  .usage = &usage,
+                                  .table = own,
+                                  .derives = true,
+                                  .work_on = describe_source};
+    return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

@@ -32,9 +32,7 @@ static const command_usage usage = {
         "                       of each coordinate's range.\n"
         "  --board B            the board of the costs: an emulated board of docs/boards.md, or host\n"
         "                       (default: mps2-an386, a Cortex-M4F, also for an STM32F405)\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run with all effects diverged",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "wrong options, or a scene without effects"}};
+    .why = {"", "the run with all effects diverged", "wrong options, or a scene without effects"}};
 
 typedef struct effects_options {
     common_options common;
@@ -307,31 +305,25 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
     return EXIT_DONE;
 }
 
+static int effects_source(source_model *from, void *options) {
+    const effects_options *o = options;
+    const overrides changes = options_overrides(&o->common.change);
+    subsets s = {.changes = &changes};
+    int code = source_pick(from, true, &s.of, &s.in);
+    if (code == EXIT_DONE) {
+        code = effects_of(o, &s, from->errors);
+        diags_flush(from->errors, stderr);
+    }
+    subsets_close(&s);
+    return code;
+}
+
 int command_effects(int count, char **words) {
     effects_options o = {.common = options_defaults(), .board = "mps2-an386"};
     const own_option own[] = {{.word = "--error", .text = &o.error},
                               {.word = "--board", .text = &o.board},
                               {.word = NULL}};
-    const target_reader reader = {.command = "effects", .groups = usage.groups, .table = own};
-    source_model from = {0};
-    subsets s = {0};
-    int code = EXIT_BAD_INPUT;
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    if (target_read(&reader, count, words, &o.common, &o, &o.target) &&
-        target_is_there(o.target, &usage)) {
-        const overrides changes = options_overrides(&o.common.change);
-        s.changes = &changes;
-        code = source_open(&from, o.target);
-        code = code == EXIT_DONE ? source_pick(&from, true, &s.of, &s.in) : code;
-        if (code == EXIT_DONE) {
-            code = effects_of(&o, &s, from.errors);
-            diags_flush(from.errors, stderr);
-        }
-        subsets_close(&s);
-        source_close(&from);
-    }
-    options_forget(&o.common);
-    return code;
+    const target_reader reader = {
+        .command = "effects", .usage = &usage, .table = own, .work_on = effects_source};
+    return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

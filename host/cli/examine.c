@@ -303,7 +303,8 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
     return value != NULL;
 }
 
-static int examine_loaded(source_model *from, const examine_options *o) {
+static int examine_source(source_model *from, void *options) {
+    const examine_options *o = options;
     loaded made;
     int code = target_load(&made, from, &o->common,
                            (load_wish){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
@@ -334,23 +335,10 @@ int command_examine(int count, char **words) {
     static const char *const own[] = {"--as", NULL};
     examine_options o = {.common = options_defaults()};
     const target_reader reader = {.command = "examine",
-                                  .groups = usage.groups,
+                                  .usage = &usage,
                                   .own = own,
                                   .take = take_one,
-                                  .derives = true};
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (target_read(&reader, count, words, &o.common, &o, &o.target) &&
-        target_is_there(o.target, &usage)) {
-        source_model from;
-        code = source_open(&from, o.target);
-        if (code == EXIT_DONE) {
-            code = examine_loaded(&from, &o);
-        }
-        source_close(&from);
-    }
-    options_forget(&o.common);
-    return code;
+                                  .derives = true,
+                                  .work_on = examine_source};
+    return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

@@ -239,11 +239,8 @@ static const command_usage firstlight_usage = {
         "  --keep FILE          keep the record, as it was read\n"
         "  --wait S             seconds to wait for a record on a line (default: 60)\n"
         "  --baud B             the speed of the line, 9600 to 230400 (default: 115200)\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "no field differs",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "a field differs, no record came, or the row could not be written",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "wrong options, or an incomplete record",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {"no field differs", "a field differs, no record came, or the row could not be written",
+            "wrong options, or an incomplete record", ""}};
 
 /* --- the record ------------------------------------------------------------------------------------------------- */
 
@@ -365,11 +362,15 @@ static bool keep(const char *name, const light *l) {
     return out != NULL && atomic_file_close(out, name, true);
 }
 
-static int compare(const firstlight_options *o) {
+static int compare(void *options) {
+    const firstlight_options *o = options;
     static light l;
     static light_expected e;
     light_verdict found[LIGHT_FIELDS];
     char names[600];
+    if (!port_has_speed(o->baud)) {
+        return say_wrong("whirl firstlight", "--baud: no such speed", PORT_SPEEDS);
+    }
     int code = light_expect(&e);
     code = code == EXIT_DONE && o->emulated != NULL ? expect_emulated(o, &e) : code;
     if (o->board != NULL) {
@@ -410,19 +411,10 @@ int command_firstlight(int count, char **words) {
         OWN_NUMBER("--wait", o.wait_s, 0.1, 86400.0, "in seconds: --wait 60"),
         OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
         {.word = NULL}};
-    const target_reader reader = {.command = "firstlight", .table = own, .one = "record"};
-    if (options_help(count, words, &firstlight_usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (target_read(&reader, count, words, &o.common, &o, &o.source) &&
-        target_is_there(o.source, &firstlight_usage)) {
-        if (!port_has_speed(o.baud)) {
-            (void)say_wrong("whirl firstlight", "--baud: no such speed", PORT_SPEEDS);
-        } else {
-            code = compare(&o);
-        }
-    }
-    options_forget(&o.common);
-    return code;
+    const target_reader reader = {.command = "firstlight",
+                                  .usage = &firstlight_usage,
+                                  .table = own,
+                                  .one = "record",
+                                  .work = compare};
+    return target_command(&reader, count, words, &o.common, &o, &o.source);
 }

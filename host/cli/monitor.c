@@ -34,9 +34,7 @@ typedef struct monitor_options {
     bool quiet;
 } monitor_options;
 
-extern const command_usage monitor_usage;
-
-const command_usage monitor_usage = {
+static const command_usage monitor_usage = {
     .head =
         "usage: whirl monitor PORT [options]\n"
         "\n"
@@ -58,12 +56,10 @@ const command_usage monitor_usage = {
         "  --baud B             the speed of the line, 9600 to 230400 (default: 115200)\n"
         "  --strict             fail if samples were lost\n"
         "  --quiet              no summary\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "Ctrl-C, --for, or the end of a file",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "no answer, --rate refused, a file not written or not read to its end, or\n"
-                "       samples lost with --strict",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = NULL}};
+    .why = {"Ctrl-C, --for, or the end of a file",
+            "no answer, --rate refused, a file not written or not read to its end, or\n"
+            "       samples lost with --strict",
+            "", NULL}};
 
 static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
 
@@ -103,25 +99,6 @@ static bool are_possible(const monitor_options *o) {
         return false;
     }
     return are_apart(o) && (o->output[PLOT] == NULL || gnuplot_is_there());
-}
-
-/* False, reported, if the options are invalid or incomplete. The caller forgets o->common. */
-static bool monitor_options_read(int count, char **words, monitor_options *o) {
-    const own_option own[] = {
-        {.word = output_option[CSV], .text = &o->output[CSV]},
-        {.word = output_option[VCD], .text = &o->output[VCD]},
-        {.word = output_option[RING], .text = &o->output[RING]},
-        {.word = output_option[RAW], .text = &o->output[RAW]},
-        {.word = output_option[PLOT], .text = &o->output[PLOT]},
-        OWN_WHOLE("--rate", o->rate, 1.0, 100000.0, "samples a second: --rate 500"),
-        OWN_NUMBER("--for", o->for_s, 0.001, 1e9, "in seconds: --for 60"),
-        OWN_NUMBER("--baud", o->baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
-        {.word = "--strict", .flag = &o->strict},
-        {.word = "--quiet", .flag = &o->quiet},
-        {.word = NULL}};
-    const target_reader reader = {.command = "monitor", .table = own, .one = "line"};
-    return target_read(&reader, count, words, &o->common, o, &o->port) &&
-           target_is_there(o->port, &monitor_usage) && are_possible(o);
 }
 
 /* === the command ============================================================================== */
@@ -436,7 +413,14 @@ static bool was_read(const monitor *m) {
     return false;
 }
 
-static int run(monitor *m) {
+static int run(void *options) {
+    const monitor_options *o = options;
+    static monitor one;
+    monitor *m = &one;
+    if (!are_possible(o)) {
+        return EXIT_BAD_INPUT;
+    }
+    one = (monitor){.o = o, .typing = true};
     if (!open_line(m)) {
         port_say_unopened(m->o->port, "build/rig.tty is that of make rig");
         return EXIT_BAD_INPUT;
@@ -472,15 +456,19 @@ static int run(monitor *m) {
 
 int command_monitor(int count, char **words) {
     monitor_options o = {.common = options_defaults(), .rate = 500.0, .baud = 115200.0};
-    if (options_help(count, words, &monitor_usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (monitor_options_read(count, words, &o)) {
-        static monitor m;
-        m = (monitor){.o = &o, .typing = true};
-        code = run(&m);
-    }
-    options_forget(&o.common);
-    return code;
+    const own_option own[] = {
+        {.word = output_option[CSV], .text = &o.output[CSV]},
+        {.word = output_option[VCD], .text = &o.output[VCD]},
+        {.word = output_option[RING], .text = &o.output[RING]},
+        {.word = output_option[RAW], .text = &o.output[RAW]},
+        {.word = output_option[PLOT], .text = &o.output[PLOT]},
+        OWN_WHOLE("--rate", o.rate, 1.0, 100000.0, "samples a second: --rate 500"),
+        OWN_NUMBER("--for", o.for_s, 0.001, 1e9, "in seconds: --for 60"),
+        OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
+        {.word = "--strict", .flag = &o.strict},
+        {.word = "--quiet", .flag = &o.quiet},
+        {.word = NULL}};
+    const target_reader reader = {
+        .command = "monitor", .usage = &monitor_usage, .table = own, .one = "line", .work = run};
+    return target_command(&reader, count, words, &o.common, &o, &o.port);
 }

@@ -17,9 +17,8 @@ static const command_usage usage = {
         "Writes NAME.whirl: a pendulum on a cart, with a comment on every line. Change it into your own\n"
         "mechanism. Whirl never overwrites an existing file.\n",
     .tail = "",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the file cannot be written whole",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "NAME is not a valid name, or NAME.whirl exists"}};
+    .why = {"", "the file cannot be written whole",
+            "NAME is not a valid name, or NAME.whirl exists"}};
 
 /* A printf() format with the name of the mechanism, and the name of the scene in two parts. */
 static const char template[] =

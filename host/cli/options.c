@@ -84,7 +84,7 @@ void options_usage(FILE *out, const command_usage *usage) {
         name_them(out, usage->groups);
     }
     fputs(usage->tail, out);
-    if (usage->why[EXIT_ROW_OF(EXIT_DONE)] != NULL) {
+    if (usage->why[0] != NULL) {
         exit_describe(out, usage->why);
     }
 }

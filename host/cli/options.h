@@ -69,10 +69,7 @@ typedef enum option_group {
 
 /* The exit statuses of commands that draw a picture of runs. */
 #define OPTIONS_WHY_DRAWS \
-    { \
-        [EXIT_ROW_OF(EXIT_DONE)] = "", [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "a run failed", \
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "", [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "" \
-    }
+    { "", "a run failed", "", "" }
 
 /* A command's help text. */
 typedef struct command_usage {

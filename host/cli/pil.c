@@ -71,12 +71,10 @@ static const command_usage usage = {
         "  --quiet              no report: only the firmware's text, and errors\n"
         "\n"
         "Without --until the run ends with the firmware, at the latest after an hour of the plant's time.\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "the firmware ended with status 0, or --until came",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "the firmware ended with another status, died or fell silent, the plant\n"
-                "       diverged, or answers differ from the tape's",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {"the firmware ended with status 0, or --until came",
+            "the firmware ended with another status, died or fell silent, the plant\n"
+            "       diverged, or answers differ from the tape's",
+            "", ""}};
 
 typedef struct pil_options {
     common_options common;
@@ -194,35 +192,6 @@ static bool is_known_board(pil_options *o) {
     return o->board == NULL || guest_machine_of(o->board, o->machine) ||
            options_choose("pil", "board", o->board, boards, sizeof boards[0],
                           (int)(sizeof boards / sizeof boards[0])) >= 0;
-}
-
-static bool read_options(int count, char **words, pil_options *o) {
-    static const char *const other[] = {"--fault", NULL};
-    const own_option own[] = {
-        {.word = "--firmware", .text = &o->firmware},
-        {.word = "--board", .text = &o->board},
-        {.word = "--tape", .text = &o->tape},
-        {.word = "--replay", .text = &o->replay},
-        {.word = "--read", .text = &o->read},
-        {.word = "--csv", .text = &o->csv},
-        {.word = "--bind", .text = &o->bind},
-        {.word = "--place", .text = &o->place},
-        {.word = "--jitter", .text = &o->jitter},
-        {.word = "--delay", .text = &o->delay},
-        {.word = "--port", .text = &o->port},
-        {.word = "--every", .text = &o->every},
-        OWN_WHOLE("--seed", o->seed, 0.0, 4294967295.0, "a whole number: --seed 7"),
-        OWN_NUMBER("--clock", o->clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"),
-        OWN_NUMBER("--cycles", o->cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"),
-        OWN_WHOLE("--baud", o->baud, 1.0, 1e7, "a speed of serial lines: --baud 115200"),
-        OWN_NUMBER("--patience", o->patience_s, 0.01, 1e6, "in seconds: --patience 10"),
-        {.word = "--faults", .flag = &o->kinds},
-        {.word = "--quiet", .flag = &o->quiet},
-        {.word = NULL}};
-    const target_reader reader = {
-        .command = "pil", .groups = usage.groups, .table = own, .take = take_fault, .own = other};
-    return target_read(&reader, count, words, &o->common, o, &o->target) && is_known_board(o) &&
-           go_together(o);
 }
 
 /* --- the settings --------------------------------------------------------------------------------------------- */
@@ -447,30 +416,61 @@ static int replay(const pil_options *o) {
     return tell(o, &wish, NULL, &report);
 }
 
+static int pil_work(void *options) {
+    pil_options *o = options;
+    if (!is_known_board(o) || !go_together(o)) {
+        return EXIT_BAD_INPUT;
+    }
+    if (o->kinds) {
+        fault_print_kinds(stdout);
+        return EXIT_DONE;
+    }
+    if (o->read != NULL) {
+        return taped_show(o->read, o->csv) ? EXIT_DONE : EXIT_BAD_INPUT;
+    }
+    if (o->replay != NULL) {
+        return replay(o);
+    }
+    source_model from;
+    const int code = run_source(o, &from);
+    source_close(&from);
+    return code;
+}
+
 int command_pil(int count, char **words) {
     pil_options o = {.common = options_defaults(),
                      .seed = 1.0,
                      .clock_Hz = CLOCK_HZ,
                      .cycles = CYCLES,
                      .patience_s = PATIENCE_S};
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
-        if (o.kinds) {
-            fault_print_kinds(stdout);
-            code = EXIT_DONE;
-        } else if (o.read != NULL) {
-            code = taped_show(o.read, o.csv) ? EXIT_DONE : EXIT_BAD_INPUT;
-        } else if (o.replay != NULL) {
-            code = replay(&o);
-        } else {
-            source_model from;
-            code = run_source(&o, &from);
-            source_close(&from);
-        }
-    }
-    options_forget(&o.common);
-    return code;
+    static const char *const other[] = {"--fault", NULL};
+    const own_option own[] = {
+        {.word = "--firmware", .text = &o.firmware},
+        {.word = "--board", .text = &o.board},
+        {.word = "--tape", .text = &o.tape},
+        {.word = "--replay", .text = &o.replay},
+        {.word = "--read", .text = &o.read},
+        {.word = "--csv", .text = &o.csv},
+        {.word = "--bind", .text = &o.bind},
+        {.word = "--place", .text = &o.place},
+        {.word = "--jitter", .text = &o.jitter},
+        {.word = "--delay", .text = &o.delay},
+        {.word = "--port", .text = &o.port},
+        {.word = "--every", .text = &o.every},
+        OWN_WHOLE("--seed", o.seed, 0.0, 4294967295.0, "a whole number: --seed 7"),
+        OWN_NUMBER("--clock", o.clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"),
+        OWN_NUMBER("--cycles", o.cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"),
+        OWN_WHOLE("--baud", o.baud, 1.0, 1e7, "a speed of serial lines: --baud 115200"),
+        OWN_NUMBER("--patience", o.patience_s, 0.01, 1e6, "in seconds: --patience 10"),
+        {.word = "--faults", .flag = &o.kinds},
+        {.word = "--quiet", .flag = &o.quiet},
+        {.word = NULL}};
+    const target_reader reader = {.command = "pil",
+                                  .usage = &usage,
+                                  .table = own,
+                                  .take = take_fault,
+                                  .own = other,
+                                  .none = true,
+                                  .work = pil_work};
+    return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

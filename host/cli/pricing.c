@@ -54,12 +54,7 @@ pricing_options pricing_defaults(const char *command, int word_count) {
 
 static void print_help(FILE *out, const pricing_command *c) {
     const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
-    const command_usage end = {.head = "",
-                               .tail = "",
-                               .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-                                       [EXIT_ROW_OF(EXIT_RUN_FAILED)] = c->failed,
-                                       [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-                                       [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    const command_usage end = {.head = "", .tail = "", .why = {"", c->failed, "", ""}};
     fputs(c->head, out);
     for (int i = 0; i < PRICING_OPTIONS; i++) {
         if ((option_rows[i].commands & c->bit) != 0) {
@@ -86,7 +81,8 @@ static bool read_words(int count, char **words, pricing_options *o) {
                                       .is_bare = option_rows[i].value == NULL};
         }
     }
-    const target_reader reader = {.command = o->command, .groups = PRICING_GROUPS, .table = own};
+    const command_usage accepted = {.groups = PRICING_GROUPS};
+    const target_reader reader = {.command = o->command, .usage = &accepted, .table = own};
     if (!target_read(&reader, count, words, &o->common, o, &o->target)) {
         return false;
     }

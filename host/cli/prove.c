@@ -44,10 +44,9 @@ static const command_usage usage = {
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
         "                       prints the proof so far.\n"
         "  --quiet              no progress; no words if there is --csv\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "also if the proof ends before the run",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "the run diverged; the proof until then is printed",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = "the proof so far is printed"}};
+    .why = {"also if the proof ends before the run",
+            "the run diverged; the proof until then is printed", "",
+            "the proof so far is printed"}};
 
 typedef struct prove_options {
     common_options common;
@@ -59,19 +58,6 @@ typedef struct prove_options {
     double effort;
     bool quiet;
 } prove_options;
-
-static bool read_options(int count, char **words, prove_options *o) {
-    o->within = alloc(count, sizeof *o->within);
-    const own_option own[] = {{.word = "--within", .text = o->within, .count = &o->within_count},
-                              OWN_TOLERANCE(o->tolerance),
-                              OWN_EFFORT(o->effort, "1.5e11"),
-                              {.word = "--csv", .text = &o->csv},
-                              {.word = "--quiet", .flag = &o->quiet},
-                              {.word = NULL}};
-    const target_reader reader = {.command = "prove", .groups = usage.groups, .table = own};
-    return target_read(&reader, count, words, &o->common, o, &o->target) &&
-           target_is_there(o->target, &usage);
-}
 
 /* The cost of two runs, the range's and the compared one; the tube has a limit of its own. */
 static bool is_affordable(const image *im, double effort) {
@@ -229,11 +215,11 @@ static int prove_loaded(const prove_options *o, const loaded *made, const mechan
     return code;
 }
 
-static int prove_source(const prove_options *o, source_model *from) {
+static int prove_source(source_model *from, void *options) {
+    const prove_options *o = options;
     const mechanism *of;
     const scene *in;
-    int code = source_open(from, o->target);
-    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    int code = source_pick(from, true, &of, &in);
     if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
         return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
@@ -250,18 +236,19 @@ static int prove_source(const prove_options *o, source_model *from) {
 }
 
 int command_prove(int count, char **words) {
-    prove_options o = {
-        .common = options_defaults(), .tolerance = CONTAINMENT_TOLERANCE, .effort = EFFORT};
-    source_model from = {0};
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
-        code = prove_source(&o, &from);
-        source_close(&from);
-    }
-    options_forget(&o.common);
+    prove_options o = {.common = options_defaults(),
+                       .within = alloc(count, sizeof *o.within),
+                       .tolerance = CONTAINMENT_TOLERANCE,
+                       .effort = EFFORT};
+    const own_option own[] = {{.word = "--within", .text = o.within, .count = &o.within_count},
+                              OWN_TOLERANCE(o.tolerance),
+                              OWN_EFFORT(o.effort, "1.5e11"),
+                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--quiet", .flag = &o.quiet},
+                              {.word = NULL}};
+    const target_reader reader = {
+        .command = "prove", .usage = &usage, .table = own, .work_on = prove_source};
+    const int code = target_command(&reader, count, words, &o.common, &o, &o.target);
     free(o.within);
     return code;
 }

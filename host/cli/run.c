@@ -60,12 +60,10 @@ static const command_usage usage = {
         "\n"
         "Summary, records and plot use the declared units. A column whose name has no unit is SI: theta\n"
         "[deg] is in degrees, theta in radians. No output file may be the model file.\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "the run diverged, or a number was not finite (the message has time, place and\n"
-                "       remedy; records so far are kept), or a warning applies (see --strict)",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {"",
+            "the run diverged, or a number was not finite (the message has time, place and\n"
+            "       remedy; records so far are kept), or a warning applies (see --strict)",
+            "", ""}};
 
 typedef struct run_options {
     common_options common;
@@ -152,10 +150,15 @@ static bool read_options(int count, char **words, run_options *o) {
                               {.word = "--quiet", .flag = &to->quiet},
                               {.word = NULL}};
     const target_reader reader = {
-        .command = "run", .groups = usage.groups, .table = own, .take = take_drawn, .own = drawn};
+        .command = "run", .usage = &usage, .table = own, .take = take_drawn, .own = drawn};
     o->common.number = NULL;
-    if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
-        !target_is_there(o->target, &usage) || !find_board(o)) {
+    if (!target_read(&reader, count, words, &o->common, o, &o->target)) {
+        return false;
+    }
+    if (o->target == NULL) {
+        options_usage(stderr, &usage);
+    }
+    if (o->target == NULL || !find_board(o)) {
         return false;
     }
     o->number = o->common.number;

@@ -59,13 +59,10 @@ static const command_usage sweep_usage = {
         "\n",
     .groups = OPTIONS_SCENE,
     .tail = "",
-    .why = {
-        [EXIT_ROW_OF(EXIT_DONE)] = "",
-        [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
+    .why = {"",
             "a point failed (its measures are empty), a warning applies (see --strict), or the\n"
             "       file could not be written",
-        [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "wrong options, or a FILE from another sweep",
-        [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+            "wrong options, or a FILE from another sweep", ""}};
 
 static const command_usage map_usage = {
     .head =
@@ -90,16 +87,12 @@ static const command_usage map_usage = {
         "  --plot FILE.svg|.png a picture with a rectangle for each pair\n"
         "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress; no map if there is --csv or --plot\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "even if runs diverged",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] = "no pair could be run",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {"even if runs diverged", "no pair could be run", "", ""}};
 
 /* --- options -----------------------------------------------------------------------------------*/
 
 typedef struct sweep_options {
     const char *command;
-    const command_usage *usage;
     common_options common;
     const char *target;
     const char **over; /* [word count] */
@@ -197,12 +190,6 @@ static bool is_whole_map(sweep_options *o) {
         fprintf(stderr, "whirl map: error: %s\n", problem);
     }
     return problem == NULL;
-}
-
-static bool read_options(int count, char **words, sweep_options *o, const own_option *own) {
-    const target_reader reader = {.command = o->command, .groups = o->usage->groups, .table = own};
-    return target_read(&reader, count, words, &o->common, o, &o->target) &&
-           target_is_there(o->target, o->usage);
 }
 
 /* --- common beginning ----------------------------------------------------------------------------*/
@@ -475,15 +462,16 @@ static int work_on(const sweep_options *o, sweep_work *work) {
     return code;
 }
 
-static void forget(sweep_options *o) {
-    options_forget(&o->common);
-    free(o->over);
-    free(o->measure);
+static int sweep_target(void *options) {
+    return is_whole_sweep(options) ? work_on(options, sweep_scene) : EXIT_BAD_INPUT;
+}
+
+static int map_target(void *options) {
+    return is_whole_map(options) ? work_on(options, map_scene) : EXIT_BAD_INPUT;
 }
 
 int command_sweep(int count, char **words) {
     sweep_options o = {.command = "sweep",
-                       .usage = &sweep_usage,
                        .common = options_defaults(),
                        .over = alloc(count, sizeof(const char *)),
                        .measure = alloc(count, sizeof(const char *)),
@@ -500,18 +488,16 @@ int command_sweep(int count, char **words) {
                               {.word = "--strict", .strict = &o.strict},
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
-    int code = EXIT_DONE;
-    if (!options_help(count, words, &sweep_usage)) {
-        code = read_options(count, words, &o, own) && is_whole_sweep(&o) ? work_on(&o, sweep_scene)
-                                                                         : EXIT_BAD_INPUT;
-    }
-    forget(&o);
+    const target_reader reader = {
+        .command = "sweep", .usage = &sweep_usage, .table = own, .work = sweep_target};
+    const int code = target_command(&reader, count, words, &o.common, &o, &o.target);
+    free(o.over);
+    free(o.measure);
     return code;
 }
 
 int command_map(int count, char **words) {
     sweep_options o = {.command = "map",
-                       .usage = &map_usage,
                        .common = options_defaults(),
                        .over = alloc(count, sizeof(const char *)),
                        .tolerance = HORIZON_TOLERANCE,
@@ -524,11 +510,9 @@ int command_map(int count, char **words) {
                               {.word = "--json", .flag = &o.json},
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
-    int code = EXIT_DONE;
-    if (!options_help(count, words, &map_usage)) {
-        code = read_options(count, words, &o, own) && is_whole_map(&o) ? work_on(&o, map_scene)
-                                                                       : EXIT_BAD_INPUT;
-    }
-    forget(&o);
+    const target_reader reader = {
+        .command = "map", .usage = &map_usage, .table = own, .work = map_target};
+    const int code = target_command(&reader, count, words, &o.common, &o, &o.target);
+    free(o.over);
     return code;
 }

@@ -55,7 +55,7 @@ static void say_unknown(const target_reader *r, const char *word) {
     for (const own_option *o = r->table; o != NULL && o->word != NULL; o++) {
         own[all++] = o->word;
     }
-    options_unknown(r->command, word, r->groups, own);
+    options_unknown(r->command, word, r->usage->groups, own);
 }
 
 static bool take_target(const target_reader *r, const char *word, const char **target) {
@@ -82,7 +82,7 @@ bool target_read(const target_reader *r, int count, char **words, common_options
     bool bad = false;
     *target = NULL;
     for (int at = 0; at < count && !bad;) {
-        if (!options_take(r->command, r->groups, count, words, &at, common, &bad) && !bad &&
+        if (!options_take(r->command, r->usage->groups, count, words, &at, common, &bad) && !bad &&
             !take_own(r, count, words, &at, &bad) && !bad &&
             (r->take == NULL || !r->take(count, words, &at, options, &bad)) && !bad) {
             bad = !take_target(r, words[at++], target);
@@ -91,11 +91,25 @@ bool target_read(const target_reader *r, int count, char **words, common_options
     return !bad;
 }
 
-bool target_is_there(const char *target, const command_usage *usage) {
-    if (target == NULL) {
-        options_usage(stderr, usage);
+int target_command(const target_reader *r, int count, char **words, common_options *common,
+                   void *options, const char **target) {
+    int code = EXIT_BAD_INPUT;
+    if (options_help(count, words, r->usage)) {
+        code = EXIT_DONE;
+    } else if (target_read(r, count, words, common, options, target)) {
+        if (*target == NULL && !r->none) {
+            options_usage(stderr, r->usage);
+        } else if (r->work_on == NULL) {
+            code = r->work(options);
+        } else {
+            source_model from;
+            code = source_open(&from, *target);
+            code = code == EXIT_DONE ? r->work_on(&from, options) : code;
+            source_close(&from);
+        }
     }
-    return target != NULL;
+    options_forget(common);
+    return code;
 }
 
 int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish) {

@@ -38,12 +38,16 @@ enum { OWN_OPTIONS_MOST = 24 };
 
 typedef struct target_reader {
     const char *command;
-    unsigned groups;         /* the accepted groups of common options */
-    const own_option *table; /* own options, ended by one without a word; or NULL */
-    target_take *take;       /* reads own options that are not in the table; or NULL */
-    const char *const *own;  /* the words of those options, NULL at the end */
-    const char *one;         /* name of a target in the message about a second one; NULL: "scene" */
-    bool derives;            /* a target may also be a mechanism, which changes that message */
+    const command_usage *usage; /* its groups of common options are accepted */
+    const own_option *table;    /* own options, ended by one without a word; or NULL */
+    target_take *take;          /* reads own options that are not in the table; or NULL */
+    const char *const *own;     /* the words of those options, NULL at the end */
+    const char *one; /* name of a target in the message about a second one; NULL: "scene" */
+    bool derives;    /* a target may also be a mechanism, which changes that message */
+    bool none;       /* the command may have no target */
+    /* The work of target_command(), which returns an exit status: on the opened target, or (`work` alone) without it. */
+    int (*work_on)(source_model *from, void *options);
+    int (*work)(void *options);
 } target_reader;
 
 /* Take all common and own options. *target is the only other word, or NULL. False after an error, reported. */
@@ -53,7 +57,9 @@ bool target_read(const target_reader *reader, int count, char **words, common_op
 /* load() of the named scene, or of the file's only scene, with the common options. */
 int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish);
 
-/* Is there a target? Else the usage goes to standard error. */
-bool target_is_there(const char *target, const command_usage *usage);
+/* A whole command: prints the help text, or takes the words and does the work; the options are then forgotten. Returns an exit
+ * status. */
+int target_command(const target_reader *reader, int count, char **words, common_options *common,
+                   void *options, const char **target);
 
 #endif

@@ -44,11 +44,8 @@ static const command_usage usage = {
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. Whirl refuses\n"
         "                       longer work.\n"
         "  --quiet              no progress; no words if there is --csv\n",
-    .why = {[EXIT_ROW_OF(EXIT_DONE)] = "",
-            [EXIT_ROW_OF(EXIT_RUN_FAILED)] =
-                "the run diverged; the output has the time of divergence and the trusted time",
-            [EXIT_ROW_OF(EXIT_BAD_INPUT)] = "",
-            [EXIT_ROW_OF(EXIT_INTERRUPTED)] = ""}};
+    .why = {"", "the run diverged; the output has the time of divergence and the trusted time", "",
+            ""}};
 
 typedef struct trust_options {
     common_options common;
@@ -62,30 +59,6 @@ typedef struct trust_options {
 
 static bool is_standard(const trust_options *o) {
     return o->csv != NULL && strcmp(o->csv, "-") == 0;
-}
-
-static bool is_whole(const trust_options *o) {
-    if (o->json && is_standard(o)) {
-        fputs("whirl trust: error: --json and rows cannot share standard output\n"
-              "hint: --csv rows.csv\n",
-              stderr);
-        return false;
-    }
-    return true;
-}
-
-static bool read_options(int count, char **words, trust_options *o) {
-    static const char *const other[] = {"--proved", NULL};
-    const own_option own[] = {OWN_TOLERANCE(o->tolerance),
-                              OWN_EFFORT(o->effort, "1.5e11"),
-                              {.word = "--csv", .text = &o->csv},
-                              {.word = "--json", .flag = &o->json},
-                              {.word = "--quiet", .flag = &o->quiet},
-                              {.word = NULL}};
-    const target_reader reader = {
-        .command = "trust", .groups = usage.groups, .table = own, .own = other};
-    return target_read(&reader, count, words, &o->common, o, &o->target) &&
-           target_is_there(o->target, &usage) && is_whole(o);
 }
 
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
@@ -102,10 +75,6 @@ static bool can_start(const image *im, const engine_kind *kind, diags *errors) {
         start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors);
     diags_flush(errors, stderr);
     return good;
-}
-
-static bool would_be_lost(const source_model *from, const trust_options *o) {
-    return source_would_be_lost(from, "--csv", o->csv, "");
 }
 
 /* --- the answer --------------------------------------------------------------------------------------*/
@@ -209,7 +178,7 @@ static int trust_source(const trust_options *o, source_model *from) {
     const scene *in;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
-    if (code != EXIT_DONE || would_be_lost(from, o)) {
+    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
         return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
     overrides changes = options_overrides(&o->common.change);
@@ -233,6 +202,20 @@ static int trust_source(const trust_options *o, source_model *from) {
     return code;
 }
 
+static int trust_target(void *options) {
+    const trust_options *o = options;
+    if (o->json && is_standard(o)) {
+        fputs("whirl trust: error: --json and rows cannot share standard output\n"
+              "hint: --csv rows.csv\n",
+              stderr);
+        return EXIT_BAD_INPUT;
+    }
+    source_model from;
+    const int code = trust_source(o, &from);
+    source_close(&from);
+    return code;
+}
+
 /* Remove the word --proved, and return true if it was present. */
 static bool take_proved(int *count, char **words) {
     for (int i = 0; i < *count; i++) {
@@ -251,15 +234,14 @@ int command_trust(int count, char **words) {
     }
     trust_options o = {
         .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
-    source_model from = {0};
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    int code = EXIT_BAD_INPUT;
-    if (read_options(count, words, &o)) {
-        code = trust_source(&o, &from);
-        source_close(&from);
-    }
-    options_forget(&o.common);
-    return code;
+    static const char *const other[] = {"--proved", NULL};
+    const own_option own[] = {OWN_TOLERANCE(o.tolerance),
+                              OWN_EFFORT(o.effort, "1.5e11"),
+                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--json", .flag = &o.json},
+                              {.word = "--quiet", .flag = &o.quiet},
+                              {.word = NULL}};
+    const target_reader reader = {
+        .command = "trust", .usage = &usage, .table = own, .own = other, .work = trust_target};
+    return target_command(&reader, count, words, &o.common, &o, &o.target);
 }
