@@ -120,8 +120,6 @@ bool poly_is_finite(const poly *p) {
 
 /* === derivatives and substitution ============================================================= */
 
-/* --- derivatives ---------------------------------------------------------------------------------*/
-
 /* b^e: e b^(e-1) b' + b^e log(b) e' */
 static const poly *power_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
     const poly *base = x->argument[0];

@@ -14,6 +14,17 @@
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 
+/* False, reported, if a word is an option; "-" is a file. */
+static bool has_no_options(const char *command, int count, char **words) {
+    for (int i = 0; i < count; i++) {
+        if (words[i][0] == '-' && words[i][1] != '\0') {
+            options_unknown(command, words[i], 0, (const char *const[]){NULL});
+            return false;
+        }
+    }
+    return true;
+}
+
 /* === whirl accel ============================================================================== */
 /* `whirl accel`: the highest derivatives at one state, with all digits. */
 
@@ -94,11 +105,8 @@ int command_accel(int count, char **words) {
         options_usage(stderr, &accel_usage);
         return EXIT_BAD_INPUT;
     }
-    for (int i = 0; i < count; i++) {
-        if (words[i][0] == '-' && words[i][1] != '\0') {
-            options_unknown("accel", words[i], 0, (const char *const[]){NULL});
-            return EXIT_BAD_INPUT;
-        }
+    if (!has_no_options("accel", count, words)) {
+        return EXIT_BAD_INPUT;
     }
     source_model from;
     const mechanism *of;
@@ -180,11 +188,8 @@ int command_check(int count, char **words) {
     if (options_help(count, words, &check_usage)) {
         return EXIT_DONE;
     }
-    for (int i = 0; i < count; i++) {
-        if (words[i][0] == '-' && words[i][1] != '\0') {
-            options_unknown("check", words[i], 0, (const char *const[]){NULL});
-            return EXIT_BAD_INPUT;
-        }
+    if (!has_no_options("check", count, words)) {
+        return EXIT_BAD_INPUT;
     }
     if (count == 0) {
         options_usage(stderr, &check_usage);

@@ -50,9 +50,8 @@ static void say_where(FILE *out, const equations *e, int within, place at) {
 #define READABLE_TERMS 40
 
 static void print_formula(const show *s, const poly *value) {
-    if (show_size(value) > READABLE_TERMS) {
-        fprintf(s->out, s->style == SHOW_LATEX ? "\\text{%d terms}" : "(%d terms)",
-                show_size(value));
+    if (value->count > READABLE_TERMS) {
+        fprintf(s->out, s->style == SHOW_LATEX ? "\\text{%d terms}" : "(%d terms)", value->count);
     } else {
         show_poly(s, value);
     }

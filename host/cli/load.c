@@ -212,8 +212,6 @@ int find_builtin(const struct builtin_model *models, size_t count, const char *t
 
 /* === reading and deriving ===================================================================== */
 
-static char *copy_of(const char *text, size_t length) { return alloc_copy(text, length); }
-
 char *read_all(const char *path, size_t *length) {
     FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     struct stat about;
@@ -297,7 +295,7 @@ static int open_builtin(source_model *s, const char *target) {
                                   &from, &name);
     if (code == EXIT_DONE) {
         s->file = from->file;
-        s->name = copy_of(name, strlen(name));
+        s->name = alloc_copy(name, strlen(name));
     }
     return code;
 }
@@ -305,7 +303,7 @@ static int open_builtin(source_model *s, const char *target) {
 int source_open(source_model *s, const char *target) {
     *s = (source_model){.errors = diags_new()};
     const size_t length = file_part(target);
-    char *path = copy_of(target, length);
+    char *path = alloc_copy(target, length);
     const bool looks_like_file = strchr(path, '/') != NULL || strstr(path, ".whirl") != NULL;
     if (!file_exists(path) && !looks_like_file) {
         free(path);
@@ -313,8 +311,8 @@ int source_open(source_model *s, const char *target) {
     }
     s->path = path;
     s->file = strcmp(path, "-") == 0 ? "<standard input>" : path;
-    s->name = copy_of(target[length] == ':' ? target + length + 1 : "",
-                      target[length] == ':' ? strlen(target + length + 1) : 0);
+    s->name = alloc_copy(target[length] == ':' ? target + length + 1 : "",
+                         target[length] == ':' ? strlen(target + length + 1) : 0);
     size_t bytes;
     s->text = read_all(path, &bytes);
     if (s->text == NULL) {

@@ -42,11 +42,8 @@ void options_text(FILE *out, const char *text, int column, int margin, int width
     fputc('\n', out);
 }
 
-static void describe(FILE *out, const option_row *row) {
-    char methods[METHODS_TEXT_SIZE];
-    const int width =
-        fprintf(out, "  %s%s%s", row->word, row->value[0] != '\0' ? " " : "", row->value);
-    const char *text = row == &option_rows[OPTION_METHOD] ? methods_in_help(methods) : row->text;
+void options_describe(FILE *out, const char *word, const char *value, const char *text) {
+    const int width = fprintf(out, "  %s %s", word, value);
     fprintf(out, "%*s", TEXT_COLUMN - width, "");
     options_text(out, text, TEXT_COLUMN, TEXT_COLUMN, TEXT_COLUMN + OPTION_TEXT_WIDTH);
 }
@@ -73,11 +70,14 @@ static void name_them(FILE *out, unsigned groups) {
 }
 
 void options_usage(FILE *out, const command_usage *usage) {
+    char methods[METHODS_TEXT_SIZE];
     fputs(usage->head, out);
     if (usage->described) {
         for (int i = 0; i < OPTIONS; i++) {
-            if ((option_rows[i].group & usage->groups) != 0) {
-                describe(out, &option_rows[i]);
+            const option_row *row = &option_rows[i];
+            if ((row->group & usage->groups) != 0) {
+                options_describe(out, row->word, row->value,
+                                 i == OPTION_METHOD ? methods_in_help(methods) : row->text);
             }
         }
     } else if (usage->groups != 0) {

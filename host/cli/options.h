@@ -88,6 +88,9 @@ void options_usage(FILE *out, const command_usage *usage);
  * indented by `margin`. */
 void options_text(FILE *out, const char *text, int column, int margin, int width);
 
+/* A row of a help text: an option, its value ("" without one) and its description. */
+void options_describe(FILE *out, const char *word, const char *value, const char *text);
+
 /* Is --help or -h among the words? */
 bool options_wants_help(int count, char **words);
 

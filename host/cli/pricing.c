@@ -42,7 +42,6 @@ typedef struct pricing_row {
 static const pricing_row option_rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
 #undef ROW
 
-enum { TEXT_COLUMN = 23 };
 _Static_assert((int)PRICING_OPTIONS <= (int)OWN_OPTIONS_MOST, "room for all");
 
 pricing_options pricing_defaults(const char *command, int word_count) {
@@ -59,10 +58,7 @@ static void print_help(FILE *out, const pricing_command *c) {
     for (int i = 0; i < PRICING_OPTIONS; i++) {
         if ((option_rows[i].commands & c->bit) != 0) {
             const char *value = option_rows[i].value != NULL ? option_rows[i].value : "";
-            const int width = fprintf(out, "  %s %s", option_rows[i].word, value);
-            fprintf(out, "%*s", TEXT_COLUMN - width, "");
-            options_text(out, option_rows[i].text, TEXT_COLUMN, TEXT_COLUMN,
-                         TEXT_COLUMN + OPTION_TEXT_WIDTH);
+            options_describe(out, option_rows[i].word, value, option_rows[i].text);
         }
     }
     fputc('\n', out);

@@ -190,19 +190,6 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
     return p;
 }
 
-static double own_value(const instance *own, const axis *a) {
-    switch (a->symbol->kind) {
-    case SYM_PARAMETER: return own->parameter[a->symbol->index];
-    case SYM_INPUT: return own->input[a->symbol->index];
-    case SYM_COORDINATE:
-    case SYM_STATE: return own->start[a->symbol->index][a->primes];
-    case SYM_LET:
-    case SYM_OUTPUT:
-    case SYM_RECORD: break; /* no axis */
-    }
-    return 0.0;
-}
-
 void pricing_scene_add_own(pricing_scene *p, const instance *own) {
     const grid *g = p->grid;
     double *value = alloc(g->count, sizeof *value);
@@ -211,7 +198,8 @@ void pricing_scene_add_own(pricing_scene *p, const instance *own) {
         grid_values(g, (uint64_t)point, value);
         among = true;
         for (int i = 0; i < g->count; i++) {
-            among = among && value[i] == own_value(own, &g->axes[i]);
+            const axis *a = &g->axes[i];
+            among = among && value[i] == instance_value(own, a->symbol, a->primes);
         }
     }
     free(value);

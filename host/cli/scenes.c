@@ -102,6 +102,22 @@ static FILE *scenes_open(const char *folder, const char *name, const char *endin
     return out;
 }
 
+/* Writes a scene's C or header; the plan is NULL except for fixed point. False: reported. */
+static bool write_code(const char *folder, const image *im, const fixed_plan *plan,
+                       const char *file, bool header) {
+    FILE *out = scenes_open(folder, im->name, header ? ".h" : ".c");
+    if (out == NULL) {
+        return false;
+    }
+    if (plan != NULL) {
+        (header ? c_fixed_header : c_fixed)(out, plan, file);
+    } else {
+        (header ? emit_c_header : emit_c)(out, im, file);
+    }
+    (void)atomic_file_close(out, folder, true);
+    return true;
+}
+
 typedef struct emission {
     const char *folder;
     FILE *declarations;
@@ -158,18 +174,10 @@ static int emit_image(void *context, const char *file, const image *im) {
             return code;
         }
     }
-    FILE *out = scenes_open(to->folder, im->name, ".c");
-    if (out == NULL) {
+    if (!write_code(to->folder, im, NULL, file, false) ||
+        !write_code(to->folder, im, NULL, file, true)) {
         return EXIT_RUN_FAILED;
     }
-    emit_c(out, im, file);
-    (void)atomic_file_close(out, to->folder, true);
-    out = scenes_open(to->folder, im->name, ".h");
-    if (out == NULL) {
-        return EXIT_RUN_FAILED;
-    }
-    emit_c_header(out, im, file);
-    (void)atomic_file_close(out, to->folder, true);
     fprintf(to->declarations, "extern const wh_scene %s;\n", im->name);
     fprintf(to->index, "    &%s,\n", im->name);
     return EXIT_DONE;
@@ -264,25 +272,10 @@ static bool has_new_word(settings_emission *to, const setting *s) {
     return has;
 }
 
-/* Writes a scene's C or header; the plan is NULL except for fixed point. False: reported. */
-static bool write_code(const settings_emission *to, const image *im, const fixed_plan *plan,
-                       const char *file, bool header) {
-    FILE *out = scenes_open(to->folder, im->name, header ? ".h" : ".c");
-    if (out == NULL) {
-        return false;
-    }
-    if (plan != NULL) {
-        (header ? c_fixed_header : c_fixed)(out, plan, file);
-    } else {
-        (header ? emit_c_header : emit_c)(out, im, file);
-    }
-    (void)atomic_file_close(out, to->folder, true);
-    return true;
-}
-
 static bool write_both(const settings_emission *to, const image *im, const fixed_plan *plan,
                        const char *file) {
-    return write_code(to, im, plan, file, false) && write_code(to, im, plan, file, true);
+    return write_code(to->folder, im, plan, file, false) &&
+           write_code(to->folder, im, plan, file, true);
 }
 
 /* The same in fixed point, if the scene has such a step. Few settings have one, so all are written. */

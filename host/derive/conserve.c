@@ -92,18 +92,7 @@ static bool influence_of(const equations *e, const symbol *q) {
 /* --- the start -----------------------------------------------------------------------------------*/
 
 static double start_value(void *context, const symbol *s, int primes) {
-    const instance *inst = context;
-    switch (s->kind) {
-    case SYM_PARAMETER: return inst->parameter[s->index];
-    case SYM_INPUT: return inst->input[s->index];
-    case SYM_COORDINATE:
-    case SYM_STATE:
-        return primes < inst->start_count[s->index] ? inst->start[s->index][primes] : 0.0;
-    case SYM_LET: /* expressions: not in polys */
-    case SYM_OUTPUT:
-    case SYM_RECORD: break;
-    }
-    return (double)NAN;
+    return instance_value(context, s, primes);
 }
 
 static double at_start(const equations *e, const poly *p) {

@@ -33,6 +33,10 @@ static int enter(maker *k, diagnostics_node node) {
     return b->nodes++;
 }
 
+static int enter_op(maker *k, diagnostics_code code, function_id function, int a, int b) {
+    return enter(k, (diagnostics_node){.code = code, .function = function, .a = a, .b = b});
+}
+
 static int enter_number(maker *k, double value) {
     return enter(k, (diagnostics_node){.code = DIAGNOSTICS_NUMBER, .number = value});
 }
@@ -90,8 +94,7 @@ static int of_expr(maker *k, const expr *tree) {
     } else {
         const int a = of_expr(k, tree->left);
         const int b = tree->right != NULL ? of_expr(k, tree->right) : -1;
-        node = enter(k, (diagnostics_node){
-                            .code = codes[tree->op], .function = tree->function, .a = a, .b = b});
+        node = enter_op(k, codes[tree->op], tree->function, a, b);
     }
     k->made->blame.node[node].at = image_place(k->draft, tree->at);
     return node;
@@ -140,21 +143,11 @@ static int of_atom(maker *k, const atom *x) {
     const int b = x->argument[1] != NULL ? of_poly(k, x->argument[1]) : -1;
     switch (x->kind) {
     case ATOM_GROUP: return remember(k, x, a);
-    case ATOM_POWER:
-        return remember(k, x,
-                        enter(k, (diagnostics_node){.code = DIAGNOSTICS_POW, .a = a, .b = b}));
-    case ATOM_CALL:
-        return remember(
-            k, x,
-            enter(k, (diagnostics_node){
-                         .code = DIAGNOSTICS_CALL, .function = x->function, .a = a, .b = b}));
+    case ATOM_POWER: return remember(k, x, enter_op(k, DIAGNOSTICS_POW, 0, a, b));
+    case ATOM_CALL: return remember(k, x, enter_op(k, DIAGNOSTICS_CALL, x->function, a, b));
     case ATOM_SYMBOL: break; /* above */
     }
     return a;
-}
-
-static int times(maker *k, int a, int b) {
-    return enter(k, (diagnostics_node){.code = DIAGNOSTICS_MUL, .a = a, .b = b});
 }
 
 static int of_term(maker *k, const poly_term *t) {
@@ -164,17 +157,15 @@ static int of_term(maker *k, const poly_term *t) {
         int power = of_atom(k, m->factors[i].atom);
         if (m->factors[i].exponent != 1.0) {
             const int exponent = enter_number(k, m->factors[i].exponent);
-            power =
-                enter(k, (diagnostics_node){.code = DIAGNOSTICS_POW, .a = power, .b = exponent});
+            power = enter_op(k, DIAGNOSTICS_POW, 0, power, exponent);
         }
-        node = times(k, node, power);
+        node = enter_op(k, DIAGNOSTICS_MUL, 0, node, power);
     }
     if (m->trig != TRIG_NONE) {
         const int angle = of_poly(k, m->angle);
         const function_id wave = m->trig == TRIG_SIN ? FN_SIN : FN_COS;
-        const int value = enter(
-            k, (diagnostics_node){.code = DIAGNOSTICS_CALL, .function = wave, .a = angle, .b = -1});
-        node = times(k, node, value);
+        node =
+            enter_op(k, DIAGNOSTICS_MUL, 0, node, enter_op(k, DIAGNOSTICS_CALL, wave, angle, -1));
     }
     return node;
 }
@@ -187,7 +178,7 @@ static int of_poly(maker *k, const poly *p) {
     int node = p->count == 0 ? enter_number(k, 0.0) : of_term(k, &p->terms[0]);
     for (int i = 1; i < p->count; i++) {
         const int more = of_term(k, &p->terms[i]);
-        node = enter(k, (diagnostics_node){.code = DIAGNOSTICS_ADD, .a = node, .b = more});
+        node = enter_op(k, DIAGNOSTICS_ADD, 0, node, more);
     }
     return remember(k, p, node);
 }

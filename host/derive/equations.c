@@ -300,11 +300,8 @@ typedef struct trial_state {
 /* Numbers between 0.2 and 1.8, rates with either sign: fractional parts of multiples of an irrational root. */
 static double trial_value(void *context, const symbol *s, int primes) {
     const trial_state *state = context;
-    if (s->kind == SYM_PARAMETER) {
-        return state->instance->parameter[s->index];
-    }
-    if (s->kind == SYM_INPUT) {
-        return state->instance->input[s->index];
+    if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT) {
+        return instance_value(state->instance, s, primes);
     }
     const double turns = 0.6180339887498949 * (double)(state->number + 1U) +
                          0.4142135623730950 * (double)(s->index + 1) * (double)(primes + 1);

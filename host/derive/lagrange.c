@@ -27,15 +27,18 @@ static double scale_for(double x) {
     return number_scaled(1.0, -(exponent / 2));
 }
 
-static void scale_row(double *m, int n, int i, double by) {
-    for (int j = 0; j < n; j++) {
-        m[i * n + j] *= by;
-    }
-}
+/* A row or a column: n entries from `first` on, `stride` apart. */
+typedef struct line {
+    int first;
+    int stride;
+} line;
 
-static void scale_column(double *m, int n, int j, double by) {
-    for (int i = 0; i < n; i++) {
-        m[i * n + j] *= by;
+static line row_of(int n, int i) { return (line){i * n, 1}; }
+static line column_of(int n, int i) { return (line){i, n}; }
+
+static void scale_line(double *m, int n, line of, double by) {
+    for (int k = 0; k < n; k++) {
+        m[of.first + k * of.stride] *= by;
     }
 }
 
@@ -48,18 +51,10 @@ static bool has_positive_diagonal(const double *m, int n) {
     return true;
 }
 
-static double largest_of_row(const double *m, int n, int i) {
+static double largest_of(const double *m, int n, line of) {
     double largest = 0.0;
-    for (int j = 0; j < n; j++) {
-        largest = number_most(largest, fabs(m[i * n + j]));
-    }
-    return largest;
-}
-
-static double largest_of_column(const double *m, int n, int j) {
-    double largest = 0.0;
-    for (int i = 0; i < n; i++) {
-        largest = number_most(largest, fabs(m[i * n + j]));
+    for (int k = 0; k < n; k++) {
+        largest = number_most(largest, fabs(m[of.first + k * of.stride]));
     }
     return largest;
 }
@@ -69,12 +64,10 @@ static double largest_of_column(const double *m, int n, int j) {
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
-            const double by =
-                scale_for(pass % 2 == 0 ? largest_of_row(m, n, i) : largest_of_column(m, n, i));
-            void (*const scale)(double *, int, int, double) =
-                pass % 2 == 0 ? scale_row : scale_column;
-            scale(m, n, i, by);
-            scale(error, n, i, by);
+            const line of = pass % 2 == 0 ? row_of(n, i) : column_of(n, i);
+            const double by = scale_for(largest_of(m, n, of));
+            scale_line(m, n, of, by);
+            scale_line(error, n, of, by);
         }
     }
 }
@@ -82,10 +75,10 @@ static void scale_general(double *m, double *error, int n) {
 static void scale_symmetric(double *m, double *error, int n) {
     for (int i = 0; i < n; i++) {
         const double by = scale_for(m[i * n + i]);
-        scale_row(m, n, i, by);
-        scale_column(m, n, i, by);
-        scale_row(error, n, i, by);
-        scale_column(error, n, i, by);
+        scale_line(m, n, row_of(n, i), by);
+        scale_line(m, n, column_of(n, i), by);
+        scale_line(error, n, row_of(n, i), by);
+        scale_line(error, n, column_of(n, i), by);
     }
 }
 
@@ -131,15 +124,8 @@ typedef struct generic_state {
 /* A symbol has the same number throughout one try: a hash of the symbol's place. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
-    if (s->kind == SYM_PARAMETER) {
-        return state->instance->parameter[s->index];
-    }
-    if (s->kind == SYM_INPUT) {
-        return state->instance->input[s->index];
-    }
-    if (state->seed == TRY_START) {
-        const int i = s->index;
-        return primes < state->instance->start_count[i] ? state->instance->start[i][primes] : 0.0;
+    if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
+        return instance_value(state->instance, s, primes);
     }
     uint64_t x = state->seed * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)s->index * 8191U +
                  (uint64_t)primes * 131071U;
@@ -285,11 +271,7 @@ static void report_singular(const equations *e, diags *errors) {
         return;
     }
     for (int i = 0; i < n; i++) {
-        bool empty = true;
-        for (int j = 0; j < n; j++) {
-            empty = empty && poly_is_zero(e->mass[i * n + j]);
-        }
-        if (empty) {
+        if (row_is_empty(e, i)) {
             const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
             if (giver != NULL) {
                 snprintf(

@@ -507,8 +507,6 @@ static bool exponential_exact(twofold *step, int states, int columns) {
 
 /* === the matrix of a step ===================================================================== */
 
-/* --- scenes without a matrix ----------------------------------------------------------------------- */
-
 static bool is_possible(const image *im, diags *errors) {
     static const char hint[] = "leave out --matrix";
     if (im->contacts > 0) {

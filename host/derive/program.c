@@ -20,11 +20,6 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* p, folded, and without conserved coordinates. */
-static const poly *ready(const equations *e, const conservation *c, const poly *p) {
-    return conservation_settle(e, c, equations_fold(e, p));
-}
-
 /* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their number. */
 static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
     const contact_laws *laws = e->contacts;
@@ -38,7 +33,7 @@ static int contact_lists_polys(const equations *e, const conservation *c, const 
                                : i < 5 + sets ? laws->sets[k].value[i - 5]
                                               : law->row[i - 5 - sets];
             if (p != NULL) {
-                p[count] = ready(e, c, each);
+                p[count] = conservation_settle(e, c, equations_fold(e, each));
             }
             count++;
         }
@@ -46,21 +41,26 @@ static int contact_lists_polys(const equations *e, const conservation *c, const 
     return count;
 }
 
-/* A list that computes `wanted` [count]. */
-static op_list *enter(layout *map, const poly *const *wanted, int count) {
+/* A list that computes `wanted` [count], which is ready. */
+static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     op_list *t = op_list_new(map->angles, count);
     lowering l = layout_lowering(map, t);
+    lower_plan(&l, wanted, count);
+    for (int i = 0; i < count; i++) {
+        t->result[i] = lower(&l, wanted[i]);
+    }
+    lower_done(&l);
+    op_list_prune(t);
+    return t;
+}
+
+static op_list *enter(layout *map, const poly *const *wanted, int count) {
     const poly **p = alloc(count, sizeof(const poly *));
     for (int i = 0; i < count; i++) {
         p[i] = layout_ready(map, wanted[i]);
     }
-    lower_plan(&l, p, count);
-    for (int i = 0; i < count; i++) {
-        t->result[i] = lower(&l, p[i]);
-    }
-    lower_done(&l);
+    op_list *t = enter_ready(map, p, count);
     free(p);
-    op_list_prune(t);
     return t;
 }
 
@@ -377,18 +377,6 @@ static void find_inputs(ledger_lists *l, const layout *map) {
     }
 }
 
-static op_list *enter_ledger(layout *map, const poly *const *wanted, int count) {
-    op_list *t = op_list_new(map->angles, count);
-    lowering l = layout_lowering(map, t);
-    lower_plan(&l, wanted, count);
-    for (int i = 0; i < count; i++) {
-        t->result[i] = lower(&l, wanted[i]);
-    }
-    lower_done(&l);
-    op_list_prune(t);
-    return t;
-}
-
 static op_list *make_levels(const ledger_lists *l, const poly *integral, layout *map) {
     const equations *e = map->equations;
     const poly **wanted = alloc(l->accounts, sizeof(const poly *));
@@ -397,7 +385,7 @@ static op_list *make_levels(const ledger_lists *l, const poly *integral, layout 
     for (int account = 1; account < l->accounts; account++) {
         wanted[account] = layout_ready(map, e->momentum[l->unknown[account]]);
     }
-    op_list *t = enter_ledger(map, wanted, l->accounts);
+    op_list *t = enter_ready(map, wanted, l->accounts);
     free(wanted);
     return t;
 }
@@ -437,7 +425,7 @@ static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int co
     l->entries += l->inputs;
     const bool good = l->entries <= WH_LEDGER_MAX;
     if (good) {
-        l->powers = enter_ledger(map, power, l->smooth);
+        l->powers = enter_ready(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
         /* the equations have such an angle only inside sines with whole factors, but a power has it elsewhere */
         l->turned = op_list_reads_turns(l->powers);
@@ -534,8 +522,6 @@ static bool stabilizing_conserves(const ledger_lists *books, const equations *e,
 }
 
 /* === the lists of an instance ================================================================= */
-
-/* --- the lists -----------------------------------------------------------------------------------*/
 
 /* The derivative of a component of a first-order scene. */
 static int slope_of(layout *map, lowering *l, component of, const int *highest) {

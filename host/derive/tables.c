@@ -261,9 +261,9 @@ typedef struct collecting {
     refusal *why;
 } collecting;
 
-static void refuse_product(collecting *c, const char *reason, const char *hint) {
-    if (c->why->reason == NULL) {
-        *c->why = (refusal){reason, hint, -1};
+static void refuse(refusal *why, const char *reason, const char *hint, int angle) {
+    if (why->reason == NULL) {
+        *why = (refusal){reason, hint, angle};
     }
 }
 
@@ -307,8 +307,8 @@ static void enter(collecting *c, product_sum *sum, const unsigned char *power, i
         return;
     }
     if (sum->count == PRODUCTS_MOST) {
-        refuse_product(c, "are sums of too many products of rates, inputs and reals",
-                       "leave --tables out: as they stand they take fewer operations");
+        refuse(c->why, "are sums of too many products of rates, inputs and reals",
+               "leave --tables out: as they stand they take fewer operations", -1);
         return;
     }
     sum->product = arena_room(p->memory, sum->product, sum->count, sizeof *sum->product);
@@ -365,8 +365,8 @@ static product_sum multiplied(collecting *c, product_sum x, product_sum y) {
                 const int both = x.product[i].power[s] + y.product[k].power[s];
                 power[s] = (unsigned char)both;
                 if (both > 64) {
-                    refuse_product(c, "take a rate, an input or a real to more than its 64th power",
-                                   NULL);
+                    refuse(c->why, "take a rate, an input or a real to more than its 64th power",
+                           NULL, -1);
                 }
             }
             enter(c, &sum, power,
@@ -380,8 +380,8 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     product_sum sum = {NULL, 0};
     int by;
     if (!is_of_angles(c, y, &by)) {
-        refuse_product(c, "are divided by what depends on a rate, an input or a real",
-                       "tables take what is divided by the one turn angle's functions only");
+        refuse(c->why, "are divided by what depends on a rate, an input or a real",
+               "tables take what is divided by the one turn angle's functions only", -1);
         return sum;
     }
     for (int i = 0; i < x.count; i++) {
@@ -398,15 +398,14 @@ static product_sum function_of(collecting *c, const op *o) {
     int b = -1;
     if (!is_of_angles(c, c->sum[o->a], &a) ||
         (op_rows[o->code].values > 1 && o->b >= 0 && !is_of_angles(c, c->sum[o->b], &b))) {
-        refuse_product(
-            c, "hold a function (a root, a size, a sign, ...) of a rate, an input or a real",
-            "tables take products of these, no functions of them");
+        refuse(c->why,
+               "hold a function (a root, a size, a sign, ...) of a rate, an input or a real",
+               "tables take products of these, no functions of them", -1);
         return (product_sum){NULL, 0};
     }
     if (o->code == OP_ABS || o->code == OP_SIGN || o->code == OP_MIN || o->code == OP_MAX) {
-        refuse_product(
-            c, "have a bend or a jump at some angle (a size, a sign, a least or a largest)",
-            "between the entries of a table it would be smoothed out: leave --tables out");
+        refuse(c->why, "have a bend or a jump at some angle (a size, a sign, a least or a largest)",
+               "between the entries of a table it would be smoothed out: leave --tables out", -1);
         return (product_sum){NULL, 0};
     }
     return of_angles(c, o->code == OP_CALL  ? op_list_call(t, o->function, a, b)
@@ -419,9 +418,9 @@ static product_sum wave_of(collecting *c, const op *o) {
     const op *phase = &c->list->ops[o->a];
     double *multiple = NULL;
     if (phase->b >= 0 || phase->parts != NULL) {
-        refuse_product(
-            c, "hold a sine or cosine of what is no turn angle",
-            "an angle that stands outside sines, too, is kept in radians: leave --tables out");
+        refuse(c->why, "hold a sine or cosine of what is no turn angle",
+               "an angle that stands outside sines, too, is kept in radians: leave --tables out",
+               -1);
         return (product_sum){NULL, 0};
     }
     if (phase->turns != NULL) {
@@ -534,12 +533,6 @@ int tables_cells(image_tables form) {
     return form == TABLES_CUBIC ? TABLES_CELLS_CUBIC : TABLES_CELLS_LINEAR;
 }
 
-static void refuse(tabling *t, const char *reason, const char *hint, int angle) {
-    if (t->why->reason == NULL) {
-        *t->why = (refusal){reason, hint, angle};
-    }
-}
-
 /* --- which phase is looked up ------------------------------------------------------------------------*/
 
 static int divisor_of(int a, int b) {
@@ -593,14 +586,15 @@ static void find_phase(tabling *t) {
             memcpy(t->turns, turns, (size_t)c->angles * sizeof *turns);
             found = true;
         } else if (!shares(t->turns, turns, c->angles)) {
-            refuse(t, "depend on the sines of more than one turn angle",
+            refuse(t->why, "depend on the sines of more than one turn angle",
                    "a table is looked up by one angle, or by one sum of them: leave --tables out",
                    angle_of_other(t->turns, turns, c->angles));
         }
     }
     const int k = leading(t->turns, c->angles);
     if (!found) {
-        refuse(t, "depend on no turn angle: there is nothing to look up", "leave --tables out", -1);
+        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave --tables out",
+               -1);
         return;
     }
     for (int i = 0; i < c->count; i++) {
@@ -643,7 +637,8 @@ static void try_angles(tabling *t) {
         }
     }
     if (!finite) {
-        refuse(t, "have no value or no slope at some angle (a division by zero, a root of nothing)",
+        refuse(t->why,
+               "have no value or no slope at some angle (a division by zero, a root of nothing)",
                "a table holds finite numbers: leave --tables out", -1);
     }
     free(value);
@@ -877,7 +872,8 @@ static op_list *make(tabling *t, const op_list *list, image_tables form, int bit
     }
     sort_out(t);
     if (t->tables == 0) {
-        refuse(t, "depend on no turn angle: there is nothing to look up", "leave --tables out", -1);
+        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave --tables out",
+               -1);
         return NULL;
     }
     op_list *made = cheaper(t, list, form, bits);

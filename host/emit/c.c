@@ -230,6 +230,16 @@ static void c_contacts_include(FILE *out, const image *im) {
 static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
 #undef KIND_TEXT
 
+/* A table of small numbers, if there are any. */
+static void write_bytes(FILE *out, const char *name, const int *number, int count) {
+    for (int i = 0; i < count; i++) {
+        if (i == 0) {
+            fprintf(out, "static const uint8_t %s[%d] = {", name, count);
+        }
+        fprintf(out, "%s%d%s", i > 0 ? ", " : "", number[i], i + 1 < count ? "" : "};\n");
+    }
+}
+
 static void write_table(FILE *out, const image *im) {
     fprintf(out, "static const wh_contact contact_table[%d] = {", im->contacts);
     for (int k = 0; k < im->contacts; k++) {
@@ -238,13 +248,7 @@ static void write_table(FILE *out, const image *im) {
                 row.direction, row.pin, row.first_set, row.sets);
     }
     fprintf(out, "};\n");
-    if (im->set_count > 0) {
-        fprintf(out, "static const uint8_t contact_target[%d] = {", im->set_count);
-        for (int i = 0; i < im->set_count; i++) {
-            fprintf(out, "%s%d", i > 0 ? ", " : "", im->target[i]);
-        }
-        fprintf(out, "};\n");
-    }
+    write_bytes(out, "contact_target", im->target, im->set_count);
 }
 
 /* The lists, the table and advance(). */
@@ -341,13 +345,7 @@ static void c_ledger_write(FILE *out, const image *im) {
         }
         fprintf(out, "};\n");
     }
-    if (l->inputs > 0) {
-        fprintf(out, "static const uint8_t ledger_inputs[%d] = {", l->inputs);
-        for (int i = 0; i < l->inputs; i++) {
-            fprintf(out, "%s%d", i > 0 ? ", " : "", l->input[i]);
-        }
-        fprintf(out, "};\n");
-    }
+    write_bytes(out, "ledger_inputs", l->input, l->inputs);
     fprintf(out,
             "static const wh_ledger_form ledger = {\n    .%s = ledger_powers,\n"
             "    .levels = ledger_levels,\n    .account = %s,\n    .smooth = %d,\n"

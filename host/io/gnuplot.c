@@ -12,14 +12,10 @@ static const char *ending_of(const char *file) {
     return dot == NULL ? "" : dot + 1;
 }
 
-/* True when the file ends in .svg, .png or .pdf. */
-static bool gnuplot_can_draw(const char *file) {
-    const char *ending = ending_of(file);
-    return strcmp(ending, "svg") == 0 || strcmp(ending, "png") == 0 || strcmp(ending, "pdf") == 0;
-}
-
 bool gnuplot_can_draw_for(const char *command, const char *option, const char *file) {
-    const bool can = gnuplot_can_draw(file);
+    const char *ending = ending_of(file);
+    const bool can =
+        strcmp(ending, "svg") == 0 || strcmp(ending, "png") == 0 || strcmp(ending, "pdf") == 0;
     if (!can) {
         fprintf(stderr,
                 "whirl %s: error: %s draws .svg, .pdf and .png files, not '%s'\n"

@@ -11,6 +11,19 @@
 
 bool instance_has(const instance *of, int within) { return within < 0 || of->with[within]; }
 
+double instance_value(const instance *of, const symbol *s, int primes) {
+    switch (s->kind) {
+    case SYM_PARAMETER: return of->parameter[s->index];
+    case SYM_INPUT: return of->input[s->index];
+    case SYM_COORDINATE:
+    case SYM_STATE: return primes < of->start_count[s->index] ? of->start[s->index][primes] : 0.0;
+    case SYM_LET: /* expressions */
+    case SYM_OUTPUT:
+    case SYM_RECORD: break;
+    }
+    return (double)NAN;
+}
+
 const effect *instance_lacks(const instance *of, const symbol *what) {
     return instance_has(of, what->effect) ? NULL : &of->mechanism->effects[what->effect];
 }

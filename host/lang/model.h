@@ -292,6 +292,9 @@ typedef struct instance {
 /* Is a statement of this effect active? One of the mechanism itself (-1) always is. */
 bool instance_has(const instance *of, int within);
 
+/* The value of a parameter or an input, or the start of a coordinate or a derivative of it, SI; NAN for other symbols. */
+double instance_value(const instance *of, const symbol *s, int primes);
+
 /* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to
  * no effect. */
 const effect *instance_lacks(const instance *instance, const symbol *what);

@@ -1,10 +1,6 @@
 /* functions.c: the language's functions in double. The core's double build computes the rounded ones. */
 #include "host/number/functions.h"
 
-/* === zero ===================================================================================== */
-
-/* === functions ================================================================================ */
-
 #define WH_DOUBLE 1
 
 #include <string.h>

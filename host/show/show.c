@@ -92,8 +92,6 @@ static const symbol *show_let_factor(const show *s, const atom *x, double expone
 
 /* === polys ==================================================================================== */
 
-/* --- names and numbers ---------------------------------------------------------------------------*/
-
 static bool is_greek(const char *name, size_t length) {
     static const char *const greek[] = {
         "alpha",  "beta",  "gamma", "delta", "epsilon", "zeta",  "eta",   "theta", "iota", "kappa",
@@ -448,8 +446,6 @@ show show_start(FILE *out, show_style style, algebra *a) {
     return (show){.out = out, .style = style, .algebra = a};
 }
 
-/* --- sums ----------------------------------------------------------------------------------------*/
-
 static void show_sign(const show *s, bool negative, bool first) {
     if (first) {
         fputs(negative ? "-" : "", s->out);
@@ -739,13 +735,13 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     if (turning.angle == NULL && show_let(s, inside, true, &rest, &ratio) != NULL) {
         show_grouped(s, inside);
     } else {
-        fputs(latex ? "\\left(" : "(", s->out);
+        show_open(s);
         if (turning.angle == NULL && has_symbols_only(inside)) {
             show_parted(s, inside, true);
         } else {
             show_sum(s, inside, turning, true);
         }
-        fputs(latex ? "\\right)" : ")", s->out);
+        show_close(s);
     }
     show_behind(s, key);
     const int below = latex ? 0 : show_count_below(&front) + (bottom != 1.0);
@@ -800,8 +796,6 @@ static int collect(algebra *a, const poly *p, collected *groups) {
     }
     return count;
 }
-
-int show_size(const poly *p) { return p->count; }
 
 void show_poly(const show *s, const poly *p) {
     algebra *a = s->algebra;

@@ -45,9 +45,6 @@ void show_symbol(const show *s, const symbol *sym, int primes);
  * earlier, the terms are printed as they are. */
 void show_poly(const show *s, const poly *p);
 
-/* Number of terms of show_poly() before factoring: a measure of readability. */
-int show_size(const poly *p);
-
 /* The product of the atoms common to all terms of p, each in its lowest power. */
 const poly *show_common(algebra *a, const poly *p);
 

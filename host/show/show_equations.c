@@ -432,8 +432,6 @@ static void show_contacts(const show *s, const equations *e) {
     fputs("\n\\end{align*}\n", s->out);
 }
 
-/* === the equations ============================================================================ */
-
 /* === the derivation, step by step ============================================================= */
 /* Lagrange's equations step by step, one coordinate after another, as in a derivation by hand. */
 
@@ -461,18 +459,19 @@ static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
     return sum;
 }
 
-/* "  dL/dx' = FORMULA". */
-static void write_slope(const show *s, const char *before, const char *of, const symbol *by,
-                        int primes, const char *behind, const poly *value) {
-    const bool latex = s->style == SHOW_LATEX;
+/* A row: the words around a symbol, then a formula. `end` follows the row. */
+static void write_row(const show *s, const char *before, const symbol *of, int primes,
+                      const char *behind, const poly *value, const char *end) {
     show_row row;
     const show *to = show_row_begin(&row, s);
-    fprintf(to->out, latex ? "  %s\\frac{\\partial %s}{\\partial " : "  %sd%s/d", before, of);
-    show_symbol(to, by, primes);
-    fprintf(to->out, latex ? "}%s &= " : "%s = ", behind);
+    fputs(before, to->out);
+    if (of != NULL) {
+        show_symbol(to, of, primes);
+    }
+    fputs(behind, to->out);
     show_poly(to, value);
     show_row_end(&row);
-    fputs(latex ? " \\\\\n" : "\n", s->out);
+    fputs(end, s->out);
 }
 
 static void write_coordinate(const show *s, const equations *e, int i) {
@@ -486,22 +485,19 @@ static void write_coordinate(const show *s, const equations *e, int i) {
     fputs(latex ? "% " : "\n", s->out);
     fprintf(s->out, "%s\n", q->name);
     fputs(latex ? "\\begin{align}\n" : "", s->out);
-    write_slope(s, "", "L", q, 1, "", e->momentum[i]);
-    write_slope(s, latex ? "\\frac{d}{dt}" : "d/dt(", "L", q, 1, latex ? "" : ")",
-                momentum_rate(e, i));
-    write_slope(s, "", "L", q, 0, "", slope);
+    const char *by = latex ? "  \\frac{\\partial L}{\\partial " : "  dL/d";
+    const char *equals = latex ? "} &= " : " = ";
+    const char *end = latex ? " \\\\\n" : "\n";
+    write_row(s, by, q, 1, equals, e->momentum[i], end);
+    write_row(s, latex ? "  \\frac{d}{dt}\\frac{\\partial L}{\\partial " : "  d/dt(dL/d", q, 1,
+              latex ? equals : ") = ", momentum_rate(e, i), end);
+    write_row(s, by, q, 0, equals, slope, end);
     if (!poly_is_zero(loss)) {
-        write_slope(s, "", "F", q, 1, "", loss);
+        write_row(s, latex ? "  \\frac{\\partial F}{\\partial " : "  dF/d", q, 1, equals, loss,
+                  end);
     }
     if (!poly_is_zero(outside)) {
-        show_row row;
-        const show *to = show_row_begin(&row, s);
-        fputs(latex ? "  Q_{" : "  Q(", to->out);
-        show_symbol(to, q, 0);
-        fputs(latex ? "} &= " : ") = ", to->out);
-        show_poly(to, outside);
-        show_row_end(&row);
-        fputs(latex ? " \\\\\n" : "\n", s->out);
+        write_row(s, latex ? "  Q_{" : "  Q(", q, 0, latex ? equals : ") = ", outside, end);
     }
     show_equation(s, e, i);
     fputs(latex ? "\n\\end{align}\n" : "\n", s->out);
@@ -516,12 +512,8 @@ void show_steps(FILE *out, const equations *e, show_style style) {
     fprintf(out, "%s%s: Lagrange's equations, d/dt(dL/dq') - dL/dq = -dF/dq' + Q\n", prefix,
             e->instance->mechanism->name);
     fputs(latex ? "\\begin{align}\n" : "\n", out);
-    show_row row;
-    const show *to = show_row_begin(&row, &s);
-    fputs(latex ? "  L = T - V &= " : "  L = T - V = ", to->out);
-    show_poly(to, lagrangian);
-    show_row_end(&row);
-    fputs(latex ? "\n\\end{align}\n" : "\n", out);
+    write_row(&s, latex ? "  L = T - V &= " : "  L = T - V = ", NULL, 0, "", lagrangian,
+              latex ? "\n\\end{align}\n" : "\n");
     for (int i = 0; i < e->count; i++) {
         write_coordinate(&s, e, i);
     }
@@ -690,9 +682,9 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     const int n = e->count;
     int terms = 0;
     for (int i = 0; i < n && n <= 2; i++) {
-        terms += show_size(equations_force(e, i));
+        terms += equations_force(e, i)->count;
         for (int j = 0; j < n; j++) {
-            terms += show_size(e->mass[i * n + j]);
+            terms += e->mass[i * n + j]->count;
         }
     }
     if (n > 2 || terms > 4 * READABLE_TERMS) {
@@ -700,13 +692,13 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     }
     const poly *m[4];
     *bottom = poly_determinant(a, e->mass, n, (1U << n) - 1, (1U << n) - 1);
-    int size = show_size(*bottom);
+    int size = (*bottom)->count;
     for (int c = 0; c < n; c++) {
         for (int i = 0; i < n * n; i++) {
             m[i] = i % n == c ? equations_force(e, i / n) : e->mass[i];
         }
         top[c] = poly_determinant(a, m, n, (1U << n) - 1, (1U << n) - 1);
-        size = show_size(top[c]) > size ? show_size(top[c]) : size;
+        size = top[c]->count > size ? top[c]->count : size;
     }
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
@@ -836,13 +828,8 @@ void show_lets_end(show *s, const char *heading, const char *behind, const char 
         lets->below = i;
         if (lets->row[i].used) {
             s->out = alloc_text(&text[i], &length);
-            show_row row;
-            const show *to = show_row_begin(&row, s);
-            fputs("  ", to->out);
-            show_symbol(to, lets->row[i].let, 0);
-            fputs(s->style == SHOW_LATEX ? " &= " : " = ", to->out);
-            show_poly(to, lets->row[i].value);
-            show_row_end(&row);
+            write_row(s, "  ", lets->row[i].let, 0, s->style == SHOW_LATEX ? " &= " : " = ",
+                      lets->row[i].value, "");
             alloc_text_end(s->out);
             used++;
         }
