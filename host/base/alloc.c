@@ -23,6 +23,11 @@ struct arena {
     block *last;
 };
 
+static _Noreturn void alloc_none(void) {
+    fputs("whirl: out of memory\n", stderr);
+    exit(EXIT_RUN_FAILED);
+}
+
 struct arena *arena_new(void) {
     struct arena *fresh = alloc(1, sizeof *fresh);
     return fresh;
@@ -91,11 +96,6 @@ void *arena_push(struct arena *arena, const void *array, int *count, const void 
 }
 
 /* === the heap ================================================================================= */
-
-void alloc_none(void) {
-    fputs("whirl: out of memory\n", stderr);
-    exit(EXIT_RUN_FAILED);
-}
 
 /* Bytes of all elements, at least one. */
 static size_t bytes_of(int64_t count, size_t size) {

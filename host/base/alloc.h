@@ -27,9 +27,6 @@ char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)))
 FILE *alloc_text(char **text, size_t *length);
 void alloc_text_end(FILE *stream);
 
-/* Print "whirl: out of memory" and exit. */
-_Noreturn void alloc_none(void);
-
 /* === a memory arena: allocation piece by piece, release all at once =========================== */
 
 struct arena;

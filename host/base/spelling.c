@@ -91,6 +91,9 @@ void nearest_offer(nearest *search, const char *candidate) {
 }
 
 char *nearest_hint(const nearest *search, char *hint, size_t size) {
-    snprintf(hint, size, search->best != NULL ? "did you mean '%s'?" : "", search->best);
+    hint[0] = '\0';
+    if (search->best != NULL) {
+        snprintf(hint, size, "did you mean '%s'?", search->best);
+    }
     return hint;
 }

@@ -117,17 +117,15 @@ static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *
             return NULL;
         }
     }
-    const poly *x = poly_symbol(a, q, 0);
-    if (m->trig == TRIG_NONE) {
-        const poly *raised = poly_scale(a, poly_pow(a, x, power + 1.0), 1.0 / (power + 1.0));
-        return poly_mul(a, factors, raised);
-    }
-    const poly *wave = m->trig == TRIG_SIN ? poly_sin(a, m->angle) : poly_cos(a, m->angle);
-    const poly *slope = poly_derivative(a, m->angle, q, 0);
+    const poly *slope = m->trig == TRIG_NONE ? NULL : poly_derivative(a, m->angle, q, 0);
     double k;
-    if (poly_is_zero(slope)) {
+    if (slope == NULL || poly_is_zero(slope)) {
+        const poly *x = poly_symbol(a, q, 0);
         const poly *raised = poly_scale(a, poly_pow(a, x, power + 1.0), 1.0 / (power + 1.0));
-        return poly_mul(a, poly_mul(a, factors, wave), raised);
+        const poly *wave = m->trig == TRIG_NONE  ? NULL
+                           : m->trig == TRIG_SIN ? poly_sin(a, m->angle)
+                                                 : poly_cos(a, m->angle);
+        return poly_mul(a, wave != NULL ? poly_mul(a, factors, wave) : factors, raised);
     }
     if (power != 0.0 || !poly_is_number(slope, &k)) {
         return NULL;

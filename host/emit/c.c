@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host/base/alloc.h"
 #include "host/emit/c_header.h"
 #include "host/emit/c_list.h"
 #include "host/emit/emit.h"
@@ -399,6 +400,18 @@ static void write_observer(FILE *out, const image *im) {
     c_list_body(out, t, C_PHASES, "output");
 }
 
+/* A table of numbers, if there are any. */
+static void write_reals(FILE *out, const char *name, const double *number, int count) {
+    char hex[HEX_SIZE];
+    for (int i = 0; i < count; i++) {
+        if (i == 0) {
+            fprintf(out, "static const wh_real %s[%d] = {", name, count);
+        }
+        fprintf(out, "%sWH_R(%s)%s", i > 0 ? ", " : "", hex_write(number[i], hex),
+                i + 1 < count ? "" : "};\n");
+    }
+}
+
 static void write_starts(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     if (im->angles > 0) {
@@ -409,20 +422,11 @@ static void write_starts(FILE *out, const image *im) {
         }
         fprintf(out, "};\n");
     }
-    if (im->reals > 0) {
-        fprintf(out, "static const wh_real start_real[%d] = {", im->reals);
-        for (int i = 0; i < im->reals; i++) {
-            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(im->start_real[i], hex));
-        }
-        fprintf(out, "};\n");
-    }
-    if (im->inputs > 0) {
-        fprintf(out, "static const wh_real start_input[%d] = {", im->inputs);
-        for (int i = 0; i < im->inputs; i++) {
-            fprintf(out, "%sWH_R(%s)", i > 0 ? ", " : "", hex_write(im->input[i].value, hex));
-        }
-        fprintf(out, "};\n");
-    }
+    double *input = alloc(im->inputs, sizeof *input);
+    image_inputs(im, input);
+    write_reals(out, "start_real", im->start_real, im->reals);
+    write_reals(out, "start_input", input, im->inputs);
+    free(input);
     fprintf(out, "\n");
 }
 

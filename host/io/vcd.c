@@ -31,7 +31,6 @@ struct vcd {
     int scopes; /* open */
     vcd_signal *signal;
     int64_t signals;
-    int64_t signal_room;
     bool begun;
     bool timed; /* a time has been written */
     int64_t time;
@@ -118,10 +117,7 @@ static void write_mark(FILE *out, int64_t signal) {
 static int add_signal(vcd *v, vcd_kind kind, const char *name, const char *note) {
     static const char *const words[] = {
         [VCD_WIRE] = "wire 1", [VCD_REAL] = "real 64", [VCD_EVENT] = "event 1"};
-    if (v->signals == v->signal_room) {
-        v->signal_room = v->signal_room > 0 ? 2 * v->signal_room : 64;
-        v->signal = alloc_more(v->signal, v->signal_room, sizeof v->signal[0]);
-    }
+    v->signal = alloc_more(v->signal, v->signals + 1, sizeof v->signal[0]);
     v->signal[v->signals] = (vcd_signal){.kind = kind};
     fprintf(v->out, "$var %s ", words[kind]);
     write_mark(v->out, v->signals);
