@@ -1,11 +1,10 @@
-/* test_angle_parts.c: outputs and measures with fractions and multiples of turn angles against libm, thousands of turns
+/* test_angle_parts.c: outputs with fractions and multiples of turn angles against libm, thousands of turns
  * from zero: cos(th/2), sin(1.5*th), tan(th/3 - 0.37*ph).
  *
  * WHIRL_RANDOM_OUTPUTS=N takes N random outputs instead of 2000. WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms, for
  * tests/cli/angle_parts.sh to compile. */
 #include "derived.h"
 #include "host/engine/engine.h"
-#include "host/study/point.h"
 #include "wave_exprs.h"
 
 enum { OUTPUTS = 25, STEPS = 40, TEXT_ROOM = 64 + OUTPUTS * (WAVE_TEXT + 32) };
@@ -120,54 +119,6 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     TEST_ASSERT_TRUE(fabs(output[count] - X) <= 8.0 * rounding * (1.0 + fabs(momentum * time_s)));
 }
 
-/* Checks that a sweep's measures of the outputs equal the printed records. */
-static void check_sweep(const sample *s, const engine_kind *kind, int count, const double *output) {
-    diags *errors = diags_new();
-    const char *texts[OUTPUTS];
-    for (int i = 0; i < count; i++) {
-        texts[i] = s->expr[i].text;
-    }
-    const scene *in = s->of.model->scenes[0];
-    measures *taken = measures_new(in->mechanism, texts, count, errors);
-    TEST_ASSERT_NOT_NULL_MESSAGE(taken, s->text);
-    grid over = {0};
-    overrides none = {0};
-    char swept[64];
-    snprintf(swept, sizeof swept, "x=%.17g..2:2", s->start[WAVE_ANGLES]);
-    TEST_ASSERT_TRUE_MESSAGE(grid_add(&over, in->mechanism, swept, errors), s->text);
-    const sweep of = {.grid = &over,
-                      .mechanism = &taken->mechanism,
-                      .measures = taken,
-                      .scene = in,
-                      .changes = &none,
-                      .kind = kind,
-                      .engine = IMAGE_SETTINGS_DEFAULT};
-    char *row = NULL;
-    size_t length = 0;
-    point_notes notes = {0};
-    FILE *out = open_memstream(&row, &length);
-    TEST_ASSERT_NOT_NULL(out);
-    TEST_ASSERT_TRUE(sweep_point(&of, 0, out, stdout, &notes));
-    fclose(out);
-    const char *at = strchr(row, ',');
-    for (int i = 0; i < count; i++) {
-        char wanted[64];
-        TEST_ASSERT_NOT_NULL(at);
-        snprintf(wanted, sizeof wanted, "%.*g", kind->digits, output[i]);
-        const size_t size = strcspn(at + 1, ",\r");
-        if (strncmp(wanted, at + 1, size) != 0 || wanted[size] != '\0') {
-            printf("%s: %s: measured %.*s, recorded %s\n", kind->name, texts[i], (int)size, at + 1,
-                   wanted);
-            TEST_FAIL_MESSAGE("a measure is not what is recorded");
-        }
-        at = strchr(at + 1, ',');
-    }
-    free(row);
-    grid_free(&over);
-    measures_free(taken);
-    diags_free(errors);
-}
-
 static void keep(const sample *s, int number) {
     const char *folder = getenv("WHIRL_OUTPUTS_TO");
     if (folder != NULL) {
@@ -201,9 +152,6 @@ TEST(angle_parts, made_up_outputs) {
                 TEST_ASSERT_TRUE(kinds[k]->step(run) == WH_OK);
             }
             compare(&drawn, kinds[k], run, count, &tallies[k]);
-            double output[OUTPUTS + 8];
-            kinds[k]->outputs(run, output);
-            check_sweep(&drawn, kinds[k], count, output);
             kinds[k]->stop(run);
         }
         derived_free(&drawn.of);

@@ -1,10 +1,8 @@
 /* test_diag.c: random errors in random places of several files, in their printed order: by file in order of first
- * report, then by place. Repeats are printed once, and at most DIAG_MAX errors. Quotes of lines, statements and
- * characters. */
+ * report, then by place. Repeats are printed once, and at most DIAG_MAX errors. Quotes of lines and statements. */
 #include "host/base/diag.h"
 
 #include "command.h"
-#include "host/base/spelling.h"
 
 enum { FILES = 3, ERRORS_MOST = 30, LENGTH = 60 };
 
@@ -132,25 +130,5 @@ TEST(diag, statements_in_braces) {
         const source from = {"file", text, strlen(text)};
         statement_text((place){&from, 1, 1, strlen(begin[k / 4 % 4])}, shown, sizeof shown);
         TEST_ASSERT_EQUAL_STRING(own[k % 4], shown);
-    }
-}
-
-/* The first and last character of each length, whole at the end of a text, and truncated by each number of bytes. */
-TEST(diag, characters) {
-    static const char *const characters[] = {"a",
-                                             "~",
-                                             "\xc2\xa0",
-                                             "\xdf\xbf",
-                                             "\xe0\xa0\x80",
-                                             "\xef\xbf\xbd",
-                                             "\xf0\x90\x80\x80",
-                                             "\xf4\x8f\xbf\xbf"};
-    for (size_t i = 0; i < sizeof characters / sizeof characters[0]; i++) {
-        const size_t length = strlen(characters[i]);
-        TEST_ASSERT_EQUAL_UINT(length, utf8_length(characters[i], length));
-        TEST_ASSERT_EQUAL_UINT(length, utf8_length(characters[i], length + 1));
-        for (size_t left = 1; left < length; left++) {
-            TEST_ASSERT_EQUAL_UINT(0, utf8_length(characters[i], left));
-        }
     }
 }

@@ -91,6 +91,32 @@ TEST(limits, measured_limits_are_the_known_ones) {
     TEST_ASSERT_EQUAL_UINT((1U << WH_METHODS) - 1U, seen);
 }
 
+/* docs/dev/numerics.md has a row for each method, with these limits. */
+TEST(limits, the_page_has_the_known_limits) {
+    FILE *in = fopen("docs/dev/numerics.md", "r");
+    TEST_ASSERT_NOT_NULL(in);
+    char *page = calloc(1, 1 << 20);
+    TEST_ASSERT_NOT_NULL(page);
+    TEST_ASSERT_TRUE(fread(page, 1, (1 << 20) - 1, in) > 0);
+    fclose(in);
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        const wh_method_row *row = &wh_methods[known[i].method];
+        char decays[16] = "";
+        char line[240];
+        if (known[i].decays > 0.0) {
+            snprintf(decays, sizeof decays, "%.2f", known[i].decays);
+        }
+        snprintf(line, sizeof line, "| `%s` | %s | %d | %d | %s | %s | %.2f |\n", row->word,
+                 row->title, row->order, row->stages,
+                 row->takes == WH_ANY_SYSTEM ? "any"
+                 : row->takes == WH_NO_RATES ? "no rates"
+                                             : "second order",
+                 decays, known[i].swings);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, line), line);
+    }
+    free(page);
+}
+
 /* Runge-Kutta 4 loses (h w)^6/72 of the energy in a step. */
 TEST(limits, what_a_step_takes) {
     for (int k = 5; k < 20; k++) {

@@ -134,8 +134,7 @@ TEST(first_order, effects_are_told) {
 }
 
 /* === method rows ============================================================================== */
-/* The rows of core/method.h are explicit and have unique words. docs/dev/numerics.md lists each with its measured
- * stability, which is that of the weights. Orders: test_method_order.c. */
+/* The rows of core/method.h are explicit and have unique words. Orders: test_method_order.c; stability: test_limits.c. */
 
 #define ROUNDING 1e-6 /* for sums of a few shares, here in float */
 
@@ -226,93 +225,6 @@ TEST(method_rows, words_are_apart_and_fit_command_lines) {
     }
     TEST_ASSERT_TRUE(wh_method_takes(WH_METHOD_DEFAULT, WH_FIRST_ORDER));
     TEST_ASSERT_TRUE(!wh_method_takes((wh_method)WH_METHODS, WH_SECOND_ORDER));
-}
-
-/* --- stability ---------------------------------------------------------------------------------------- */
-
-static void decay(const void *model, const wh_phase *phase, const wh_real *real,
-                  const wh_real *input, wh_real *slope) {
-    (void)model;
-    (void)phase;
-    (void)input;
-    slope[0] = -real[0];
-}
-
-static void spring(const void *model, const wh_phase *phase, const wh_real *linear,
-                   const wh_real *rate, const wh_real *input, wh_real *accel) {
-    (void)model;
-    (void)phase;
-    (void)rate;
-    (void)input;
-    accel[0] = -linear[0];
-}
-
-static double eigenvalue(double matrix[2][2]) {
-    const double half_trace = 0.5 * (matrix[0][0] + matrix[1][1]);
-    const double determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
-    const double disc = half_trace * half_trace - determinant;
-    return disc < 0.0 ? sqrt(determinant) : fabs(half_trace) + sqrt(disc);
-}
-
-/* Growth of x' = -x over a step of h. For q'' = -q: the spectral radius of the step matrix. */
-static double growth_of_decay(wh_method method, double h) {
-    wh_real x = WH_R(1.0);
-    wh_state state = {.real = &x};
-    TEST_ASSERT_EQUAL_INT(WH_OK, wh_step_first(NULL, decay, method, false, 0, 1,
-                                               (wh_two_part){(wh_real)h, WH_R(0.0)}, &state));
-    return fabs((double)x);
-}
-
-static double growth_of_spring(wh_method method, double h) {
-    double matrix[2][2];
-    for (int k = 0; k < 2; k++) {
-        wh_real x[2] = {k == 0 ? WH_R(1.0) : WH_R(0.0), k == 1 ? WH_R(1.0) : WH_R(0.0)};
-        wh_state state = {.real = x};
-        TEST_ASSERT_EQUAL_INT(WH_OK, wh_step_second(NULL, spring, method, false, 0, 1,
-                                                    (wh_two_part){(wh_real)h, WH_R(0.0)}, &state));
-        matrix[0][k] = (double)x[0];
-        matrix[1][k] = (double)x[1];
-    }
-    return eigenvalue(matrix);
-}
-
-/* The largest stable h, in thousandths, with an allowance for float's rounding. 0: even a quarter is unstable. */
-static double interval(double (*growth)(wh_method method, double h), wh_method method) {
-    double h = 0.25;
-    if (growth(method, h) > 1.0 + 1e-5) {
-        return 0.0;
-    }
-    while (h < 20.0 && growth(method, h + 1e-3) < 1.0 + 1e-5) {
-        h += 1e-3;
-    }
-    return h;
-}
-
-TEST(method_rows, documented_stability_is_the_measured_one) {
-    FILE *in = fopen("docs/dev/numerics.md", "r");
-    TEST_ASSERT_NOT_NULL(in);
-    char *page = calloc(1, 1 << 20);
-    TEST_ASSERT_NOT_NULL(page);
-    TEST_ASSERT_TRUE(fread(page, 1, (1 << 20) - 1, in) > 0);
-    fclose(in);
-    for (int m = 0; m < WH_METHODS; m++) {
-        const wh_method_row *row = &wh_methods[m];
-        const bool any = row->takes == WH_ANY_SYSTEM;
-        const double of_spring = interval(growth_of_spring, (wh_method)m);
-        char decays[16];
-        char line[240];
-        snprintf(decays, sizeof decays, "%.2f",
-                 any ? interval(growth_of_decay, (wh_method)m) : 0.0);
-        snprintf(line, sizeof line, "| `%s` | %s | %d | %d | %s | %s | %.2f |\n", row->word,
-                 row->title, row->order, row->stages,
-                 any                         ? "any"
-                 : row->takes == WH_NO_RATES ? "no rates"
-                                             : "second order",
-                 any ? decays : "", of_spring);
-        printf("  %s", line);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, line), line);
-    }
-    free(page);
 }
 
 static unsigned times_in(const char *text, const char *word) {
