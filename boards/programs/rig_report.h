@@ -106,8 +106,8 @@ static inline void put_result(const wh_rig_config *config, const wh_rig_result *
     put_force("mean force", force->mean_N);
     put_force("lowest peak", result->low_N);
     put_force("highest peak", result->high_N);
-    put_force("load at sensor 1's spikes", force->at_mark_N[0]);
-    put_force("load at sensor 2's spikes", force->at_mark_N[1]);
+    put_force("load at sensor 1's spikes", force->at_pulse_N[0]);
+    put_force("load at sensor 2's spikes", force->at_pulse_N[1]);
     put_force("tare taken off", result->tare_N);
     put_value("motor voltage", result->volts, 2, "V");
     put_value("slot pulses lost", (float)result->lost, 0, "");

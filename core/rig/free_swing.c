@@ -89,7 +89,7 @@ static bool advance(wh_swing *swing) {
  * the slot's leading edge. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
-    return rotor->mark_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
+    return rotor->pulse_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
 /* Returns to the first passage of the bottom: the integration over the later pulses begins there, and so does that over

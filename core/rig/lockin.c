@@ -51,18 +51,18 @@ static WH_CALLED void close_turn(wh_lockin *lockin, uint32_t ticks) {
     }
     lockin->next = (wh_lockin_turn){.begin_ticks = lockin->begin_ticks,
                                     .turn_ticks = ticks - lockin->begin_ticks,
-                                    .split_seen = lockin->split_seen,
-                                    .split_ticks = lockin->split_ticks};
+                                    .second_seen = lockin->second_seen,
+                                    .second_ticks = lockin->second_ticks};
     lockin->next_equal = lockin->most_equal;
     lockin->stage = WH_LOCKIN_SHAPES;
 }
 
-void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter) {
+void wh_lockin_pulse(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter) {
     const uint32_t quarters = quarter - lockin->begin_quarter;
     if (sensor != 0) {
         if (lockin->open && quarters == 1U) {
-            lockin->split_seen = true;
-            lockin->split_ticks = ticks;
+            lockin->second_seen = true;
+            lockin->second_ticks = ticks;
         }
         return;
     }
@@ -72,17 +72,17 @@ void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t
         lockin->skipped += quarters / 4U;
     }
     lockin->open = true;
-    lockin->split_seen = false;
+    lockin->second_seen = false;
     lockin->begin_ticks = ticks;
     lockin->begin_quarter = quarter;
     lockin->most_equal = 0;
 }
 
-void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V) {
+void wh_lockin_compensate(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V) {
     if (lockin->angle.fed != fed) {
         wh_lockin_gap(lockin);
     }
-    wh_turn_angle_feed(&lockin->angle, fed, stall_Nm_per_V);
+    wh_turn_angle_compensate(&lockin->angle, fed, stall_Nm_per_V);
 }
 
 void wh_lockin_gap(wh_lockin *lockin) {
@@ -235,7 +235,7 @@ static void place_next(wh_lockin *lockin) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         ticks = turn->begin_ticks;
         force_N = load_between(lockin, ticks);
-        turn->at_mark_N[0] = force_N;
+        turn->at_pulse_N[0] = force_N;
         place = WH_LOCKIN_BEGIN;
         lockin->stage = WH_LOCKIN_SUMS;
     } else if ((int32_t)(ticks - end_ticks) > 0) {
@@ -243,9 +243,9 @@ static void place_next(wh_lockin *lockin) {
         force_N = load_between(lockin, ticks);
         place = WH_LOCKIN_END;
     } else {
-        if (turn->split_seen && (int32_t)(ticks - turn->split_ticks) >= 0 &&
-            (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->split_ticks) < 0)) {
-            turn->at_mark_N[1] = load_between(lockin, turn->split_ticks);
+        if (turn->second_seen && (int32_t)(ticks - turn->second_ticks) >= 0 &&
+            (!lockin->taken || (int32_t)(lockin->taken_ticks - turn->second_ticks) < 0)) {
+            turn->at_pulse_N[1] = load_between(lockin, turn->second_ticks);
         }
         pop(lockin);
     }
@@ -374,20 +374,20 @@ static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
 /* Evaluates sensor 2's pulse. Returns true when it is finished. */
 static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_lockin_turn *turn = &lockin->next;
-    if (!turn->split_seen || !is_steady(lockin, STILL_PART)) {
+    if (!turn->second_seen || !is_steady(lockin, STILL_PART)) {
         return true;
     }
-    const wh_real split =
-        (wh_real)(turn->split_ticks - turn->begin_ticks) / (wh_real)turn->turn_ticks;
+    const wh_real ratio =
+        (wh_real)(turn->second_ticks - turn->begin_ticks) / (wh_real)turn->turn_ticks;
 #if WH_RIG_SMALL_PIECES
     if (lockin->piece == 0) {
-        wh_turn_angle_split_waves(&lockin->angle, split);
+        wh_turn_angle_ratio_waves(&lockin->angle, ratio);
     } else {
-        wh_turn_angle_split_rest(rotor, &lockin->angle, split);
+        wh_turn_angle_ratio_rest(rotor, &lockin->angle, ratio);
     }
     return last_piece(lockin, 2);
 #else
-    wh_turn_angle_split(rotor, &lockin->angle, split);
+    wh_turn_angle_by_ratio(rotor, &lockin->angle, ratio);
     return true;
 #endif
 }

@@ -17,7 +17,7 @@
  * left out and counted.
  *
  *     every control step:
- *         wh_lockin_mark() for each slot pulse that was taken, wh_lockin_load() for each sample
+ *         wh_lockin_pulse() for each slot pulse that was taken, wh_lockin_load() for each sample
  *         if (wh_lockin_work(...)) lockin.turn is the result of another turn */
 #ifndef WH_RIG_LOCKIN_H
 #define WH_RIG_LOCKIN_H
@@ -106,14 +106,14 @@ typedef struct wh_lockin_turn {
     uint32_t begin_ticks; /* time of sensor 1's pulse */
     uint32_t turn_ticks;
     wh_turn_fault fault;
-    bool split_seen; /* sensor 2's pulse was seen */
+    bool second_seen; /* sensor 2's pulse was seen */
     uint16_t samples;
     uint16_t outliers;
-    uint32_t split_ticks;     /* time of sensor 2's pulse, if seen */
+    uint32_t second_ticks;    /* time of sensor 2's pulse, if seen */
     wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
     wh_real mean_N;           /* mean over the time */
     wh_real residual_N;       /* rms after orders 0 to 2 */
-    wh_real at_mark_N[2];     /* load at each sensor's pulse */
+    wh_real at_pulse_N[2];    /* load at each sensor's pulse */
 } wh_lockin_turn;
 
 typedef enum wh_lockin_stage {
@@ -150,14 +150,14 @@ typedef struct wh_lockin {
 
     /* the turn in progress: since this pulse */
     bool open;
-    bool split_seen;
+    bool second_seen;
     bool taken; /* a sample was taken from the queue */
     bool any;   /* a sample was accepted into the queue */
     bool expects;
     wh_lockin_place place;
     uint32_t begin_ticks;
     uint32_t begin_quarter;
-    uint32_t split_ticks;
+    uint32_t second_ticks;
     uint32_t skipped; /* turns without a pulse of both sensors */
 
     /* waiting samples: index of the oldest; the last one evaluated; the newest */
@@ -195,8 +195,8 @@ typedef struct wh_lockin {
 
 #define wh_lockin_start WH_NAME(wh_lockin_start)
 #define wh_lockin_forget WH_NAME(wh_lockin_forget)
-#define wh_lockin_mark WH_NAME(wh_lockin_mark)
-#define wh_lockin_feed WH_NAME(wh_lockin_feed)
+#define wh_lockin_pulse WH_NAME(wh_lockin_pulse)
+#define wh_lockin_compensate WH_NAME(wh_lockin_compensate)
 #define wh_lockin_gap WH_NAME(wh_lockin_gap)
 #define wh_lockin_load WH_NAME(wh_lockin_load)
 #define wh_lockin_work WH_NAME(wh_lockin_work)
@@ -209,11 +209,11 @@ void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* The rotor passed sensor 0 or 1 at `ticks`, after `quarter` quarter turns (wrapping). */
-void wh_lockin_mark(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
+void wh_lockin_pulse(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
 
-/* Switches gravity compensation on or off in the model: see wh_turn_angle_feed(). If it changes, the turn in progress
+/* Switches gravity compensation on or off in the model: see wh_turn_angle_compensate(). If it changes, the turn in progress
  * does not count. */
-void wh_lockin_feed(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
+void wh_lockin_compensate(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
 
 /* The count of quarter turns has restarted: the turn in progress does not count. */
 void wh_lockin_gap(wh_lockin *lockin);

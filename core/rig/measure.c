@@ -15,11 +15,11 @@ void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
     wh_lockin_forget(&config->rotor, &measure->lockin);
 }
 
-void wh_measure_mark(wh_measure *measure, const wh_mark *mark) {
+void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *mark) {
     if (mark->gap) {
         wh_lockin_gap(&measure->lockin);
     }
-    wh_lockin_mark(&measure->lockin, mark->pulse.sensor, mark->pulse.ticks, mark->quarter);
+    wh_lockin_pulse(&measure->lockin, mark->pulse.sensor, mark->pulse.ticks, mark->quarter);
 }
 
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {

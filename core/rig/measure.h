@@ -97,7 +97,7 @@ typedef struct wh_measure {
 } wh_measure;
 
 #define wh_measure_begin WH_NAME(wh_measure_begin)
-#define wh_measure_mark WH_NAME(wh_measure_mark)
+#define wh_measure_pulse WH_NAME(wh_measure_pulse)
 #define wh_measure_load WH_NAME(wh_measure_load)
 #define wh_measure_work WH_NAME(wh_measure_work)
 #define wh_measure_record WH_NAME(wh_measure_record)
@@ -108,7 +108,7 @@ typedef struct wh_measure {
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
 /* A confirmed pulse, in order of time. */
-void wh_measure_mark(wh_measure *measure, const wh_mark *mark);
+void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *mark);
 
 /* Take a load sample: of the tare, or of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);

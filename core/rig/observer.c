@@ -125,8 +125,8 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
     const wh_real time_s = wh_rig_way_s(observer->mark_ticks, ticks);
-    wh_real turned_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
-                                    wh_phase_from_rad(config->mark_rad[observer->mark_sensor]));
+    wh_real turned_rad = signed_rad(wh_phase_from_rad(config->pulse_rad[sensor]) -
+                                    wh_phase_from_rad(config->pulse_rad[observer->mark_sensor]));
     if (!(turned_rad > WH_R(0.0))) { /* two pulses of one sensor: a whole turn */
         turned_rad += WH_RIG_TWO_PI;
     }
@@ -137,7 +137,7 @@ static void set_out(const wh_observer_config *config, wh_observer *observer, uns
                      speed_radps < config->fastest_radps;
     if (observer->runs) {
         observer->state.angle[0] = wh_angle_from_rad(
-            config->mark_rad[sensor] + speed_radps * wh_rig_way_s(ticks, observer->ticks));
+            config->pulse_rad[sensor] + speed_radps * wh_rig_way_s(ticks, observer->ticks));
         observer->state.real[0] = speed_radps;
     }
 }
@@ -161,13 +161,13 @@ static void correct(const wh_observer_config *config, wh_observer *observer, uns
     observer->valid = observer->good_marks >= config->trusted_marks;
 }
 
-WH_CALLED void wh_observer_mark(const wh_observer_config *config, wh_observer *observer,
-                                unsigned sensor, uint32_t ticks) {
+WH_CALLED void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer,
+                                 unsigned sensor, uint32_t ticks) {
     if (observer->status != WH_OK || sensor >= WH_OBSERVER_SENSORS) {
         return;
     }
     if (observer->runs) {
-        observer->innovation_rad = signed_rad(wh_phase_from_rad(config->mark_rad[sensor]) -
+        observer->innovation_rad = signed_rad(wh_phase_from_rad(config->pulse_rad[sensor]) -
                                               wh_observer_phase(observer, ticks));
     }
     if (observer->runs && WH_ABS(observer->innovation_rad) <= config->lost_rad) {

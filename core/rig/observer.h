@@ -8,7 +8,7 @@
  *
  *     every control step, in this order:
  *         wh_observer_step(..., now_ticks, drive)      the drive since the last control step
- *         wh_observer_mark(..., sensor, ticks)         for each slot pulse taken since
+ *         wh_observer_pulse(..., sensor, ticks)         for each slot pulse taken since
  *         if (observer.valid) wh_observer_phase(..., now_ticks + lead) is the arms' angle at that time */
 #ifndef WH_RIG_OBSERVER_H
 #define WH_RIG_OBSERVER_H
@@ -32,7 +32,7 @@ typedef struct wh_observer_config {
     wh_real per_radps;
     /* true for a motor stage that cannot brake: a voltage below the back-EMF then makes no torque */
     bool freewheels;
-    wh_real mark_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
+    wh_real pulse_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
     /* Corrections at a pulse of each sensor. e is the innovation (rad), n the speed in turns per second: */
     wh_real angle_gain[WH_OBSERVER_SENSORS];       /* angle += gain e */
     wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
@@ -64,7 +64,7 @@ typedef struct wh_observer {
     uint32_t good_marks; /* number of successive pulses with a trusted innovation */
 } wh_observer;
 
-/* For the rig of eccentric.whirl; the caller fills in the scene and mark_rad. The gains were chosen for rotors of half
+/* For the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen for rotors of half
  * to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400 rpm. The errors of
  * angle, speed and torque are multiplied by a matrix each turn. Its spectral radius at a steady speed is 0.72 at 80
  * rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. While the arms are near the top, gravity increases
@@ -84,7 +84,7 @@ extern const wh_observer_config wh_observer_standard;
 
 #define wh_observer_start WH_NAME(wh_observer_start)
 #define wh_observer_step WH_NAME(wh_observer_step)
-#define wh_observer_mark WH_NAME(wh_observer_mark)
+#define wh_observer_pulse WH_NAME(wh_observer_pulse)
 #define wh_observer_forget WH_NAME(wh_observer_forget)
 #define wh_observer_phase WH_NAME(wh_observer_phase)
 #define wh_observer_angle_rad WH_NAME(wh_observer_angle_rad)
@@ -107,8 +107,8 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
                       wh_real drive);
 
 /* The rotor passed sensor 0 or 1 forwards at `ticks`, at most two control steps ago. */
-void wh_observer_mark(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
-                      uint32_t ticks);
+void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
+                       uint32_t ticks);
 
 /* Restart the observer, for a caller that knows that pulses were wrong. */
 void wh_observer_forget(wh_observer *observer);

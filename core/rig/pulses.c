@@ -39,13 +39,13 @@ static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real
 /* --- confirmed pulses ---------------------------------------------------------------------------- */
 
 static void release(wh_pulses *pulses) {
-    if (pulses->waits && pulses->marks < WH_PULSES_MARKS) {
+    if (pulses->waits && pulses->marks < WH_PULSES_CONFIRMED) {
         pulses->mark[pulses->marks++] = pulses->last;
     }
     pulses->waits = false;
 }
 
-bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark) {
     if (pulses->waits && pulses->speed.known &&
         (wh_real)(int32_t)(now_ticks - pulses->last.pulse.ticks) >
             SURE_PART * turn_ticks(&pulses->speed)) {
@@ -90,7 +90,7 @@ static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *aft
         is_fast(pulses, after) ? pulses->fast + (is_sudden(pulses, after) ? 2U : 1U) : 0U;
     pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
     pulses->climb_radps = climb(pulses, after);
-    pulses->last = (wh_mark){
+    pulses->last = (wh_index_pulse){
         .pulse = *pulse, .quarter = after->quarter, .gap = after->restarts != before->restarts};
     pulses->waits = true;
     pulses->speed = *after;

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define WH_PULSES_MARKS 4U
+#define WH_PULSES_CONFIRMED 4U
 
 typedef struct wh_pulse {
     uint32_t ticks;
@@ -25,11 +25,11 @@ typedef struct wh_pulse {
 } wh_pulse;
 
 /* A confirmed pulse: the index pulse of a sensor. */
-typedef struct wh_mark {
+typedef struct wh_index_pulse {
     wh_pulse pulse;
     uint32_t quarter; /* the rotor's position, quarter turns, wrapping */
     bool gap;         /* the number of turns before this pulse is unknown */
-} wh_mark;
+} wh_index_pulse;
 
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is a suspect */
@@ -53,12 +53,13 @@ typedef struct wh_pulses {
     unsigned doubt;
     uint32_t rejected; /* number of rejected pulses */
     wh_pulse suspect;
-    wh_mark last;       /* the last pulse */
-    wh_speed speed;     /* from the accepted pulses */
-    wh_speed before;    /* the speed before the last pulse */
-    wh_speed suspected; /* the speed if the suspect is true */
+    wh_index_pulse last; /* the last pulse */
+    wh_speed speed;      /* from the accepted pulses */
+    wh_speed before;     /* the speed before the last pulse */
+    wh_speed suspected;  /* the speed if the suspect is true */
     unsigned marks;
-    wh_mark mark[WH_PULSES_MARKS]; /* confirmed pulses that the caller has not taken yet */
+    wh_index_pulse
+        mark[WH_PULSES_CONFIRMED]; /* confirmed pulses that the caller has not taken yet */
 } wh_pulses;
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)
@@ -75,12 +76,12 @@ void wh_pulses_forget(wh_pulses *pulses);
 /* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
-/* The part of wh_pulses_mark() after its quick check. */
-bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark);
+/* The part of wh_pulses_confirmed() after its quick check. */
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark);
 
 /* Take the next pulse that is confirmed by now. Returns false if there is none. Call it in each control step until it
  * returns false. */
-WH_INLINE bool wh_pulses_mark(wh_pulses *pulses, uint32_t now_ticks, wh_mark *mark) {
+WH_INLINE bool wh_pulses_confirmed(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark) {
     return (pulses->waits || pulses->marks > 0) && wh_pulses_sure(pulses, now_ticks, mark);
 }
 

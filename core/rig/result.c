@@ -69,15 +69,15 @@ static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
         add_jitter(merge, merge->last_ticks, turn->turn_ticks);
     }
     const bool split_adjoins =
-        adjoins && merge->split_ticks != merge->begin_ticks && turn->split_seen;
-    const uint32_t split_turn = turn->split_ticks - merge->split_ticks;
-    if (split_adjoins && merge->split_follows) {
-        add_jitter(merge, merge->split_turn_ticks, split_turn);
+        adjoins && merge->second_ticks != merge->begin_ticks && turn->second_seen;
+    const uint32_t split_turn = turn->second_ticks - merge->second_ticks;
+    if (split_adjoins && merge->second_follows) {
+        add_jitter(merge, merge->second_turn_ticks, split_turn);
     }
-    merge->split_follows = split_adjoins;
-    merge->split_turn_ticks = split_turn;
+    merge->second_follows = split_adjoins;
+    merge->second_turn_ticks = split_turn;
     merge->begin_ticks = turn->begin_ticks;
-    merge->split_ticks = turn->split_seen ? turn->split_ticks : turn->begin_ticks;
+    merge->second_ticks = turn->second_seen ? turn->second_ticks : turn->begin_ticks;
     merge->last_ticks = turn->turn_ticks;
     merge->follows = true;
 }
@@ -94,7 +94,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     if (turn->fault != WH_TURN_OK) {
         merge->left_out++;
         merge->follows = false;
-        merge->split_follows = false;
+        merge->second_follows = false;
         return;
     }
     add_marks(merge, turn);
@@ -114,7 +114,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     merge->scatter_N2[2] += quadrature * (turn->force_N.at[2] - merge->quadrature_N);
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
-    const wh_real swing2 = angle->swing_rad * angle->swing_rad;
+    const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
     /* S <w^2>, the mean over the angle. This is the mean of w^3 over time divided by the mean speed, and so contains
      * 3/2 of the square of the ripple. A term of twice the angle makes the speed vary by twice its amplitude */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
@@ -124,15 +124,15 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
     go_on(&merge->mean_N, turn->mean_N, part);
     go_on(&merge->residual_N2, square_of(turn->residual_N), part);
     go_on(&merge->expected_N, expected, part);
-    go_on(&merge->swing_rad, angle->swing_rad, part);
+    go_on(&merge->ripple_rad, angle->ripple_rad, part);
     const wh_real late_s = turn_s - merge->turn_s;
     merge->turn_s += part * late_s;
     merge->turn_s2 += late_s * (turn_s - merge->turn_s);
-    go_on(&merge->at_mark_N[0], turn->at_mark_N[0], part);
-    if (turn->split_seen) {
-        merge->split_turns++;
-        merge->at_mark_N[1] +=
-            (turn->at_mark_N[1] - merge->at_mark_N[1]) / (wh_real)merge->split_turns;
+    go_on(&merge->at_pulse_N[0], turn->at_pulse_N[0], part);
+    if (turn->second_seen) {
+        merge->second_turns++;
+        merge->at_pulse_N[1] +=
+            (turn->at_pulse_N[1] - merge->at_pulse_N[1]) / (wh_real)merge->second_turns;
     }
 }
 
@@ -154,16 +154,16 @@ static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_
     /* a turn's phase has the mean error of its two pulses, so its variance is one half; that of the mean of n turns is
      * one n-th of this */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
-    if (angle->splits == 0) {
+    if (angle->ratios == 0) {
         return shared;
     }
     /* with sensor 2 at a quarter turn: variances of 1, 9/16 and 1/16. On average half of the turns in the estimate of
      * the ratio are also among the merged ones, and have the same pulses */
     const wh_real averaged =
-        (wh_real)(angle->splits < WH_TURN_ANGLE_PATIENCE ? angle->splits : WH_TURN_ANGLE_PATIENCE);
-    const wh_real follows = WH_ABS(angle->base_per_split);
-    const wh_real split = follows * (WH_R(1.0) + WH_R(1.625) * follows) * jitter2 / averaged;
-    return shared + split;
+        (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
+    const wh_real follows = WH_ABS(angle->base_per_ratio);
+    const wh_real ratio = follows * (WH_R(1.0) + WH_R(1.625) * follows) * jitter2 / averaged;
+    return shared + ratio;
 }
 
 WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
@@ -178,11 +178,11 @@ WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_
     }
     measured->speed_radps = WH_RIG_TWO_PI / merge->turn_s;
     measured->mean_N = merge->mean_N - tare_N;
-    measured->at_mark_N[0] = merge->at_mark_N[0] - tare_N;
-    measured->at_mark_N[1] = merge->split_turns > 0 ? merge->at_mark_N[1] - tare_N : WH_R(0.0);
+    measured->at_pulse_N[0] = merge->at_pulse_N[0] - tare_N;
+    measured->at_pulse_N[1] = merge->second_turns > 0 ? merge->at_pulse_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
     if (angle->fed && angle->whole_rad > WH_R(0.0)) {
-        measured->left_part = WH_ABS(merge->swing_rad) / angle->whole_rad;
+        measured->uncompensated_part = WH_ABS(merge->ripple_rad) / angle->whole_rad;
     }
 }
 
@@ -228,13 +228,13 @@ typedef struct parts_off {
 
 WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
                            const wh_turn_angle *angle) {
-    const wh_real swing = merge->swing_rad;
+    const wh_real swing = merge->ripple_rad;
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
         /* gravity compensated at a wrong angle leaves a ripple, which the quadrature ratio shows as one a quarter turn
          * later */
-        .quadrature = angle->fed ? rotor->fed_tolerance_rad * angle->whole_rad : WH_R(0.0),
+        .quadrature = angle->fed ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
 }
 
@@ -243,7 +243,7 @@ WH_INLINE void amplitude_half(const wh_result_config *config, const wh_rotor_con
                               const parts_off *by, wh_measured *measured) {
     const wh_real amplitude2 =
         square_of(floor_or(config->amplitude_floor, WH_UNCALIBRATED_PART)) +
-        square_of(WH_R(1.5) * merge->swing_rad * by->lag) + square_of(by->third) +
+        square_of(WH_R(1.5) * merge->ripple_rad * by->lag) + square_of(by->third) +
         square_of(WH_R(3.0) * by->quadrature * by->quadrature) + square_of(WH_R(0.01) * by->cut) +
         square_of(WH_R(0.5) * angle->twice_rad * rotor->yields_tolerance);
     measured->amplitude_half_N = WH_SQRT(measured->amplitude_half_N + amplitude2 * size2);
@@ -347,8 +347,8 @@ static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
     }
     const wh_wave wave =
         wh_wave_of(angle->lag_rad - rotor->gravity_rad + WH_R(2.0) * measured->phase_rad);
-    const wh_real swing = WH_R(1.5) * merge->swing_rad;
-    const wh_real part = (WH_R(1.0) + merge->swing_rad * swing) / measured->amplitude_N;
+    const wh_real swing = WH_R(1.5) * merge->ripple_rad;
+    const wh_real part = (WH_R(1.0) + merge->ripple_rad * swing) / measured->amplitude_N;
     const wh_real along = part * merge->second_N[0] - swing * wave.cosine;
     const wh_real across = part * merge->second_N[1] + swing * wave.sine;
     return WH_R(0.5) * WH_SQRT(along * along + across * across);
@@ -356,11 +356,11 @@ static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
 
 static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle,
                                const wh_measured *measured) {
-    const wh_real swing = WH_ABS(merge->swing_rad);
+    const wh_real swing = WH_ABS(merge->ripple_rad);
     const wh_real samples = (wh_real)(merge->repeats.samples > 0 ? merge->repeats.samples : 1U);
     const wh_real turns = (wh_real)(merge->turns > 0 ? merge->turns : 1U);
     const wh_real part = REPEATS_LAG * angle->lag_rad * swing * swing +
-                         REPEATS_ARROW * swing * measured->swing_off_rad +
+                         REPEATS_ARROW * swing * measured->ripple_off_rad +
                          REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
                          REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
     /* a coefficient over N samples of variance s^2 has variance 2 s^2/N, and s^2 is half the mean squared difference */
@@ -424,11 +424,11 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (measured->residual_N > config->residual_large * expected) {
         return WH_WHY_RESIDUAL;
     }
-    if (WH_ABS(merge->swing_rad) > WH_R(0.0) &&
-        (merge->split_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
+    if (WH_ABS(merge->ripple_rad) > WH_R(0.0) &&
+        (merge->second_turns == 0 || !(heavier <= WH_R(1.0) + config->inertia_off))) {
         return WH_WHY_ROTOR;
     }
-    if (measured->left_part >= FED_LEFT_MOST) {
+    if (measured->uncompensated_part >= FED_LEFT_MOST) {
         return WH_WHY_FED;
     }
     if (WH_ABS(measured->mean_N) > config->mean_off * expected) {
@@ -441,7 +441,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);
-    if (measured->swing_off_rad > seen_rad + SWING_OFF_RAD) {
+    if (measured->ripple_off_rad > seen_rad + SWING_OFF_RAD) {
         return WH_WHY_SWING;
     }
     if (measured->repeats_N > measured->repeats_limit_N) {
@@ -457,7 +457,7 @@ void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
         measured->scatter_radps = measured->speed_radps / merge->turn_s *
                                   WH_SQRT(merge->turn_s2 / (wh_real)(merge->turns - 1U));
     }
-    measured->swing_off_rad = swing_off(rotor, merge, angle, measured);
+    measured->ripple_off_rad = swing_off(rotor, merge, angle, measured);
     measured->repeats_N = WH_SQRT(third_N2 > merge->repeats_N2 ? third_N2 : merge->repeats_N2);
     measured->repeats_limit_N = repeats_limit_N(merge, angle, measured);
 }

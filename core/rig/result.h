@@ -77,19 +77,19 @@ typedef struct wh_result_config {
 /* Turns merged so far; zeros: no turns. */
 typedef struct wh_merge {
     bool follows; /* the last turn was used, so differences to the next turn count */
-    bool split_follows;
+    bool second_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
-    uint32_t split_turns; /* number of turns averaged in at_mark_N[1] */
-    wh_real jitter_s2;    /* sum of squares of the second differences of the pulse times */
-    uint32_t jitters;     /* number of these second differences */
-    uint32_t first_ticks; /* times of the first and of the last used turn */
+    uint32_t second_turns; /* number of turns averaged in at_pulse_N[1] */
+    wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
+    uint32_t jitters;      /* number of these second differences */
+    uint32_t first_ticks;  /* times of the first and of the last used turn */
     uint32_t last_ticks;
-    uint32_t split_turn_ticks;
+    uint32_t second_turn_ticks;
     uint32_t begin_ticks;
-    uint32_t split_ticks;
+    uint32_t second_ticks;
     wh_real repeats_N2; /* sum of the squared amplitudes of the harmonics evaluated so far */
     wh_real third_N2;   /* squared amplitude of the third harmonic */
     wh_repeats repeats;
@@ -100,10 +100,10 @@ typedef struct wh_merge {
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;
-    wh_real swing_rad;
+    wh_real ripple_rad;
     wh_real turn_s;
     wh_real turn_s2; /* sum of squares about the mean */
-    wh_real at_mark_N[2];
+    wh_real at_pulse_N[2];
 } wh_merge;
 
 typedef struct wh_measured {
@@ -127,10 +127,10 @@ typedef struct wh_measured {
     wh_real jitter_s;        /* jitter of the pulses, standard deviation */
     wh_real inertia_kgm2;
     /* error of the speed ripple, found from the load's second order, as a vector */
-    wh_real swing_off_rad;
+    wh_real ripple_off_rad;
     /* with gravity compensation: the uncompensated part of gravity, in either direction; else 0 */
-    wh_real left_part;
-    wh_real at_mark_N[2]; /* load at each sensor's pulse, minus the tare */
+    wh_real uncompensated_part;
+    wh_real at_pulse_N[2]; /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
 /* Half-widths for 95 % before calibration, for a commercial load cell and sensors as mounted. */

@@ -8,11 +8,11 @@
 #include "pulse_window.h"
 
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
-    config->measure.rotor.mark_rad[0] = -lead_rad;
-    config->measure.rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
+    config->measure.rotor.pulse_rad[0] = -lead_rad;
+    config->measure.rotor.pulse_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - lead_rad;
     config->swing.lead_rad = lead_rad;
-    config->observer.mark_rad[0] = config->measure.rotor.mark_rad[0];
-    config->observer.mark_rad[1] = config->measure.rotor.mark_rad[1];
+    config->observer.pulse_rad[0] = config->measure.rotor.pulse_rad[0];
+    config->observer.pulse_rad[1] = config->measure.rotor.pulse_rad[1];
 }
 
 static void enter(wh_rig *rig, wh_rig_state state, uint32_t now_ticks) {
@@ -109,7 +109,7 @@ static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_r
         config->feeds == WH_COMPENSATION_ALWAYS ||
         (config->feeds == WH_COMPENSATION_SLOW && target_radps < config->guard.target_min_radps);
     if (!rig->fed) {
-        wh_lockin_feed(&rig->measure.lockin, false, WH_R(0.0));
+        wh_lockin_compensate(&rig->measure.lockin, false, WH_R(0.0));
     }
 }
 
@@ -317,8 +317,8 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
         rig->observed = rig->pulses.speed.taken;
-        wh_observer_mark(&config->observer, &rig->observer, rig->pulses.last.pulse.sensor,
-                         rig->pulses.last.pulse.ticks);
+        wh_observer_pulse(&config->observer, &rig->observer, rig->pulses.last.pulse.sensor,
+                          rig->pulses.last.pulse.ticks);
     }
 }
 
@@ -329,10 +329,10 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
         return WH_R(0.0);
     }
     if (rig->measure.lockin.angle.fed != (rig->compensation.part >= WH_R(1.0))) {
-        wh_lockin_feed(&rig->measure.lockin, rig->compensation.part >= WH_R(1.0),
-                       config->compensation.stall_Nm / config->run.rated_V);
+        wh_lockin_compensate(&rig->measure.lockin, rig->compensation.part >= WH_R(1.0),
+                             config->compensation.stall_Nm / config->run.rated_V);
     }
-    rig->measure.lockin.angle.held_V = rig->run.volts;
+    rig->measure.lockin.angle.drive_V = rig->run.volts;
     return config->run.rated_V * wh_compensation_step(&config->compensation, &rig->compensation,
                                                       &rig->observer, now_ticks,
                                                       config->run.step_s);
@@ -412,10 +412,10 @@ static unsigned halves(const wh_rig *rig) {
 #define MARKS_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    wh_mark mark;
+    wh_index_pulse mark;
     if ((!rig->busy || rig->pulses.marks > MARKS_WAIT) &&
-        wh_pulses_mark(&rig->pulses, now_ticks, &mark)) {
-        wh_measure_mark(&rig->measure, &mark);
+        wh_pulses_confirmed(&rig->pulses, now_ticks, &mark)) {
+        wh_measure_pulse(&rig->measure, &mark);
         rig->busy = true;
     }
     if (wh_run_drives(&rig->run) && !rig->busy) {

@@ -59,7 +59,7 @@ const wh_rig_config wh_rig_standard = {
                           .gravity_mps2 = WH_RIG_GRAVITY_MPS2,
                           .damping_Nms = WH_RIG_DAMPING_NMS,
                           .damping_tolerance = WH_R(0.03),
-                          .fed_tolerance_rad = WH_R(0.04),
+                          .compensation_tolerance_rad = WH_R(0.04),
                           .inertia_kgm2 = WH_RIG_INERTIA_KGM2},
                 .tare = {.samples = 250, .still_N = WH_R(0.05), .most_N = WH_R(0.25)},
                 .result = {.mount_factor = WH_R(1.0),

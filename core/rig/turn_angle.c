@@ -12,7 +12,7 @@
 #define SLOPE_LEAST WH_R(0.15)
 
 /* The first quadrature ratios correct an inertia with a large error, by Newton's method; later ones are averaged. */
-#define SPLITS_TO_FIND 3U
+#define RATIOS_TO_FIND 3U
 
 /* Limits value to -most ... most; NaN gives most. */
 static wh_real within(wh_real value, wh_real most) {
@@ -26,22 +26,22 @@ static wh_real small_arc(wh_real sine) {
 
 /* The ripple's addition to base + phi at the angle u, given the sine and cosine of u. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
-    return angle->swing_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
+    return angle->ripple_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
 }
 
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle) {
     *angle = (wh_turn_angle){.inertia_kgm2 = config->inertia_kgm2, .part = WH_R(1.0)};
-    angle->base_rad = config->mark_rad[0];
-    angle->begin_rad = config->mark_rad[0] - config->gravity_rad;
+    angle->base_rad = config->pulse_rad[0];
+    angle->begin_rad = config->pulse_rad[0] - config->gravity_rad;
 }
 
-void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) {
+void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) {
     angle->stall_Nm_per_V = stall_Nm_per_V;
     if (angle->fed != fed) {
         angle->fed = fed;
         angle->part = fed ? WH_R(0.0) : WH_R(1.0);
-        angle->splits = 0;
+        angle->ratios = 0;
     }
 }
 
@@ -69,7 +69,7 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
  * voltage, divided by S g. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
-    const wh_real held_Nm = angle->held_V * angle->stall_Nm_per_V;
+    const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
     if (!angle->fed || !(held_Nm < weight_Nm)) {
         angle->cut = WH_R(0.0);
         return;
@@ -93,14 +93,14 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
     const wh_real turning = angle->inertia_kgm2 * speed_radps;
     const wh_real sum = WH_SQRT(turning * turning + config->damping_Nms * config->damping_Nms);
     angle->whole_rad = weight_Nm / (speed_radps * sum);
-    angle->swing_rad = within(angle->part * angle->whole_rad, SWING_MOST);
+    angle->ripple_rad = within(angle->part * angle->whole_rad, SWING_MOST);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
     /* the arc sine: error up to 1e-4 below 0.5 */
     angle->lag_rad =
         sine *
         (WH_R(1.0) + square * (WH_R(0.16666667) + square * (WH_R(0.075) + square * WH_R(0.0446))));
-    const wh_real second = WH_R(0.125) * angle->swing_rad * angle->swing_rad;
+    const wh_real second = WH_R(0.125) * angle->ripple_rad * angle->ripple_rad;
     const wh_real half = WH_R(0.5) * angle->lag_rad;
     angle->second_sine = second * (WH_R(1.0) - WH_R(0.5) * half * half);
     angle->second_cosine = -second * half * (WH_R(1.0) - half * half * (WH_R(1.0) / WH_R(6.0)));
@@ -110,16 +110,16 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
 
 WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
     /* base plus the ripple's addition at the begin of the turn is the pulse's angle; u is then base + psi - gamma */
-    const wh_real begins = config->mark_rad[0] + angle->lag_rad - config->gravity_rad;
+    const wh_real begins = config->pulse_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
         const wh_wave u = wh_wave_of(angle->begin_rad);
         angle->begin_rad -= (angle->begin_rad + added(angle, u) - begins) /
-                            (WH_R(1.0) + angle->swing_rad * u.cosine);
+                            (WH_R(1.0) + angle->ripple_rad * u.cosine);
     }
 }
 
 WH_INLINE void shape_base(const wh_rotor_config *config, wh_turn_angle *angle) {
-    angle->base_rad = config->mark_rad[0] - added(angle, wh_wave_of(angle->begin_rad));
+    angle->base_rad = config->pulse_rad[0] - added(angle, wh_wave_of(angle->begin_rad));
 }
 
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
@@ -142,10 +142,10 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 #endif
 
 /* Computes the quadrature ratio from the sines and cosines of u at the begin of the turn and at sensor 2's pulse. */
-WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
+WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
                            wh_wave from, wh_wave to) {
-    const wh_real off = config->mark_rad[1] - (angle->base_rad + passed + added(angle, to));
-    const wh_real swing = angle->swing_rad;
+    const wh_real off = config->pulse_rad[1] - (angle->base_rad + passed + added(angle, to));
+    const wh_real swing = angle->ripple_rad;
     if (!(angle->whole_rad > WH_R(0.0))) {
         return off;
     }
@@ -156,9 +156,9 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     /* derivative with respect to E, including that of psi, which depends on the inertia: d psi = tan psi dE / E */
     const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
-    const wh_real split_per_swing = (to.sine - from.sine) + swing * turns * begin_per_swing;
+    const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
-    if (!(WH_ABS(split_per_swing) > SLOPE_LEAST)) {
+    if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
         /* For a rotor that is too light, psi reverses the ratio's dependence on the inertia: Newton's method converges
          * if it starts from a heavier rotor. With gravity along a diagonal, the ratio does not depend on the rotor. */
         if (!angle->fed && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
@@ -166,40 +166,40 @@ WH_INLINE wh_real split_by(const wh_rotor_config *config, wh_turn_angle *angle, 
         }
         return off;
     }
-    angle->base_per_split = base_per_swing / split_per_swing;
-    angle->base_per_quadrature = WH_R(1.0) / split_per_swing;
-    angle->base_per_lag = -swing * bends * (from.cosine + angle->base_per_split * turns);
+    angle->base_per_ratio = base_per_swing / ratio_per_ripple;
+    angle->base_per_quadrature = WH_R(1.0) / ratio_per_ripple;
+    angle->base_per_lag = -swing * bends * (from.cosine + angle->base_per_ratio * turns);
 
-    angle->splits += angle->splits < WH_TURN_ANGLE_PATIENCE + SPLITS_TO_FIND ? 1U : 0U;
+    angle->ratios += angle->ratios < WH_TURN_ANGLE_PATIENCE + RATIOS_TO_FIND ? 1U : 0U;
     const uint32_t turns_averaged =
-        angle->splits > SPLITS_TO_FIND ? angle->splits - SPLITS_TO_FIND : 1U;
+        angle->ratios > RATIOS_TO_FIND ? angle->ratios - RATIOS_TO_FIND : 1U;
     if (angle->fed) {
         angle->part = within(
-            angle->part + off / (split_per_swing * angle->whole_rad * (wh_real)turns_averaged),
+            angle->part + off / (ratio_per_ripple * angle->whole_rad * (wh_real)turns_averaged),
             WH_R(1.0));
         return off;
     }
     /* d ln E / d ln I = -cos^2 psi; the change is limited to a factor of two, whatever the pulse */
-    const wh_real change = within(-off / (split_per_swing * swing * cosine2), WH_R(0.5));
+    const wh_real change = within(-off / (ratio_per_ripple * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;
 }
 
-wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split) {
-    const wh_real passed = WH_RIG_TWO_PI * split;
-    return split_by(config, angle, passed, wh_wave_of(angle->begin_rad),
+wh_real wh_turn_angle_by_ratio(const wh_rotor_config *config, wh_turn_angle *angle, wh_real ratio) {
+    const wh_real passed = WH_RIG_TWO_PI * ratio;
+    return ratio_by(config, angle, passed, wh_wave_of(angle->begin_rad),
                     wh_wave_of(angle->begin_rad + passed));
 }
 
 #if WH_RIG_SMALL_PIECES
-void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split) {
-    angle->split_from = wh_wave_of(angle->begin_rad);
-    angle->split_to = wh_wave_of(angle->begin_rad + WH_RIG_TWO_PI * split);
+void wh_turn_angle_ratio_waves(wh_turn_angle *angle, wh_real ratio) {
+    angle->at_begin = wh_wave_of(angle->begin_rad);
+    angle->at_second = wh_wave_of(angle->begin_rad + WH_RIG_TWO_PI * ratio);
 }
 
-wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
-                                 wh_real split) {
-    return split_by(config, angle, WH_RIG_TWO_PI * split, angle->split_from, angle->split_to);
+wh_real wh_turn_angle_ratio_rest(const wh_rotor_config *config, wh_turn_angle *angle,
+                                 wh_real ratio) {
+    return ratio_by(config, angle, WH_RIG_TWO_PI * ratio, angle->at_begin, angle->at_second);
 }
 #endif
 

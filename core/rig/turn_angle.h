@@ -50,9 +50,9 @@ typedef struct wh_rotor_config {
     wh_real damping_Nms;       /* c */
     wh_real damping_tolerance; /* relative error of c, at 95 % */
     /* error of the angle that the gravity compensation uses, rad, at 95 % */
-    wh_real fed_tolerance_rad;
+    wh_real compensation_tolerance_rad;
     wh_real inertia_kgm2;     /* inertia before the first estimate */
-    wh_real mark_rad[2];      /* angle theta of the arms at a pulse of each sensor */
+    wh_real pulse_rad[2];     /* angle theta of the arms at a pulse of each sensor */
     wh_real yields_kgm2;      /* D, only without gravity; 0: the mount is fixed */
     wh_real yields_tolerance; /* relative error of D or I, at 95 % */
 } wh_rotor_config;
@@ -65,38 +65,38 @@ typedef struct wh_turn_angle {
     /* with gravity compensation: the motor's torque per volt at standstill */
     wh_real stall_Nm_per_V;
     /* the drive's voltage without the compensation; the caller updates it */
-    wh_real held_V;
+    wh_real drive_V;
     wh_real part;      /* estimated part of gravity that remains: 1 without compensation */
-    uint32_t splits;   /* number of turns in the estimate of inertia or part */
+    uint32_t ratios;   /* number of turns in the estimate of inertia or part */
     wh_real whole_rad; /* E of the whole gravity, without compensation */
     /* part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0 */
     wh_real cut;
-    wh_real swing_rad; /* E: ripple of the angle, rad */
-    wh_real lag_rad;   /* psi */
-    wh_real begin_rad; /* u at the begin of the turn */
+    wh_real ripple_rad; /* E: ripple of the angle, rad */
+    wh_real lag_rad;    /* psi */
+    wh_real begin_rad;  /* u at the begin of the turn */
     wh_real base_rad;
     wh_real twice_rad;   /* A, rad */
     wh_real second_sine; /* coefficients of sin 2u and cos 2u */
     wh_real second_cosine;
     /* derivative of base_rad with respect to the quadrature ratio, psi included */
-    wh_real base_per_split;
+    wh_real base_per_ratio;
     /* derivative of base_rad with respect to psi at a fixed quadrature ratio */
     wh_real base_per_lag;
     /* derivative with respect to a ripple a quarter turn after E, which the estimate from the ratio takes for E */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
-    wh_wave split_from; /* sine and cosine of u at the begin of the turn and at sensor 2's pulse */
-    wh_wave split_to;
+    wh_wave at_begin; /* sine and cosine of u at the begin of the turn and at sensor 2's pulse */
+    wh_wave at_second;
 #endif
 } wh_turn_angle;
 
 #define wh_turn_angle_start WH_NAME(wh_turn_angle_start)
-#define wh_turn_angle_feed WH_NAME(wh_turn_angle_feed)
+#define wh_turn_angle_compensate WH_NAME(wh_turn_angle_compensate)
 #define wh_turn_angle_shape WH_NAME(wh_turn_angle_shape)
 #define wh_turn_angle_shape_piece WH_NAME(wh_turn_angle_shape_piece)
-#define wh_turn_angle_split WH_NAME(wh_turn_angle_split)
-#define wh_turn_angle_split_waves WH_NAME(wh_turn_angle_split_waves)
-#define wh_turn_angle_split_rest WH_NAME(wh_turn_angle_split_rest)
+#define wh_turn_angle_by_ratio WH_NAME(wh_turn_angle_by_ratio)
+#define wh_turn_angle_ratio_waves WH_NAME(wh_turn_angle_ratio_waves)
+#define wh_turn_angle_ratio_rest WH_NAME(wh_turn_angle_ratio_rest)
 #define wh_turn_angle_at WH_NAME(wh_turn_angle_at)
 
 /* Forget the estimates. */
@@ -104,7 +104,7 @@ void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
 /* Switches gravity compensation on or off in the model. After a change, gravity's remaining part is estimated again,
  * and the inertia stays. stall_Nm_per_V > 0: the motor's torque at standstill per volt. */
-void wh_turn_angle_feed(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
+void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
 
 /* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded: each
  * call does one iteration for begin_rad, which converges over a few turns. */
@@ -117,16 +117,16 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
                                wh_real speed_radps, unsigned piece);
 #endif
 
-/* Corrects the inertia, or the remaining part of gravity, from the quadrature ratio `split` (0 to 1): sensor 2's pulse
+/* Corrects the inertia, or the remaining part of gravity, from the quadrature ratio `ratio` (0 to 1): sensor 2's pulse
  * came after this part of the turn's time. The shape must be that of this turn's speed. Returns the error of the angle
  * at that pulse, rad. */
-wh_real wh_turn_angle_split(const wh_rotor_config *config, wh_turn_angle *angle, wh_real split);
+wh_real wh_turn_angle_by_ratio(const wh_rotor_config *config, wh_turn_angle *angle, wh_real ratio);
 
 #if WH_RIG_SMALL_PIECES
-/* wh_turn_angle_split() in two pieces: first the sines, then the correction. */
-void wh_turn_angle_split_waves(wh_turn_angle *angle, wh_real split);
-wh_real wh_turn_angle_split_rest(const wh_rotor_config *config, wh_turn_angle *angle,
-                                 wh_real split);
+/* wh_turn_angle_by_ratio() in two pieces: first the sines, then the correction. */
+void wh_turn_angle_ratio_waves(wh_turn_angle *angle, wh_real ratio);
+wh_real wh_turn_angle_ratio_rest(const wh_rotor_config *config, wh_turn_angle *angle,
+                                 wh_real ratio);
 #endif
 
 /* theta after the part `part` (0 to 1) of the turn's time. */

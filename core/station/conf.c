@@ -154,10 +154,10 @@ static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
 static void put_sensors(const wh_conf *conf, wh_rig_config *c) {
     const wh_real lead_deg = conf->value[WH_CONF_slot_lead];
     wh_rig_slots(c, lead_deg / DEG);
-    c->measure.rotor.mark_rad[0] = (conf->value[WH_CONF_sensor1] - lead_deg) / DEG;
-    c->measure.rotor.mark_rad[1] = (conf->value[WH_CONF_sensor2] - lead_deg) / DEG;
-    c->observer.mark_rad[0] = c->measure.rotor.mark_rad[0];
-    c->observer.mark_rad[1] = c->measure.rotor.mark_rad[1];
+    c->measure.rotor.pulse_rad[0] = (conf->value[WH_CONF_sensor1] - lead_deg) / DEG;
+    c->measure.rotor.pulse_rad[1] = (conf->value[WH_CONF_sensor2] - lead_deg) / DEG;
+    c->observer.pulse_rad[0] = c->measure.rotor.pulse_rad[0];
+    c->observer.pulse_rad[1] = c->measure.rotor.pulse_rad[1];
 }
 
 static void put_cell(const wh_conf *conf, wh_rig_config *c) {

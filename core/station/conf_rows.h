@@ -55,9 +55,9 @@
       "at which the arms hang") \
     X(mount_factor, 7, WH_CONF_REAL, ONE, 0.01, 1.0, ROTOR, measure.result.mount_factor, \
       "force as a part of that on a fixed mount; carriage: 1/(1 + ratio)") \
-    X(sensor1, 8, WH_CONF_REAL, DEG, -30.0, 30.0, SENSORS, measure.rotor.mark_rad[0], \
+    X(sensor1, 8, WH_CONF_REAL, DEG, -30.0, 30.0, SENSORS, measure.rotor.pulse_rad[0], \
       "where it stands, from the loading-train axis") \
-    X(sensor2, 9, WH_CONF_REAL, DEG, 60.0, 120.0, SENSORS, measure.rotor.mark_rad[1], \
+    X(sensor2, 9, WH_CONF_REAL, DEG, 60.0, 120.0, SENSORS, measure.rotor.pulse_rad[1], \
       "where it stands, from the loading-train axis") \
     X(slot_lead, 10, WH_CONF_REAL, DEG, 0.0, 20.0, SENSORS, swing.lead_rad, \
       "pulses come so far before a sensor") \

@@ -16,7 +16,7 @@ void fed_rotor_standard(fed_rotor *fed, uint64_t seed) {
                        .driving = wh_rig_standard.run.drive};
     fed->observing.scene = &rig_fixed;
     for (unsigned i = 0; i < 2; i++) {
-        fed->observing.mark_rad[i] = fed->kind.mark_rad[i];
+        fed->observing.pulse_rad[i] = fed->kind.pulse_rad[i];
     }
     fed->rotor.seed = seed;
     fed->rotor.ticks = UINT32_MAX - UINT32_C(2500000); /* the timer wraps on the way */
@@ -59,8 +59,8 @@ static void take_marks(fed_rotor *fed) {
             continue;
         }
         wh_speed_pulse(&fed->speed, truth->mark_sensor[i], truth->mark_ticks[i]);
-        wh_observer_mark(&fed->observing, &fed->observer, truth->mark_sensor[i],
-                         truth->mark_ticks[i]);
+        wh_observer_pulse(&fed->observing, &fed->observer, truth->mark_sensor[i],
+                          truth->mark_ticks[i]);
     }
 }
 

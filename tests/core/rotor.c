@@ -15,7 +15,7 @@ rotor_kind rotor_nominal(void) {
                         .stall_Nm = WH_RIG_STALL_NM,
                         .no_load_radps = WH_RIG_NO_LOAD_RADPS,
                         .drag_Nms = WH_R(0.001),
-                        .mark_rad = {-LEAD_RAD, WH_R(0.25) * WH_RIG_TWO_PI - LEAD_RAD}};
+                        .pulse_rad = {-LEAD_RAD, WH_R(0.25) * WH_RIG_TWO_PI - LEAD_RAD}};
 }
 
 static wh_real within_half_a_turn(wh_real rad) {
@@ -52,7 +52,7 @@ wh_real rotor_acceleration_radps2(const rotor_kind *kind, const rotor_state *rot
 static void watch(const rotor_kind *kind, rotor_state *rotor, wh_real from_rad, wh_real way_rad) {
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         const bool back = way_rad < WH_R(0.0) && kind->slot_rad > WH_R(0.0);
-        const wh_real on = kind->mark_rad[sensor] - from_rad;
+        const wh_real on = kind->pulse_rad[sensor] - from_rad;
         wh_real to = back ? -(on + kind->slot_rad) : on;
         while (to < WH_R(0.0)) {
             to += WH_RIG_TWO_PI;

@@ -18,7 +18,7 @@ typedef struct rotor_kind {
     wh_real friction_Nm; /* Coulomb friction, against the motion */
     /* a voltage below the back-EMF makes no torque, instead of a braking one */
     bool freewheels;
-    wh_real mark_rad[2]; /* the true angles of the sensors */
+    wh_real pulse_rad[2]; /* the true angles of the sensors */
     /* hysteresis of the slot when the rotor turns backwards; 0: no pulse backwards */
     wh_real slot_rad;
     wh_real jitter_s; /* jitter of the pulses, in both directions, uniform */

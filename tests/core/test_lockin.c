@@ -14,7 +14,7 @@
 #define DEG WH_R(0.017453292519943295)
 #define PI WH_R(3.141592653589793)
 
-/* A rotor with constant speed and the load mean + amplitude cos(order theta + phase), with theta = mark_rad at the
+/* A rotor with constant speed and the load mean + amplitude cos(order theta + phase), with theta = pulse_rad at the
  * pulses of sensor 1; and faults. Samples and turns are counted from the start. */
 typedef struct made_up {
     uint32_t first_ticks; /* time of the first sample */
@@ -52,8 +52,8 @@ static wh_real cosine_of(wh_real rad) {
 static void settings(void) {
     rotor = wh_rig_standard.measure.rotor;
     rotor.gravity_mps2 = WH_R(0.0);
-    rotor.mark_rad[0] = WH_R(0.0);
-    rotor.mark_rad[1] = WH_R(0.5) * PI;
+    rotor.pulse_rad[0] = WH_R(0.0);
+    rotor.pulse_rad[1] = WH_R(0.5) * PI;
     cell = (wh_cell_config){
         .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
 }
@@ -65,7 +65,7 @@ static uint32_t turn_ticks_of(const made_up *made, unsigned turn) {
 }
 
 static wh_real load_of(const made_up *made, wh_real part) {
-    const wh_real theta = rotor.mark_rad[0] + WH_RIG_TWO_PI * part;
+    const wh_real theta = rotor.pulse_rad[0] + WH_RIG_TWO_PI * part;
     return made->mean_N +
            made->amplitude_N * cosine_of((wh_real)made->order * theta + made->phase_rad) +
            made->third_N * cosine_of(WH_R(3.0) * theta);
@@ -96,15 +96,15 @@ static void run(const made_up *made, unsigned wanted) {
         const uint32_t second_ticks = before + (mark - before) / 4U;
         if (turn > 0 && second < turn && (int32_t)(now - second_ticks) >= 0) {
             if (turn != made->lost_mark[1]) {
-                wh_lockin_mark(&lockin, 1, made->first_ticks + second_ticks,
-                               UINT32_MAX - 16U + 4U * turn + 1U);
+                wh_lockin_pulse(&lockin, 1, made->first_ticks + second_ticks,
+                                UINT32_MAX - 16U + 4U * turn + 1U);
             }
             second = turn;
         }
         if ((int32_t)(now - mark) >= 0) {
             turn++;
             if (turn != made->lost_mark[0] || turn == 0) {
-                wh_lockin_mark(&lockin, 0, made->first_ticks + mark, UINT32_MAX - 16U + 4U * turn);
+                wh_lockin_pulse(&lockin, 0, made->first_ticks + mark, UINT32_MAX - 16U + 4U * turn);
             }
             before = mark;
             mark += turn_ticks_of(made, turn);
@@ -177,7 +177,7 @@ TEST(lockin, known_phase_and_amplitude_are_found) {
         /* the load at the sensors, interpolated linearly between two samples */
         for (unsigned sensor = 0; sensor < 2; sensor++) {
             const wh_real at = load_of(&made, (wh_real)sensor * WH_R(0.25));
-            TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)at, (float)turns[5].at_mark_N[sensor]);
+            TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)at, (float)turns[5].at_pulse_N[sensor]);
         }
     }
 }
@@ -187,8 +187,8 @@ TEST(lockin, angle_of_the_mark_counts) {
     settings();
     made_up made = plain;
     made.phase_rad = WH_R(30.0) * DEG;
-    rotor.mark_rad[0] -= WH_R(5.0) * DEG;
-    rotor.mark_rad[1] -= WH_R(5.0) * DEG;
+    rotor.pulse_rad[0] -= WH_R(5.0) * DEG;
+    rotor.pulse_rad[1] -= WH_R(5.0) * DEG;
     run(&made, 6);
     check_all(&made, 6);
 }
@@ -245,7 +245,7 @@ TEST(lockin, lost_marks_spoil_no_other_turn) {
         TEST_ASSERT_EQUAL_UINT32(sensor == 0 ? 2U : 0U, lockin.skipped);
         unsigned unseen = 0;
         for (unsigned i = 0; i < turns_done; i++) {
-            unseen += turns[i].split_seen ? 0U : 1U;
+            unseen += turns[i].second_seen ? 0U : 1U;
         }
         TEST_ASSERT_EQUAL_UINT(sensor, unseen);
     }
@@ -259,10 +259,10 @@ TEST(lockin, a_gap_costs_one_turn) {
     wh_lockin_gap(&lockin);
     TEST_ASSERT_EQUAL_UINT32(skipped + 1U, lockin.skipped);
     TEST_ASSERT_FALSE(lockin.open);
-    wh_lockin_mark(&lockin, 1, 1000, 77);
-    TEST_ASSERT_FALSE(lockin.split_seen);
-    wh_lockin_mark(&lockin, 0, 2000, 80);
-    TEST_ASSERT_TRUE(lockin.open && !lockin.split_seen && lockin.begin_ticks == 2000U);
+    wh_lockin_pulse(&lockin, 1, 1000, 77);
+    TEST_ASSERT_FALSE(lockin.second_seen);
+    wh_lockin_pulse(&lockin, 0, 2000, 80);
+    TEST_ASSERT_TRUE(lockin.open && !lockin.second_seen && lockin.begin_ticks == 2000U);
 }
 
 /* Two missing samples are bridged, three leave the turn without a result. */
@@ -380,7 +380,7 @@ TEST(lockin, samples_out_of_order_are_refused) {
 TEST(lockin, samples_stay_in_their_room) {
     settings();
     wh_lockin_start(&rotor, &lockin);
-    wh_lockin_mark(&lockin, 0, 0, 0);
+    wh_lockin_pulse(&lockin, 0, 0, 0);
     for (uint32_t i = 1; i <= 3U * WH_LOCKIN_SAMPLES + 7U; i++) {
         const wh_load load = {.ticks = i * PERIOD_TICKS, .force_N = (wh_real)i};
         wh_lockin_load(&lockin, &load);
@@ -408,21 +408,21 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
         settings();
         rotor.gravity_mps2 = WH_RIG_GRAVITY_MPS2;
         rotor.gravity_rad = gravities[k % 4U] * DEG;
-        rotor.mark_rad[0] = -DEG;
-        rotor.mark_rad[1] = WH_R(89.0) * DEG;
+        rotor.pulse_rad[0] = -DEG;
+        rotor.pulse_rad[1] = WH_R(89.0) * DEG;
         const wh_real speed = rpm[k / 4U % 3U] * WH_RIG_RADPS_PER_RPM;
         wh_turn_angle wanted;
         wh_turn_angle_start(&rotor, &wanted);
         wh_turn_angle_shape(&rotor, &wanted, speed);
         wh_turn_angle_shape(&rotor, &wanted, speed);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)rotor.mark_rad[0],
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)rotor.pulse_rad[0],
                                  (float)wh_turn_angle_at(&wanted, WH_R(0.0)));
-        TEST_ASSERT_FLOAT_WITHIN(3e-6f, (float)(rotor.mark_rad[0] + WH_RIG_TWO_PI),
+        TEST_ASSERT_FLOAT_WITHIN(3e-6f, (float)(rotor.pulse_rad[0] + WH_RIG_TWO_PI),
                                  (float)wh_turn_angle_at(&wanted, WH_R(1.0)));
         /* the part of the turn's time at which the angle is that of sensor 2 */
-        wh_real split = WH_R(0.25);
+        wh_real ratio = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
-            split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
+            ratio -= (wh_turn_angle_at(&wanted, ratio) - rotor.pulse_rad[1]) / WH_RIG_TWO_PI;
         }
         wh_rotor_config said = rotor;
         said.inertia_kgm2 *= k < 12U ? WH_R(0.6) : WH_R(1.4);
@@ -430,7 +430,7 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
         wh_turn_angle_start(&said, &found);
         for (unsigned i = 0; i < 8; i++) {
             wh_turn_angle_shape(&said, &found, speed);
-            wh_turn_angle_split(&said, &found, split);
+            wh_turn_angle_by_ratio(&said, &found, ratio);
         }
         TEST_ASSERT_FLOAT_WITHIN(2e-4f, 1.0f, (float)(found.inertia_kgm2 / rotor.inertia_kgm2));
         wh_turn_angle_shape(&said, &found, speed);
@@ -450,8 +450,8 @@ TEST(lockin, level_arms_turn_evenly) {
     wh_turn_angle_shape(&rotor, &angle, WH_R(30.0));
     TEST_ASSERT_FLOAT_WITHIN(
         1e-4f, 0.1f,
-        (float)wh_turn_angle_split(&rotor, &angle, WH_R(0.25) - WH_R(0.1) / WH_RIG_TWO_PI));
-    TEST_ASSERT_TRUE(angle.inertia_kgm2 == rotor.inertia_kgm2 && angle.splits == 0);
+        (float)wh_turn_angle_by_ratio(&rotor, &angle, WH_R(0.25) - WH_R(0.1) / WH_RIG_TWO_PI));
+    TEST_ASSERT_TRUE(angle.inertia_kgm2 == rotor.inertia_kgm2 && angle.ratios == 0);
     for (unsigned i = 0; i <= 8; i++) {
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 6.2831853f * (float)i / 8.0f,
                                  (float)wh_turn_angle_at(&angle, (wh_real)i / WH_R(8.0)));

@@ -72,7 +72,7 @@ static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_locki
             const uint32_t at =
                 from->ticks + (uint32_t)mark + quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U;
             if (quarter % 4U < 2U) {
-                wh_lockin_mark(to, quarter % 4U, at, quarter);
+                wh_lockin_pulse(to, quarter % 4U, at, quarter);
             }
         }
         hold -= hold > 0 ? 1U : 0U;
@@ -108,7 +108,7 @@ static void check_same(const wh_lockin_turn *wanted, const wh_lockin_turn *turn,
     check_near(wanted->mean_N, turn->mean_N, most_N);
     check_near(wanted->residual_N, turn->residual_N, most_N);
     for (unsigned k = 0; k < 2U; k++) {
-        check_near(wanted->at_mark_N[k], turn->at_mark_N[k], most_N);
+        check_near(wanted->at_pulse_N[k], turn->at_pulse_N[k], most_N);
     }
 }
 
@@ -116,8 +116,8 @@ static void begin(uint64_t from) {
     seed = from;
     rotor = wh_rig_standard.measure.rotor;
     rotor.gravity_mps2 = WH_R(0.0);
-    rotor.mark_rad[0] = WH_R(0.0);
-    rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI;
+    rotor.pulse_rad[0] = WH_R(0.0);
+    rotor.pulse_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI;
 }
 
 /* Samples that come late, one by one, in groups, or after the turn: each turn has the same bits. */
@@ -189,8 +189,8 @@ TEST(lockin_late, marks_may_fall_on_samples) {
                     check_near(from.mean_N, found[k].force_N.at[0], WH_R(0.01));
                     check_near(from.cosine_N, found[k].force_N.at[1], WH_R(0.01));
                     check_near(from.sine_N, found[k].force_N.at[2], WH_R(0.01));
-                    check_near(from.mean_N + from.cosine_N, found[k].at_mark_N[0], WH_R(0.05));
-                    check_near(from.mean_N + from.sine_N, found[k].at_mark_N[1], WH_R(0.05));
+                    check_near(from.mean_N + from.cosine_N, found[k].at_pulse_N[0], WH_R(0.05));
+                    check_near(from.mean_N + from.sine_N, found[k].at_pulse_N[1], WH_R(0.05));
                 }
             }
         }

@@ -31,7 +31,7 @@ TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
         even_step(&even); /* processes the confirmed pulse before the last */
     }
     twin = even;
-    for (unsigned marks = 0; marks <= WH_PULSES_MARKS; marks++) {
+    for (unsigned marks = 0; marks <= WH_PULSES_CONFIRMED; marks++) {
         for (unsigned pulse = 0; pulse < 2U; pulse++) {
             even = twin;
             for (unsigned i = 0; i < marks; i++) {

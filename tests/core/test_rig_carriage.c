@@ -37,7 +37,7 @@ static void integrate(wh_real omega) {
     for (unsigned turn = 0; turn < TURNS; turn++) {
         wh_real time = WH_R(0.0);
         for (unsigned i = 0; i < STEPS; i++) {
-            const wh_real theta = rotor.mark_rad[0] + step * (wh_real)i;
+            const wh_real theta = rotor.pulse_rad[0] + step * (wh_real)i;
             const wh_real half = WH_R(0.5) * step;
             const wh_real middle = speed + half * slope(theta, speed, omega);
             const wh_real next = speed + step * slope(theta + half, middle, omega);
@@ -60,7 +60,7 @@ static wh_real off(const wh_rotor_config *config, wh_turn_angle *angle) {
     }
     wh_real most = WH_R(0.0);
     for (unsigned i = 0; i <= STEPS; i++) {
-        const wh_real theta = config->mark_rad[0] + WH_RIG_TWO_PI / (wh_real)STEPS * (wh_real)i;
+        const wh_real theta = config->pulse_rad[0] + WH_RIG_TWO_PI / (wh_real)STEPS * (wh_real)i;
         const wh_real far = WH_ABS(wh_turn_angle_at(angle, part_at[i]) - theta);
         most = far > most ? far : most;
     }

@@ -160,8 +160,8 @@ TEST(rig_gravity, another_weight_leaves_its_part) {
 TEST(rig_gravity, sensors_may_stand_wrong) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
-        fed.kind.mark_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
-        fed.kind.mark_rad[1] += (i / 2U % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
+        fed.kind.pulse_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
+        fed.kind.pulse_rad[1] += (i / 2U % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
         run_at(i < 4U ? WH_R(330.0) : WH_R(170.0));
         const wh_real whole = i < 4U ? WH_R(0.05) : WH_R(0.18);
         check_between(WH_R(0.002) * whole, WH_R(0.07) * whole, fed_rotor_ripple(&fed));
@@ -210,33 +210,33 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
-    rotor.mark_rad[0] = -DEG;
-    rotor.mark_rad[1] = WH_R(89.0) * DEG;
+    rotor.pulse_rad[0] = -DEG;
+    rotor.pulse_rad[1] = WH_R(89.0) * DEG;
     for (unsigned k = 0; k < 12; k++) {
         const wh_real speed = rpm[k / 4U] * RPM;
         wh_turn_angle wanted;
         wh_turn_angle_start(&rotor, &wanted);
-        wh_turn_angle_feed(&wanted, true, WH_R(0.0625));
+        wh_turn_angle_compensate(&wanted, true, WH_R(0.0625));
         wanted.part = parts[k % 4U];
         wh_turn_angle found;
         wh_turn_angle_start(&rotor, &found);
-        wh_turn_angle_feed(&found, true, WH_R(0.0625));
-        wanted.held_V = found.held_V = WH_R(24.0);
+        wh_turn_angle_compensate(&found, true, WH_R(0.0625));
+        wanted.drive_V = found.drive_V = WH_R(24.0);
         for (unsigned i = 0; i < 4; i++) {
             wh_turn_angle_shape(&rotor, &wanted, speed);
         }
         /* the part of the turn's time at which the angle is that of sensor 2 */
-        wh_real split = WH_R(0.25);
+        wh_real ratio = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
-            split -= (wh_turn_angle_at(&wanted, split) - rotor.mark_rad[1]) / WH_RIG_TWO_PI;
+            ratio -= (wh_turn_angle_at(&wanted, ratio) - rotor.pulse_rad[1]) / WH_RIG_TWO_PI;
         }
         for (unsigned i = 0; i < 12; i++) {
             /* compensation was already on: no change */
-            wh_turn_angle_feed(&found, true, WH_R(0.0625));
+            wh_turn_angle_compensate(&found, true, WH_R(0.0625));
             wh_turn_angle_shape(&rotor, &found, speed);
-            wh_turn_angle_split(&rotor, &found, split);
+            wh_turn_angle_by_ratio(&rotor, &found, ratio);
         }
-        TEST_ASSERT_EQUAL_UINT32(12, found.splits);
+        TEST_ASSERT_EQUAL_UINT32(12, found.ratios);
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)wanted.part, (float)found.part);
         TEST_ASSERT_TRUE(found.inertia_kgm2 == rotor.inertia_kgm2);
         wh_turn_angle_shape(&rotor, &found, speed);
@@ -245,8 +245,8 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
             TEST_ASSERT_FLOAT_WITHIN(2e-4f, (float)wh_turn_angle_at(&wanted, part),
                                      (float)wh_turn_angle_at(&found, part));
         }
-        wh_turn_angle_feed(&found, false, WH_R(0.0625));
-        TEST_ASSERT_TRUE(found.part == WH_R(1.0) && found.splits == 0);
+        wh_turn_angle_compensate(&found, false, WH_R(0.0625));
+        TEST_ASSERT_TRUE(found.part == WH_R(1.0) && found.ratios == 0);
     }
 }
 
@@ -256,22 +256,22 @@ TEST(rig_gravity, the_lockin_is_told) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_lockin_start(rotor, &lockin);
-    wh_lockin_mark(&lockin, 0, 1000, 0);
-    wh_lockin_feed(&lockin, false, WH_R(0.0625));
+    wh_lockin_pulse(&lockin, 0, 1000, 0);
+    wh_lockin_compensate(&lockin, false, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 0);
-    wh_lockin_feed(&lockin, true, WH_R(0.0625));
+    wh_lockin_compensate(&lockin, true, WH_R(0.0625));
     TEST_ASSERT_TRUE(!lockin.open && lockin.skipped == 1U && lockin.angle.fed);
-    wh_lockin_mark(&lockin, 0, 2000, 4);
-    wh_lockin_feed(&lockin, true, WH_R(0.0625));
+    wh_lockin_pulse(&lockin, 0, 2000, 4);
+    wh_lockin_compensate(&lockin, true, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 1U);
     const wh_real weight_Nm = rotor->unbalance_kgm * rotor->gravity_mps2;
-    lockin.angle.held_V = WH_R(16.0) * weight_Nm;
+    lockin.angle.drive_V = WH_R(16.0) * weight_Nm;
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
-    lockin.angle.held_V = WH_R(0.71) * WH_R(16.0) * weight_Nm;
+    lockin.angle.drive_V = WH_R(0.71) * WH_R(16.0) * weight_Nm;
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.29f, (float)lockin.angle.cut);
-    wh_lockin_feed(&lockin, false, WH_R(0.0625));
+    wh_lockin_compensate(&lockin, false, WH_R(0.0625));
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
 }
@@ -298,15 +298,15 @@ TEST(rig_gravity, the_answer_to_a_pulse) {
     uint64_t seed = 77;
     for (unsigned i = 0; i < 60U; i++) {
         wh_rotor_config rotor = wh_rig_standard.measure.rotor;
-        rotor.mark_rad[0] = -DEG;
+        rotor.pulse_rad[0] = -DEG;
         rotor.damping_Nms = WH_R(0.01) * draw_whole(&seed, 2, 4);
         const wh_real speed = draw_whole(&seed, 70, 120) * RPM;
         const wh_real cut = WH_R(0.01) * draw_whole(&seed, 3, 35);
         const wh_real weight_Nm = rotor.unbalance_kgm * rotor.gravity_mps2;
         wh_turn_angle angle;
         wh_turn_angle_start(&rotor, &angle);
-        wh_turn_angle_feed(&angle, true, WH_R(0.0625));
-        angle.held_V = (WH_R(1.0) - cut) * WH_R(16.0) * weight_Nm;
+        wh_turn_angle_compensate(&angle, true, WH_R(0.0625));
+        angle.drive_V = (WH_R(1.0) - cut) * WH_R(16.0) * weight_Nm;
         for (unsigned k = 0; k < 6U; k++) {
             wh_turn_angle_shape(&rotor, &angle, speed);
         }

@@ -29,17 +29,17 @@ TEST(rig_law, no_more_volts_than_the_supply_has) {
     for (unsigned i = 0; i < 200U; i++) {
         static wh_rig rig;
         const wh_real supply_V = WH_R(11.0) + WH_R(0.1) * (wh_real)((scattered() >> 20) % 250U);
-        const wh_real held_V = WH_R(0.15) * (wh_real)((scattered() >> 20) % 250U);
+        const wh_real drive_V = WH_R(0.15) * (wh_real)((scattered() >> 20) % 250U);
         const wh_rig_inputs inputs = {.now_ticks = 2000U, .supply_V = supply_V};
         wh_rig_start(&wh_rig_standard, &rig, 0, NULL);
         wh_run_start(&rig.run, WH_RIG_NOMINAL_RPM * WH_RIG_RADPS_PER_RPM, 0);
         rig.state = WH_RIG_RUNNING;
         rig.run.phase = WH_PHASE_SETTLE;
-        wh_drive_start(&rig.run.drive, rig.run.target_radps, held_V);
-        rig.run.volts = held_V;
+        wh_drive_start(&rig.run.drive, rig.run.target_radps, drive_V);
+        rig.run.volts = drive_V;
         const wh_rig_command command = wh_rig_step(&wh_rig_standard, &rig, &inputs);
         TEST_ASSERT_TRUE(command.way == WH_MOTOR_DRIVES);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)(held_V < supply_V ? held_V : supply_V),
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)(drive_V < supply_V ? drive_V : supply_V),
                                  (float)command.volts);
     }
 }

@@ -175,11 +175,11 @@ TEST(rig_motor, a_wrong_order_is_named) {
         draw_motor();
         enter(&motor);
         if (i % 2U == 0) { /* mirrored, sensor 2 is at three quarters of a turn */
-            kind.mark_rad[1] = WH_R(0.75) * WH_RIG_TWO_PI + kind.mark_rad[0];
+            kind.pulse_rad[1] = WH_R(0.75) * WH_RIG_TWO_PI + kind.pulse_rad[0];
         } else {
-            const wh_real one = kind.mark_rad[0];
-            kind.mark_rad[0] = kind.mark_rad[1];
-            kind.mark_rad[1] = one;
+            const wh_real one = kind.pulse_rad[0];
+            kind.pulse_rad[0] = kind.pulse_rad[1];
+            kind.pulse_rad[1] = one;
         }
         if (run(between(WH_R(170.0), WH_R(360.0))) == WH_ALLOWED) {
             TEST_ASSERT_EQUAL_UINT(WH_TRIP_ORDER, rig.guard.trip);

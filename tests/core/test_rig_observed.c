@@ -131,7 +131,7 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
             even_step(&even);
         }
         TEST_ASSERT_TRUE(angle->fed);
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.rig.run.volts, (float)angle->held_V);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.rig.run.volts, (float)angle->drive_V);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(200.0) + (wh_real)i) * EVEN_RPM) ==
                          WH_ALLOWED);
         TEST_ASSERT_FALSE(angle->fed);
@@ -174,7 +174,7 @@ TEST(rig_observed, a_sensor_that_is_none) {
 /* Confirmed pulses wait in order of time, up to the buffer's size. */
 TEST(rig_observed, marks_come_in_their_order) {
     wh_pulses pulses;
-    wh_mark mark;
+    wh_index_pulse mark;
     seed = 4;
     wh_pulses_start(&pulses, WH_R(84.0));
     pulses.bound_radps = WH_R(84.0);
@@ -182,7 +182,7 @@ TEST(rig_observed, marks_come_in_their_order) {
     uint32_t taken = 0;
     uint32_t before = ticks;
     for (unsigned i = 0; i < 200U; i++) {
-        const unsigned running = 1U + draw_one_of(&seed, WH_PULSES_MARKS);
+        const unsigned running = 1U + draw_one_of(&seed, WH_PULSES_CONFIRMED);
         for (unsigned k = 0; k < running; k++) {
             /* 333 rpm; the sensors are a quarter of a turn apart */
             ticks += taken % 2U == 0 ? 135000U : 45000U;
@@ -190,7 +190,7 @@ TEST(rig_observed, marks_come_in_their_order) {
             taken++;
         }
         unsigned marks = 0;
-        while (wh_pulses_mark(&pulses, ticks + 30000U, &mark)) {
+        while (wh_pulses_confirmed(&pulses, ticks + 30000U, &mark)) {
             TEST_ASSERT_TRUE((int32_t)(mark.pulse.ticks - before) > 0);
             before = mark.pulse.ticks;
             marks++;

@@ -124,7 +124,7 @@ TEST(rig_observer, drawn_rotors_are_followed) {
         kind->friction_Nm = between(&seed, WH_R(0.0), WH_R(0.2));
         kind->jitter_s = JITTER_S;
         for (unsigned k = 0; k < 2; k++) {
-            kind->mark_rad[k] += between(&seed, WH_R(-3.0), WH_R(3.0)) * DEG;
+            kind->pulse_rad[k] += between(&seed, WH_R(-3.0), WH_R(3.0)) * DEG;
         }
         kind->freewheels = draw_one_in(&seed, 2);
         fed.observing.freewheels = kind->freewheels && draw_one_in(&seed, 2);
@@ -186,14 +186,14 @@ TEST(rig_observer, a_false_mark_is_noticed) {
         TEST_ASSERT_TRUE(fed.observer.valid);
         const uint32_t now = fed.rotor.ticks;
         const unsigned sensor = i % 2U;
-        const wh_real off = rotor_ahead_rad(&fed.rotor, fed.observing.mark_rad[sensor]);
-        wh_observer_mark(&fed.observing, &fed.observer, sensor, now);
+        const wh_real off = rotor_ahead_rad(&fed.rotor, fed.observing.pulse_rad[sensor]);
+        wh_observer_pulse(&fed.observing, &fed.observer, sensor, now);
         const wh_real seen = fed.observer.innovation_rad;
         TEST_ASSERT_FLOAT_WITHIN((float)DEG, -(float)off, (float)seen);
         TEST_ASSERT_TRUE(fed.observer.valid == (WH_ABS(seen) <= fed.observing.trusted_rad));
     }
     const wh_real before = fed.observer.innovation_rad;
-    wh_observer_mark(&fed.observing, &fed.observer, 2, fed.rotor.ticks); /* no such sensor */
+    wh_observer_pulse(&fed.observing, &fed.observer, 2, fed.rotor.ticks); /* no such sensor */
     TEST_ASSERT_TRUE(fed.observer.innovation_rad == before);
 }
 
@@ -210,10 +210,10 @@ TEST(rig_observer, two_marks_set_it_out) {
         for (uint32_t k = 2000; k <= took + 3000U; k += 2000U) {
             wh_observer_step(&fed.observing, &fed.observer, from + k, WH_R(0.5));
             if (k == 2000U) {
-                wh_observer_mark(&fed.observing, &fed.observer, first, from + 1300U);
+                wh_observer_pulse(&fed.observing, &fed.observer, first, from + 1300U);
             }
         }
-        wh_observer_mark(&fed.observing, &fed.observer, second, from + 1300U + took);
+        wh_observer_pulse(&fed.observing, &fed.observer, second, from + 1300U + took);
         /* at 43 rpm a turn takes 1.4 s; the observer does not start for slower rotors */
         TEST_ASSERT_TRUE(fed.observer.runs == (!slow || first == second));
         if (!slow) {
@@ -221,7 +221,7 @@ TEST(rig_observer, two_marks_set_it_out) {
             TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)speed, (float)speed,
                                      (float)wh_observer_speed_radps(&fed.observer));
             TEST_ASSERT_FLOAT_WITHIN(
-                1e-5f, (float)fed.observing.mark_rad[second],
+                1e-5f, (float)fed.observing.pulse_rad[second],
                 (float)wh_observer_angle_rad(&fed.observer, from + 1300U + took));
         }
     }
@@ -259,8 +259,8 @@ TEST(rig_observer, uneven_steps_lose_no_time) {
         rotor_turn(&fed.kind, &fed.rotor, fed.voltage, i % 3U == 0 ? 2500 : 1500);
         wh_observer_step(&fed.observing, &fed.observer, fed.rotor.ticks, fed.voltage);
         for (unsigned k = 0; k < fed.rotor.marks; k++) {
-            wh_observer_mark(&fed.observing, &fed.observer, fed.rotor.mark_sensor[k],
-                             fed.rotor.mark_ticks[k]);
+            wh_observer_pulse(&fed.observing, &fed.observer, fed.rotor.mark_sensor[k],
+                              fed.rotor.mark_ticks[k]);
         }
         if (i >= 2000U) {
             const wh_real angle = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
@@ -313,7 +313,7 @@ TEST(rig_observer, shivers_set_nothing_going) {
         begin(5, WH_R(100.0));
         uint32_t now = fed.rotor.ticks;
         for (unsigned k = 0; k < 6; k++) {
-            wh_observer_mark(&fed.observing, &fed.observer, 0, now);
+            wh_observer_pulse(&fed.observing, &fed.observer, 0, now);
             for (const uint32_t until = now + apart[i]; (int32_t)(until - now) > 0;) {
                 now += until - now < 2000U ? until - now : 2000U;
                 wh_observer_step(&fed.observing, &fed.observer, now, WH_R(0.0));

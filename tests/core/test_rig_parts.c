@@ -66,7 +66,7 @@ TEST(rig_parts, polar_of_every_size) {
     }
 }
 
-/* wh_turn_angle_split() returns the error of the angle at sensor 2's pulse before the correction, whichever parameter
+/* wh_turn_angle_by_ratio() returns the error of the angle at sensor 2's pulse before the correction, whichever parameter
  * it corrects. */
 TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     seed = 3;
@@ -75,18 +75,18 @@ TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
         rotor.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
         rotor.gravity_mps2 *=
             draw_one_in(&seed, 5) ? WH_R(0.0) : drawn_between(WH_R(0.5), WH_R(1.0));
-        rotor.mark_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
-        rotor.mark_rad[1] = rotor.mark_rad[0] + drawn_between(WH_R(1.4), WH_R(1.7));
+        rotor.pulse_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
+        rotor.pulse_rad[1] = rotor.pulse_rad[0] + drawn_between(WH_R(1.4), WH_R(1.7));
         wh_turn_angle angle;
         wh_turn_angle_start(&rotor, &angle);
-        wh_turn_angle_feed(&angle, draw_one_in(&seed, 2), WH_R(0.0625));
-        angle.held_V = WH_R(24.0);
+        wh_turn_angle_compensate(&angle, draw_one_in(&seed, 2), WH_R(0.0625));
+        angle.drive_V = WH_R(24.0);
         for (unsigned turn = 0; turn < 3U; turn++) {
             wh_turn_angle_shape(&rotor, &angle, drawn_between(WH_R(25.0), WH_R(40.0)));
-            const wh_real split = drawn_between(WH_R(0.22), WH_R(0.28));
-            const wh_real off = rotor.mark_rad[1] - wh_turn_angle_at(&angle, split);
+            const wh_real ratio = drawn_between(WH_R(0.22), WH_R(0.28));
+            const wh_real off = rotor.pulse_rad[1] - wh_turn_angle_at(&angle, ratio);
             TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)off,
-                                     (float)wh_turn_angle_split(&rotor, &angle, split));
+                                     (float)wh_turn_angle_by_ratio(&rotor, &angle, ratio));
         }
     }
 }
@@ -295,7 +295,7 @@ TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     rotor.inertia_kgm2 = WH_R(0.25);
     /* no ripple, so nothing is expected in the second order */
     const wh_turn_angle level = {.whole_rad = WH_R(0.0)};
-    const wh_merge merge = {.samples = 1000, .swing_rad = WH_R(0.01), .split_turns = 12};
+    const wh_merge merge = {.samples = 1000, .ripple_rad = WH_R(0.01), .second_turns = 12};
     const wh_measured right = {.turns = 12,
                                .amplitude_N = WH_R(64.0),
                                .expected_N = WH_R(64.0),

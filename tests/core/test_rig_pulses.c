@@ -118,7 +118,7 @@ typedef struct outcome {
 } outcome;
 
 /* The true pulse that a confirmed one belongs to, searched from the one after the previous. */
-static unsigned true_pulse(const wh_mark *mark, unsigned from) {
+static unsigned true_pulse(const wh_index_pulse *mark, unsigned from) {
     unsigned best = from;
     for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
         if (apart(train[i].ticks, mark->pulse.ticks) <
@@ -145,8 +145,8 @@ static outcome play(uint32_t early) {
         for (; next < given_count && (int32_t)(now + early - given[next].ticks) >= 0; next++) {
             wh_rig_pulse(&config, &rig, given[next].sensor, given[next].ticks);
         }
-        wh_mark mark;
-        while (wh_pulses_mark(&rig.pulses, now, &mark)) {
+        wh_index_pulse mark;
+        while (wh_pulses_confirmed(&rig.pulses, now, &mark)) {
             const unsigned at = true_pulse(&mark, from);
             const uint32_t off = apart(mark.pulse.ticks, train[at].ticks);
             from = at + 1U;

@@ -24,12 +24,12 @@ static wh_real scatter(void) {
 
 /* The second order of a rotor's force relative to the first, for a speed ripple of this size and direction. By energy a
  * rotor without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
-static void put_second(wh_lockin_turn *turn, wh_real swing_rad, wh_real lag_rad) {
+static void put_second(wh_lockin_turn *turn, wh_real ripple_rad, wh_real lag_rad) {
     wh_real size_N;
     wh_real phase_rad;
     wh_polar(turn->force_N.at[1], -turn->force_N.at[2], &size_N, &phase_rad);
     const wh_real per =
-        WH_R(2.0) * swing_rad / (WH_R(1.0) + WH_R(1.5) * swing_rad * swing_rad); /* B/A */
+        WH_R(2.0) * ripple_rad / (WH_R(1.0) + WH_R(1.5) * ripple_rad * ripple_rad); /* B/A */
     wh_real sine;
     wh_real cosine;
     wh_sincos(wh_phase_from_rad(lag_rad + WH_R(2.0) * phase_rad), &sine, &cosine);
@@ -41,15 +41,15 @@ static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned num
     wh_lockin_turn turn = {.begin_ticks = UINT32_MAX - 300000U + number * TURN_TICKS,
                            .turn_ticks = TURN_TICKS,
                            .samples = 91,
-                           .split_seen = true};
+                           .second_seen = true};
     turn.force_N.at[1] = in_phase;
     turn.force_N.at[2] = quadrature;
-    put_second(&turn, angle.swing_rad, angle.lag_rad);
+    put_second(&turn, angle.ripple_rad, angle.lag_rad);
     turn.mean_N = WH_R(56.0);
     turn.residual_N = WH_R(0.1);
-    turn.at_mark_N[0] = WH_R(98.0);
-    turn.at_mark_N[1] = WH_R(55.0);
-    turn.split_ticks = turn.begin_ticks + TURN_TICKS / 4U;
+    turn.at_pulse_N[0] = WH_R(98.0);
+    turn.at_pulse_N[1] = WH_R(55.0);
+    turn.second_ticks = turn.begin_ticks + TURN_TICKS / 4U;
     return turn;
 }
 
@@ -110,7 +110,7 @@ TEST(rig_result, the_interval_is_students) {
         wh_result_config config = bench;
         config.amplitude_floor = config.phase_floor_rad = WH_R(1e-9);
         rotor.damping_tolerance = WH_R(0.0);
-        merge.swing_rad = WH_R(0.0);
+        merge.ripple_rad = WH_R(0.0);
         conclude(&config);
         const wh_real n = (wh_real)turns;
         const wh_real mx = sums[0] / n;
@@ -136,8 +136,8 @@ TEST(rig_result, the_interval_is_students) {
         }
         TEST_ASSERT_EQUAL_UINT32(turns, measured.turns);
         TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.0f, (float)measured.mean_N);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 42.0f, (float)measured.at_mark_N[0]);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, -1.0f, (float)measured.at_mark_N[1]);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 42.0f, (float)measured.at_pulse_N[0]);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, -1.0f, (float)measured.at_pulse_N[1]);
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.1f, (float)measured.residual_N);
         TEST_ASSERT_FLOAT_WITHIN(1e-4f, 330.0003f,
                                  (float)(measured.speed_radps / WH_RIG_RADPS_PER_RPM));
@@ -153,7 +153,7 @@ TEST(rig_result, floors_are_kept) {
         add(&turn);
     }
     rotor.damping_tolerance = WH_R(0.0);
-    merge.swing_rad = WH_R(0.0);
+    merge.ripple_rad = WH_R(0.0);
     conclude(&bench);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0042f, (float)measured.amplitude_half_N);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
@@ -179,7 +179,7 @@ TEST(rig_result, jitter_is_found) {
         wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), i);
         turn.begin_ticks += (uint32_t)(int32_t)late_us;
         turn.turn_ticks += (uint32_t)((int32_t)next_us - (int32_t)late_us);
-        turn.split_ticks += (uint32_t)(int32_t)(WH_R(60.0) * scatter());
+        turn.second_ticks += (uint32_t)(int32_t)(WH_R(60.0) * scatter());
         if (i == 200U) {
             turn.fault = WH_TURN_GAP;
             turn.turn_ticks += 50000U;
@@ -205,7 +205,7 @@ static wh_why why_of(wh_real in_phase, wh_real quadrature, wh_lockin_turn like, 
         turn.mean_N += like.mean_N;
         turn.residual_N += like.residual_N;
         turn.outliers = like.outliers;
-        turn.split_seen = !like.split_seen;
+        turn.second_seen = !like.second_seen;
         turn.fault = i < bad ? WH_TURN_GAP : WH_TURN_OK;
         turn.force_N.at[1] += i % 2U == 0 ? like.force_N.at[1] : -like.force_N.at[1];
         add(&turn);
@@ -259,7 +259,7 @@ TEST(rig_result, every_reason_has_its_case) {
     odd.mean_N = WH_R(-5.0);
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_MEAN);
     odd = plain;
-    odd.split_seen = true; /* seen, but the turn's part is unknown */
+    odd.second_seen = true; /* seen, but the turn's part is unknown */
     TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), odd, 10, 0) == WH_WHY_ROTOR);
     for (unsigned i = 0; i < 4; i++) { /* inertias that differ from the rotor's */
         static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
@@ -272,10 +272,10 @@ TEST(rig_result, every_reason_has_its_case) {
         /* gravity is compensated, except for a remaining part */
         for (unsigned i = 0; i < 2; i++) {
             TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
-            const wh_real part = WH_ABS(merge.swing_rad) / angle.whole_rad;
+            const wh_real part = WH_ABS(merge.ripple_rad) / angle.whole_rad;
             angle.fed = true;
             const wh_real left = (wh_real)side * (i == 0 ? WH_R(0.14) : WH_R(0.16)) / part;
-            merge.swing_rad *= left;
+            merge.ripple_rad *= left;
             merge.second_N[0] *= left;
             merge.second_N[1] *= left;
             conclude(&bench);
@@ -287,7 +287,7 @@ TEST(rig_result, every_reason_has_its_case) {
          i++) { /* the second order of another ripple: larger, smaller, earlier, later */
         static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
         TEST_ASSERT_TRUE(why_of(full_N, WH_R(0.0), plain, 10, 0) == WH_WHY_NONE);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.swing_off_rad);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.ripple_off_rad);
         const wh_real off_rad =
             (i < 4U ? WH_R(0.98) : WH_R(1.02)) *
             (WH_R(0.01) + WH_SQRT(measured.phase_half_rad * measured.phase_half_rad -
@@ -296,11 +296,11 @@ TEST(rig_result, every_reason_has_its_case) {
         wh_real cosine;
         wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * turns[i % 4U]), &sine, &cosine);
         const wh_real more_N = WH_R(2.0) * off_rad * full_N /
-                               (WH_R(1.0) + WH_R(1.5) * merge.swing_rad * merge.swing_rad);
+                               (WH_R(1.0) + WH_R(1.5) * merge.ripple_rad * merge.ripple_rad);
         merge.second_N[0] += more_N * cosine;
         merge.second_N[1] += more_N * sine;
         conclude(&bench);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)off_rad, (float)measured.swing_off_rad);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)off_rad, (float)measured.ripple_off_rad);
         TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
@@ -328,16 +328,16 @@ TEST(rig_result, what_is_left_of_gravity) {
         begin();
         rotor.gravity_mps2 = i < 2U ? rotor.gravity_mps2 : WH_R(0.0);
         wh_turn_angle_start(&rotor, &angle);
-        wh_turn_angle_feed(&angle, i % 2U == 0, WH_R(0.0625));
-        angle.held_V = WH_R(24.0);
+        wh_turn_angle_compensate(&angle, i % 2U == 0, WH_R(0.0625));
+        angle.drive_V = WH_R(24.0);
         wh_turn_angle_shape(&rotor, &angle, WH_R(330.0) * WH_RIG_RADPS_PER_RPM);
         for (unsigned k = 0; k < 10U; k++) {
             const wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), k);
             add(&turn);
         }
-        merge.swing_rad = WH_R(-0.125) * angle.whole_rad;
+        merge.ripple_rad = WH_R(-0.125) * angle.whole_rad;
         conclude(&bench);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.125f : 0.0f, (float)measured.left_part);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.125f : 0.0f, (float)measured.uncompensated_part);
     }
 }
 

@@ -61,7 +61,7 @@ static wh_real bend(const plant *p, wh_real theta, wh_real speed) {
 /* The speed at the end of a turn that begins with `speed`. */
 static wh_real turn(const plant *p, wh_real speed) {
     const wh_real h = WH_RIG_TWO_PI / (wh_real)STEPS;
-    const wh_real from = rotor.mark_rad[0];
+    const wh_real from = rotor.pulse_rad[0];
     wh_real time = WH_R(0.0);
     truth_N = WH_R(0.0);
     for (unsigned i = 0; i <= STEPS; i++) {
@@ -105,7 +105,7 @@ static void integrate(const plant *p) {
     part_at[STEPS] = WH_R(1.0);
     /* by the trapezoidal rule; `base` makes the mean of the ripple zero */
     wh_real base = WH_R(0.0);
-    const wh_real from = rotor.mark_rad[0];
+    const wh_real from = rotor.pulse_rad[0];
     for (unsigned pass = 0; pass < 2U; pass++) {
         wh_real sum[3] = {WH_R(0.0), WH_R(0.0), WH_R(0.0)};
         for (unsigned i = 0; i < STEPS; i++) {
@@ -147,7 +147,7 @@ static void measure(const plant *p) {
     const wh_cell_config cell = {
         .newton_per_count = WH_R(0.01), .period_ticks = PERIOD_TICKS, .raw_max = INT32_C(32767)};
     const uint32_t turn_ticks = (uint32_t)(turn_s * (wh_real)WH_RIG_TICKS_PER_S);
-    const uint32_t split_ticks = (uint32_t)(part_at[STEPS / 4U] * (wh_real)turn_ticks);
+    const uint32_t second_ticks = (uint32_t)(part_at[STEPS / 4U] * (wh_real)turn_ticks);
     const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U; /* begin of the first turn */
     wh_merge merge = {.turns = 0};
     uint32_t due = 0; /* ticks from then on to the next pulse, */
@@ -156,9 +156,9 @@ static void measure(const plant *p) {
     wh_lockin_start(&rotor, &lockin);
     for (uint32_t now = 777U; done < BEFORE + TURNS; now += PERIOD_TICKS) {
         while (due <= now) {
-            wh_lockin_mark(&lockin, marks % 2U, begin + due, marks / 2U * 4U + marks % 2U);
+            wh_lockin_pulse(&lockin, marks % 2U, begin + due, marks / 2U * 4U + marks % 2U);
             marks++;
-            due = marks / 2U * turn_ticks + (marks % 2U) * split_ticks;
+            due = marks / 2U * turn_ticks + (marks % 2U) * second_ticks;
         }
         const uint32_t then = (now + turn_ticks - p->late_ticks) % turn_ticks;
         const wh_load load = {.ticks = begin + now,
@@ -180,8 +180,8 @@ static void measure(const plant *p) {
 static void believe(wh_real gravity, wh_real gravity_rad) {
     rotor = wh_rig_standard.measure.rotor;
     rotor.gravity_mps2 *= gravity;
-    rotor.mark_rad[0] = -DEG;
-    rotor.mark_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - DEG;
+    rotor.pulse_rad[0] = -DEG;
+    rotor.pulse_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI - DEG;
     rotor.gravity_rad = gravity_rad;
 }
 
@@ -200,8 +200,8 @@ static plant draw_plant(wh_real line) {
 /* The difference between the lock-in's ripple and the rotor's, as a vector. */
 static wh_real arrow_off(void) {
     const wh_wave lag = wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
-    const wh_real along = lockin.angle.swing_rad * lag.cosine - along_rad;
-    const wh_real across = lockin.angle.swing_rad * lag.sine - across_rad;
+    const wh_real along = lockin.angle.ripple_rad * lag.cosine - along_rad;
+    const wh_real across = lockin.angle.ripple_rad * lag.sine - across_rad;
     return WH_SQRT(along * along + across * across);
 }
 
@@ -219,9 +219,9 @@ TEST(rig_slope, the_load_tells_of_another_slope) {
                                          : drawn_between(WH_R(0.2), WH_R(1.6)));
         integrate(&p);
         measure(&p);
-        const wh_real swing = lockin.angle.swing_rad;
+        const wh_real swing = lockin.angle.ripple_rad;
         const wh_real differ = arrow_off();
-        TEST_ASSERT_TRUE(WH_ABS(measured.swing_off_rad - differ) <
+        TEST_ASSERT_TRUE(WH_ABS(measured.ripple_off_rad - differ) <
                          WH_R(1e-3) + WH_R(0.08) * differ + WH_R(0.6) * swing * swing * swing);
         const wh_real amplitude_off =
             WH_ABS(measured.amplitude_N - truth_N) / truth_N - measured.amplitude_half_N / truth_N;
@@ -243,9 +243,9 @@ TEST(rig_slope, calibration_does_not_matter) {
         plant p = draw_plant(run % 2U == 0 ? WH_R(1.0) : WH_R(0.5));
         integrate(&p);
         measure(&p);
-        const wh_real before = measured.swing_off_rad;
+        const wh_real before = measured.ripple_off_rad;
         const wh_real phase_rad = measured.phase_rad;
-        const wh_real swing = lockin.angle.swing_rad;
+        const wh_real swing = lockin.angle.ripple_rad;
         p.late_ticks = (uint32_t)draw_whole(&seed, 0, 1800);
         p.gain = drawn_between(WH_R(0.97), WH_R(1.03));
         measure(&p);
@@ -255,7 +255,7 @@ TEST(rig_slope, calibration_does_not_matter) {
                                  (float)(measured.phase_rad - phase_rad));
         /* the delay changes the angle of a rotor with ripple by a varying amount, of which half is visible */
         const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
-        TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.swing_off_rad);
+        TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.ripple_off_rad);
     }
 }
 
@@ -268,6 +268,6 @@ TEST(rig_slope, a_level_plane_says_nothing) {
         integrate(&p);
         measure(&p);
         TEST_ASSERT_TRUE(measured.why == WH_WHY_NONE);
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)measured.swing_off_rad);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)measured.ripple_off_rad);
     }
 }

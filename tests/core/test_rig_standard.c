@@ -89,7 +89,7 @@ TEST(rig_standard, the_measurement) {
     const wh_swing_config *swing = &wh_rig_standard.swing;
     const setting settings[] = {
         {"damping within", measure->rotor.damping_tolerance, 0.03},
-        {"angle of what is fed within, rad", measure->rotor.fed_tolerance_rad, 0.04},
+        {"angle of what is fed within, rad", measure->rotor.compensation_tolerance_rad, 0.04},
         {"tare, samples", COUNT(measure->tare.samples), 250},
         {"still within, N", measure->tare.still_N, 0.05},
         {"and at most, N", measure->tare.most_N, 0.25},

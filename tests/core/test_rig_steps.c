@@ -333,11 +333,11 @@ TEST(rig_steps, what_a_record_comes_to) {
         rig.pulses.speed.ticks = inputs.now_ticks;
         const uint32_t part = (inputs.now_ticks - first) % turn;
         if (part == 0) {
-            wh_lockin_mark(&rig.measure.lockin, 0, inputs.now_ticks - 1000U,
-                           4U * ((inputs.now_ticks - first) / turn));
+            wh_lockin_pulse(&rig.measure.lockin, 0, inputs.now_ticks - 1000U,
+                            4U * ((inputs.now_ticks - first) / turn));
         } else if (part == 23U * STEP_TICKS) {
-            wh_lockin_mark(&rig.measure.lockin, 1, inputs.now_ticks - 1000U,
-                           4U * ((inputs.now_ticks - first) / turn) + 1U);
+            wh_lockin_pulse(&rig.measure.lockin, 1, inputs.now_ticks - 1000U,
+                            4U * ((inputs.now_ticks - first) / turn) + 1U);
         }
         const unsigned k = sample % 91U;
         wh_rig_load(&config, &rig, inputs.now_ticks, (int32_t)(1040 + 40 * (k < 46U ? k : 91U - k)),
@@ -353,8 +353,8 @@ TEST(rig_steps, what_a_record_comes_to) {
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 10.0f, (float)result->low_N);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 28.0f, (float)result->high_N);
     /* time of sensor 1's pulse: half a sample before the turn's first; of sensor 2's: half a sample before its 23rd */
-    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 10.2f, (float)result->force.at_mark_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 19.0f, (float)result->force.at_mark_N[1]);
+    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 10.2f, (float)result->force.at_pulse_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 19.0f, (float)result->force.at_pulse_N[1]);
     /* mean of the load: 2 (0 + ... + 45) 0.4 / 91 */
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 10.0f + 9.0989f, (float)result->force.mean_N);
     TEST_ASSERT_TRUE(result->force.quality ==

@@ -46,7 +46,7 @@ static drawn draw_rotor(wh_real friction_least_Nm, wh_real friction_most_Nm) {
     rotor.kind.jitter_s = WH_R(104e-6);
     for (unsigned i = 0; i < 2; i++) {
         rotor.place_rad[i] = drawn_between(WH_R(-3.0), WH_R(3.0)) * DEG;
-        rotor.kind.mark_rad[i] += rotor.place_rad[i];
+        rotor.kind.pulse_rad[i] += rotor.place_rad[i];
     }
     return rotor;
 }

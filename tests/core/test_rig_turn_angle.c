@@ -25,8 +25,8 @@ typedef struct turn {
 static wh_turn_angle shaped(const turn *of, wh_real found) {
     wh_turn_angle angle;
     wh_turn_angle_start(&of->rotor, &angle);
-    wh_turn_angle_feed(&angle, of->fed, WH_R(0.0625));
-    angle.held_V = of->rotor.damping_Nms * of->speed_radps / WH_R(0.0625);
+    wh_turn_angle_compensate(&angle, of->fed, WH_R(0.0625));
+    angle.drive_V = of->rotor.damping_Nms * of->speed_radps / WH_R(0.0625);
     if (of->fed) {
         angle.part = found;
     } else {
@@ -38,21 +38,21 @@ static wh_turn_angle shaped(const turn *of, wh_real found) {
     return angle;
 }
 
-/* The rotor's angle beyond sensor 2 after the part `split` of the turn's time. */
-static wh_real beyond(const turn *of, wh_real found, wh_real split) {
+/* The rotor's angle beyond sensor 2 after the part `ratio` of the turn's time. */
+static wh_real beyond(const turn *of, wh_real found, wh_real ratio) {
     const wh_turn_angle angle = shaped(of, found);
-    return wh_turn_angle_at(&angle, split) - of->rotor.mark_rad[1];
+    return wh_turn_angle_at(&angle, ratio) - of->rotor.pulse_rad[1];
 }
 
-/* base_rad if sensor 2's pulse comes after the part `split` of the turn's time; by bisection on either side of
+/* base_rad if sensor 2's pulse comes after the part `ratio` of the turn's time; by bisection on either side of
  * `about`. */
-static wh_real base_at(const turn *of, wh_real about, wh_real split) {
+static wh_real base_at(const turn *of, wh_real about, wh_real ratio) {
     wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
     wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
-    const bool rises = beyond(of, high, split) > beyond(of, low, split);
+    const bool rises = beyond(of, high, ratio) > beyond(of, low, ratio);
     for (unsigned i = 0; i < 30U; i++) {
         const wh_real middle = WH_R(0.5) * (low + high);
-        if ((beyond(of, middle, split) > WH_R(0.0)) == rises) {
+        if ((beyond(of, middle, ratio) > WH_R(0.0)) == rises) {
             high = middle;
         } else {
             low = middle;
@@ -61,21 +61,21 @@ static wh_real base_at(const turn *of, wh_real about, wh_real split) {
     return shaped(of, WH_R(0.5) * (low + high)).base_rad;
 }
 
-static wh_real by_mark(const turn *of, wh_real about, wh_real split) {
+static wh_real by_mark(const turn *of, wh_real about, wh_real ratio) {
     turn more = *of;
     turn less = *of;
-    more.rotor.mark_rad[1] += LITTLE_RAD;
-    less.rotor.mark_rad[1] -= LITTLE_RAD;
-    return (base_at(&more, about, split) - base_at(&less, about, split)) / (WH_R(2.0) * LITTLE_RAD);
+    more.rotor.pulse_rad[1] += LITTLE_RAD;
+    less.rotor.pulse_rad[1] -= LITTLE_RAD;
+    return (base_at(&more, about, ratio) - base_at(&less, about, ratio)) / (WH_R(2.0) * LITTLE_RAD);
 }
 
 /* base_rad for a larger lag psi, which has the effect of another direction of gravity. */
-static wh_real by_lag(const turn *of, wh_real about, wh_real split) {
+static wh_real by_lag(const turn *of, wh_real about, wh_real ratio) {
     turn more = *of;
     turn less = *of;
     more.rotor.gravity_rad -= WH_R(4.0) * LITTLE_RAD;
     less.rotor.gravity_rad += WH_R(4.0) * LITTLE_RAD;
-    return (base_at(&more, about, split) - base_at(&less, about, split)) / (WH_R(8.0) * LITTLE_RAD);
+    return (base_at(&more, about, ratio) - base_at(&less, about, ratio)) / (WH_R(8.0) * LITTLE_RAD);
 }
 
 static void check_near(wh_real found, wh_real wanted, wh_real most) {
@@ -93,21 +93,21 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
         of.speed_radps = drawn_between(WH_R(28.0), WH_R(42.0));
         of.rotor.gravity_rad = WH_R(0.25) * WH_RIG_TWO_PI * draw_whole(&seed, 0, 3) +
                                drawn_between(WH_R(-0.25), WH_R(0.25));
-        of.rotor.mark_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
-        of.rotor.mark_rad[1] = of.rotor.mark_rad[0] + drawn_between(WH_R(1.5), WH_R(1.65));
-        wh_real split = WH_R(0.25);
+        of.rotor.pulse_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
+        of.rotor.pulse_rad[1] = of.rotor.pulse_rad[0] + drawn_between(WH_R(1.5), WH_R(1.65));
+        wh_real ratio = WH_R(0.25);
         for (unsigned k = 0; k < 30U; k++) {
-            split -= beyond(&of, about, split) / WH_RIG_TWO_PI;
+            ratio -= beyond(&of, about, ratio) / WH_RIG_TWO_PI;
         }
         wh_turn_angle angle = shaped(&of, about);
-        (void)wh_turn_angle_split(&of.rotor, &angle, split);
-        const wh_real swing = WH_ABS(angle.swing_rad);
+        (void)wh_turn_angle_by_ratio(&of.rotor, &angle, ratio);
+        const wh_real swing = WH_ABS(angle.ripple_rad);
         const wh_real steep = angle.base_per_quadrature * angle.base_per_quadrature;
         /* terms of second order in the differences */
         const wh_real bent = swing * (WH_R(1.0) + steep);
-        check_near(by_mark(&of, about, split), angle.base_per_split,
+        check_near(by_mark(&of, about, ratio), angle.base_per_ratio,
                    WH_R(0.003) + WH_R(0.25) * bent);
-        const wh_real lag = by_lag(&of, about, split);
+        const wh_real lag = by_lag(&of, about, ratio);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
         if (of.fed) {
             /* a lag adds a ripple a quarter turn later, in proportion to the part of gravity */

@@ -89,8 +89,8 @@ static wh_real where(const wh_rig_config *c, const char *name) {
                   {"gravity", c->measure.rotor.gravity_mps2},
                   {"gravity_angle", c->measure.rotor.gravity_rad * DEG},
                   {"mount_factor", c->measure.result.mount_factor},
-                  {"sensor1", (c->measure.rotor.mark_rad[0] + c->swing.lead_rad) * DEG},
-                  {"sensor2", (c->observer.mark_rad[1] + c->swing.lead_rad) * DEG},
+                  {"sensor1", (c->measure.rotor.pulse_rad[0] + c->swing.lead_rad) * DEG},
+                  {"sensor2", (c->observer.pulse_rad[1] + c->swing.lead_rad) * DEG},
                   {"slot_lead", c->swing.lead_rad * DEG},
                   {"cell_scale", WH_ABS(c->measure.cell.newton_per_count) * WH_R(1000.0)},
                   {"cell_reversed", c->measure.cell.newton_per_count < 0 ? WH_R(1.0) : WH_R(0.0)},
@@ -211,7 +211,8 @@ TEST(station_conf, values_have_their_places) {
             TEST_ASSERT_FLOAT_WITHIN_MESSAGE(size * 1e-5f + 2e-5f, (float)wanted[i],
                                              (float)where(&even.config, name), name);
         }
-        TEST_ASSERT_TRUE(even.config.observer.mark_rad[0] == even.config.measure.rotor.mark_rad[0]);
+        TEST_ASSERT_TRUE(even.config.observer.pulse_rad[0] ==
+                         even.config.measure.rotor.pulse_rad[0]);
         const wh_rig_config then = even.config;
         TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_STATION_FINE);
         static wh_conf again;

@@ -84,8 +84,8 @@ static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     const wh_rig_result *result = &on.rig.result;
     TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
     TEST_ASSERT_FLOAT_WITHIN(0.5f, -42.0f + 4.2f, result->low_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->force.at_mark_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_mark_N[1]);
+    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->force.at_pulse_N[0]);
+    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_pulse_N[1]);
 }
 
 /* After the rig has settled, each pulse comes when the rotor is at the sensor: at the rotor's phase in the next step

@@ -54,11 +54,11 @@ static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     hal_virtual_rig_instance()->faults.dead_sensor[0] = true;
     hal_virtual_rig_instance()->faults.dead_sensor[1] = true;
     unsigned held = 0;
-    float held_V = 0.0f;
+    float drive_V = 0.0f;
     while (on.rig.guard.trip == WH_TRIP_NONE && held < 1000U) {
         if (wh_speed_is_overdue(&on.rig.pulses.speed, hal_clock_ticks())) {
-            held_V = held == 0 ? on.rig.run.volts : held_V;
-            TEST_ASSERT_FLOAT_WITHIN(0.0f, held_V, on.rig.run.volts);
+            drive_V = held == 0 ? on.rig.run.volts : drive_V;
+            TEST_ASSERT_FLOAT_WITHIN(0.0f, drive_V, on.rig.run.volts);
             held++;
         }
         plant_control(&on);

@@ -158,8 +158,8 @@ void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cel
     result->amplitude_floor = WH_R(1e-4);
     result->phase_floor_rad = (wh_real)(0.01 * PI / 180.0);
     *rotor = wh_rig_standard.measure.rotor;
-    rotor->mark_rad[0] = (wh_real)(-(double)HAL_SLOT_LEAD_DEG * PI / 180.0);
-    rotor->mark_rad[1] = (wh_real)((90.0 - (double)HAL_SLOT_LEAD_DEG) * PI / 180.0);
+    rotor->pulse_rad[0] = (wh_real)(-(double)HAL_SLOT_LEAD_DEG * PI / 180.0);
+    rotor->pulse_rad[1] = (wh_real)((90.0 - (double)HAL_SLOT_LEAD_DEG) * PI / 180.0);
     *cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
                              .period_ticks = HAL_LOADCELL_PERIOD_TICKS,
                              .raw_max = HAL_LOADCELL_RAW_MAX};
@@ -221,8 +221,8 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         scattered();
     }
     wh_lockin_start(rotor, &lockin);
-    wh_lockin_feed(&lockin, orbit->fed, WH_R(0.0625));
-    lockin.angle.held_V = (wh_real)(orbit->drive_Nm / 0.0625);
+    wh_lockin_compensate(&lockin, orbit->fed, WH_R(0.0625));
+    lockin.angle.drive_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
     const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps during the measurement */
     const double first_mark_s = uniform() * period_s + 0.001;
@@ -235,8 +235,8 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
         const double now_s = i * period_s;
         while (due_s <= now_s) { /* the timer drops fractions */
-            wh_lockin_mark(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
-                           marks / 2U * 4U + marks % 2U);
+            wh_lockin_pulse(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
+                            marks / 2U * 4U + marks % 2U);
             marks++;
             const unsigned whole = marks / 2U;
             due_s = first_mark_s +

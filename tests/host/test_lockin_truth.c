@@ -1,8 +1,9 @@
-/* test_lockin_truth.c: the rig's measurement compared with the truth, and the coverage of its intervals.
+/* test_lockin_truth.c: the rig's measurement compared with the true value, and the coverage of its intervals.
  *
- * The truth is the first Fourier coefficient, over the angle, of the force of a rotor. It is integrated finely in
- * double (rig_orbit.c) without noise. The measurement has noise of the cell and jitter of the marks. Seeds are fixed.
- * WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000 runs of each kind, `make test` fewer, and prints the results. */
+ * The true value is the first Fourier coefficient, over the angle, of the force of a rotor that is integrated with
+ * small steps in double (rig_orbit.c) without noise. The measurement has noise of the cell and jitter of the pulses.
+ * Seeds are fixed. WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000 runs of each kind, `make test` fewer, and prints
+ * the results. */
 #include "command.h"
 #include "core/rig/datasheet.h"
 #include "hal/virtual/virtual_rig.h"
@@ -91,7 +92,7 @@ static void print_row(double rpm, const rig_noise *noise) {
     }
 }
 
-/* A measurement marked good is right within its interval plus 1 %. */
+/* A measurement of good quality must be right within its interval plus 1 %. */
 static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     wh_measured measured;
     rig_measure(&orbit, noise, &rotor, BEFORE, TURNS, seed, &measured);
@@ -104,9 +105,9 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     return measured.quality;
 }
 
-/* The scatter is at most 1.3 times that of the cell's noise over as many samples. Jitter adds the error of the marks'
- * mean to the phase: TURNS marks, each with jitter_s. Jitter also changes the measured swing E of the speed, and by 3/2
- * E dE the amplitude. */
+/* The scatter is at most 1.3 times that of the cell's noise over as many samples. Jitter adds to the phase the error of
+ * the mean of TURNS pulses, each with jitter_s. Jitter also changes the measured speed ripple E, and by 3/2 E dE the
+ * amplitude. */
 static void check_scatter(const rig_noise *noise) {
     const double samples = TURNS * orbit.turn_s / 0.002;
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
@@ -260,7 +261,7 @@ TEST(lockin_truth, what_is_fed_does_not_show) {
     static const fed_kind kinds[] = {
         {1.0, 0.0, 1.0, 1.0},   {1.1, 0.0, 1.0, 1.0}, {0.7, 0.0, 1.0, 1.0}, {1.0, 0.02, 1.0, 1.0},
         {1.0, -0.02, 1.0, 1.0}, {0.9, 0.0, 1.5, 1.0}, {1.1, 0.0, 0.7, 1.0}, {1.0, 0.0, 1.0, 3.0}};
-    rotor.fed_tolerance_rad = (wh_real)0.02;
+    rotor.compensation_tolerance_rad = (wh_real)0.02;
     for (unsigned k = 0; k < 8; k++) {
         const bool slow = rpm[k] < 125.0;
         for (unsigned i = 0; i < 16; i += slow && i % 8U == 0 ? 7U : 1U) {
@@ -285,7 +286,7 @@ TEST(lockin_truth, what_is_fed_does_not_show) {
  * truth as often as promised. */
 TEST(lockin_truth, intervals_while_fed) {
     const rig_noise noise = {.cell_N = 1.0, .jitter_s = 60e-6};
-    rotor.fed_tolerance_rad = (wh_real)0.02;
+    rotor.compensation_tolerance_rad = (wh_real)0.02;
     const unsigned runs = few_or_all(40, 1000);
     const fed_kind right = {1.0, 0.0, 1.0, 1.0};
     found = (tally){0};
@@ -313,8 +314,8 @@ TEST(lockin_truth, intervals_while_fed) {
     }
 }
 
-/* Faults of the cell at all speeds: a result marked good is right within its interval plus 1 %. Gain errors below 5 %
- * are exempt, because only calibration finds them. Some results must be good. */
+/* Faults of the cell at all speeds: a result of good quality is right within its interval plus 1 %. Gain errors below 5
+ * % are exempt, because only calibration finds them. Some results must be good. */
 TEST(lockin_truth, no_fault_is_called_good) {
     static const rig_noise faults[] = {
         {.cell_N = 0.07, .frozen_s = 0.1},

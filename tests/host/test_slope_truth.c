@@ -13,7 +13,7 @@ static rig_orbit orbit;
 
 typedef struct tally {
     unsigned good;
-    unsigned doubted;   /* because of the swing */
+    unsigned doubted;   /* number of results that are doubtful because of the speed ripple */
     unsigned lies;      /* results marked good, with an error above the interval plus 1 % */
     unsigned prevented; /* doubted, with such an error */
     double said_rad;    /* sum of the reported loads */
@@ -44,7 +44,7 @@ static tally measure_many(double cell_N, unsigned runs, uint64_t seed) {
         found.doubted += measured.why == WH_WHY_SWING ? 1U : 0U;
         found.lies += off && measured.quality == WH_GOOD ? 1U : 0U;
         found.prevented += off && measured.why == WH_WHY_SWING ? 1U : 0U;
-        found.said_rad += (double)measured.swing_off_rad / runs;
+        found.said_rad += (double)measured.ripple_off_rad / runs;
         found.phase_rad += ((double)measured.phase_rad - orbit.phase_rad) / runs;
     }
     return found;
