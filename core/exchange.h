@@ -87,7 +87,6 @@ typedef struct wh_edge {
     uint8_t channel;
 } wh_edge;
 
-/* Validity of a sample. */
 typedef enum wh_sample_status {
     WH_SAMPLE_GOOD,
     WH_SAMPLE_SATURATED, /* the converter is at an end of its range */

@@ -255,7 +255,6 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     *cosine = c + ((cosine_rest + 4) >> 3);
 }
 
-/* wh_fixed_sincos_here() as a function call. */
 void wh_fixed_sincos_called(uint32_t phase, int32_t *sine, int32_t *cosine);
 
 WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {

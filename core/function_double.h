@@ -74,7 +74,6 @@ WH_INLINE bool wh_is_nan(double x) { return x != x; }
 
 WH_INLINE double wh_signed(double size, bool negative) { return negative ? -size : size; }
 
-/* 2^exponent, for exponent from -1022 to 1023. */
 WH_INLINE double wh_power_of_two(int exponent) {
     return wh_of_bits((uint64_t)(exponent + 1023) << 52);
 }

@@ -6,7 +6,6 @@
 
 typedef enum parity { BROKEN, ODD, EVEN } parity;
 
-/* The parity of a finite y. */
 static parity parity_of(double y) {
     const double size = WH_ABS(y);
     if (size >= 0x1p53) {

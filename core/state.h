@@ -41,7 +41,6 @@ typedef struct wh_event {
     wh_real impulse; /* of a stop or a hold, else 0 */
 } wh_event;
 
-/* The variables of the contacts. */
 typedef struct wh_contacts {
     uint64_t events; /* number of events since the start */
     /* number of steps with more than WH_EVENTS_MAX moments with events, or in which a stop rested because the last

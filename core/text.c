@@ -140,7 +140,6 @@ static parts parts_of(wh_real value) {
     return result;
 }
 
-/* byte[BYTES] * 10 in place. */
 static void multiply_by_ten(uint8_t *byte) {
     unsigned carry = 0;
     for (unsigned i = 0; i < BYTES; i++) {

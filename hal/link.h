@@ -24,7 +24,6 @@ bool hal_link_open(void);
 /* Waits for data, then reads up to room >= 1 bytes. Returns the number read, at least one. */
 unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
-/* Writes all `count` bytes. */
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
 /* A free-running counter to measure computing time, wrapping at 2^32, and its counts per second (0: the counter is

@@ -62,7 +62,6 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
     return at;
 }
 
-/* The instant in ticks. */
 uint32_t atmega_ticks_of(atmega_instant at);
 
 /* Start the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The second store

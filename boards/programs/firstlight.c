@@ -101,7 +101,6 @@ static void say(const char *name, const char *value) {
     line_word(value);
     line_end();
 }
-/* A field of a scene. */
 static void line_of(const char *kind, const wh_scene *scene) {
     line_begin(kind);
     wh_text_add(&line, scene->name);

@@ -45,7 +45,6 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
     return WH_CONTACT_ROUNDING * (WH_ABS(a) + WH_ABS(b) + WH_ABS(c));
 }
 
-/* The contacts of one problem. */
 typedef struct wh_contact_set {
     const uint8_t *member; /* [count] contact numbers */
     unsigned count;

@@ -111,7 +111,6 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-/* Indices of the unknowns. */
 enum wh_swing_unknown {
     WH_SWING_Q = WH_FREE_Q,
     WH_SWING_RATE = WH_FREE_RATE,

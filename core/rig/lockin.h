@@ -69,7 +69,6 @@ WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real re
     repeats->bin_N[(uint32_t)(int32_t)bin % WH_REPEATS_BINS] += residual_Nrad;
 }
 
-/* Add a turn of `samples` samples. */
 void wh_repeats_merge(wh_repeats *sum, const wh_repeats *turn, uint32_t samples);
 
 /* Squared amplitude of a harmonic, averaged over the turns. */

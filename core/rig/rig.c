@@ -199,7 +199,6 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     }
 }
 
-/* Returns the reason for refusal. */
 static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                           const wh_rig_order *order) {
     const wh_rig_transition rule = wh_rig_transition_of(rig->state, order->event);

@@ -38,7 +38,6 @@ typedef struct wh_trip_record {
 #define wh_trip_record_put WH_NAME(wh_trip_record_put)
 #define wh_trip_record_get WH_NAME(wh_trip_record_get)
 
-/* Write a record into bytes[WH_TRIP_RECORD_BYTES]. */
 void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
 
 /* Read a record. Returns false if the bytes are no record: another length, or an unknown trip or phase. */
@@ -240,7 +239,6 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
 wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs, const wh_rig_order *order);
 
-/* One control step. */
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs);
 
 /* === the rig on a carriage =================================================================== */

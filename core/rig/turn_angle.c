@@ -19,7 +19,6 @@ static wh_real within(wh_real value, wh_real most) {
     return value < most ? value > -most ? value : -most : most;
 }
 
-/* The arc sine of a small number. */
 static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }

@@ -57,7 +57,6 @@ static int16_t load_of(const wh_cell_config *cell, int32_t raw, wh_load_status s
 
 static uint16_t drive_mV(const wh_rig *rig) { return in_16(rig->command.volts * WH_R(1000.0)); }
 
-/* The speed in 1/50 rpm. */
 static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
     wh_real speed_radps;
     return wh_rig_speed(rig, now_ticks, &speed_radps)

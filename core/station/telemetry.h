@@ -119,7 +119,6 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
 typedef enum wh_tel_channel { WH_TEL_CHANNEL_ROWS(WH_TEL_NAME) WH_TEL_CHANNELS } wh_tel_channel;
 #undef WH_TEL_NAME
 
-/* Kinds of events. */
 typedef enum wh_tel_event {
     WH_TEL_PULSE, /* value: the sensor, 0 or 1 */
     WH_TEL_STATE, /* wh_rig_shown_stage() */

@@ -338,7 +338,6 @@ typedef struct wh_turned_second {
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_turned_second;
 
-/* Stage s > 0. */
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
                                     const wh_waves *waves, const wh_stepping *to, wh_phase *told,
                                     unsigned s, wh_turned_list *list, wh_turned_second *k) {
@@ -426,7 +425,6 @@ typedef struct wh_turned_first {
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_turned_first;
 
-/* Stage s > 0. */
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
                                    const wh_waves *waves, const wh_stepping *to, unsigned s,
                                    wh_turned_list *list, wh_turned_first *k) {

@@ -86,7 +86,7 @@ void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
 /* The sum; frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
-/* base^exponent. Whole powers of sums of positions stay powers from the exponent `kept` on. */
+/* base^exponent. Whole powers of sums of positions are not expanded if the exponent is `kept` or more. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
 /* The memoized poly of the pair, or NULL; and memoize it. */

@@ -6,8 +6,8 @@
  *
  *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
  *
- * Whole powers of sums of positions stay powers from the third on, so that (x - b)^3 keeps its digits near x = b. They
- * are equal to each other for any order, sign and scale of the sum. They equal their expanded form only after
+ * Whole powers of sums of positions are not expanded from the third on, so that (x - b)^3 keeps its digits near x = b.
+ * They are equal to each other for any order, sign and scale of the sum. They equal their expanded form only after
  * poly_expanded().
  *
  * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and results are memoized.
@@ -32,7 +32,7 @@ typedef enum atom_kind {
     ATOM_SYMBOL, /* a coordinate, rate, acceleration, parameter or input */
     ATOM_CALL,   /* a function other than sine and cosine, of one or two polys */
     ATOM_POWER,  /* base^exponent with an exponent that is not a number */
-    ATOM_GROUP   /* a sum kept whole: the base of a power, or too large to multiply out */
+    ATOM_GROUP   /* a sum that is not expanded: the base of a power, or too large to multiply out */
 } atom_kind;
 
 struct atom {

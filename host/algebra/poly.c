@@ -19,7 +19,7 @@ static void algebra_work(algebra *a, size_t amount);
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* A number's bits as an integer of the same order. It is a total order that includes both zeros and NaN. */
+/* An integer with the same order as the numbers: a total order that includes both zeros and NaN. */
 static uint64_t place_of(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -279,7 +279,7 @@ char *algebra_limit(const algebra *a) {
 
 static void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
 
-/* A new object's number. Its slots in the hash table take some 48 bytes more. */
+/* The number of a new object of `bytes` bytes. Its slots in the hash table are counted as 48 more. */
 static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
     count_bytes(a, bytes + 48);
     return (unsigned)table->count++;
@@ -645,8 +645,8 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
 
 /* --- products ------------------------------------------------------------------------------------*/
 
-/* Powers that are replaced: |p|^n = p^n for an even n, and a small whole power of a group, which is multiplied out.
- * Returns NULL for all others. */
+/* The expression that replaces a power: |p|^n = p^n for an even n, and a small whole power of a group, which is
+ * multiplied out. Returns NULL for all others. */
 static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
@@ -795,7 +795,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         return poly_mul(a, poly_pow(a, poly_of_term(a, t->coefficient, plain), exponent),
                         poly_pow(a, poly_of_term(a, 1.0, wave), exponent));
     }
-    /* Take out the size of the number. Its sign stays inside unless the exponent is whole. */
+    /* takes out the size of the number; its sign stays inside, unless the exponent is whole */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
     const double outside = whole ? folding_power(t->coefficient, exponent)
                                  : folding_power(fabs(t->coefficient), exponent);
@@ -806,8 +806,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-/* The divisor that makes equal sums one group. In a whole power the constant does not decide it, so that x - b keeps
- * its form when b becomes a number. */
+/* The divisor that makes sums which differ only by a factor one object. In a whole power the constant term does not
+ * decide it, so that x - b keeps its form if b becomes a number. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
     return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient

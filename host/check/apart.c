@@ -1,5 +1,5 @@
-/* apart.c: start values that fit the holds: places by Newton's method with the least change, rates by one such step. Coordinates
- * that the scene gives a start change only if the others do not suffice. */
+/* apart.c: start values that satisfy the holds: positions by Newton's method with the smallest change, rates by one
+ * such step. Coordinates that the scene gives a start change only if the others do not suffice. */
 #include "apart.h"
 
 #include <math.h>
@@ -28,8 +28,9 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* active holds at the start */
     int holds;
-    bool vanishes[HOLDS]; /* its sign changes near the start, which a distance's does not */
-    bool closes;          /* one expression is slightly off zero, within OFF_MOST */
+    /* the expression changes its sign near the start, which that of a distance does not */
+    bool vanishes[HOLDS];
+    bool closes; /* one expression is slightly off zero, within OFF_MOST */
     double place[N];
     double rate[N];
 } apart;
@@ -60,8 +61,8 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* The error of a curved hold that is meant to be zero; else 0. If one of several holds is meant to be zero, all are, whatever their
- * errors: they close one linkage. */
+/* The error of a curved hold whose value is meant to be zero; else 0. If one of several holds is meant to be zero, all
+ * are, whatever their errors, because they close one linkage. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -144,7 +145,8 @@ static bool move(const apart *a, const bool *may, const double *by, double *x) {
 
 static bool fit_places(apart *a, const bool *may) {
     double worst = 1.0;
-    double wanted[HOLDS]; /* 0 for a hold with an error; the others keep their values */
+    /* wanted value of each hold: 0 for a hold with an error, else its present value */
+    double wanted[HOLDS];
     for (int h = 0; h < a->holds; h++) {
         const double value = law_of(a, h)[WH_LAW_FIRST];
         wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;

@@ -134,7 +134,7 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
         const double kept = *at;
         const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
         const component c = image_component(im, i);
-        /* a rate that nothing ever changed, such as a clock's, was never rounded */
+        /* a rate that never changed, such as a clock's, was never rounded */
         const spread *rate = &b->rate[c.unknown];
         const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
         if (rounding.change != 0.0 && !still) {
@@ -312,7 +312,8 @@ static bool find_leans(books *b) {
 
 /* Largest mechanism that is tested. */
 enum { FRAME_MOST = 24 };
-/* A place near a state, in seconds of its motion. Smaller parts of the momenta's changes than FRAME_LEAST are round-off. */
+/* The distance to another state near a state, in seconds of motion. Parts of the changes of momenta below FRAME_LEAST
+ * are round-off. */
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 
@@ -349,8 +350,8 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Eliminates the changes of the momenta at twice as many places as there are momenta. The remaining null vectors are
- * conserved sums, and a momentum in one of them belongs to a frame. */
+/* Eliminates the changes of the momenta at twice as many states as there are momenta. The remaining null vectors are
+ * conserved sums; a momentum in one of them belongs to a frame. */
 static void find_frame(books *b) {
     const int n = b->image->count;
     const int rows = 2 * n;

@@ -1,11 +1,11 @@
-/* books.h: the energy and momentum balance of a run, integrated in double next to it.
+/* books.h: the energy and momentum balance of a run, integrated in double during the run.
  *
  * The balanced energy is kinetic + stored energy, or the energy integral if that differs from the sum
- * (host/derive/equations.h). The powers are the sums of those that the ledger (core/ledger.h) keeps by statement. The
- * integration differs from the ledger's on purpose. A ledger is part of the scene: it runs on the board, in the run's
- * numbers, with the method's own stages. This balance judges the run, ledger included. So it uses double and Simpson's
- * rule on the steps' ends, which is of the same order as RK4. The inputs keep their start values. The residual is the
- * numerical error of the run (and of that rule). */
+ * (host/derive/equations.h). The powers are sums of those that the ledger (core/ledger.h) has for each statement. The
+ * integration differs from the ledger's on purpose. A ledger is part of the scene: it is computed on the board, in the
+ * run's number type, with the method's own stages. This balance is a check of the run and of its ledger. So it uses
+ * double and Simpson's rule on the ends of the steps, which has the same order as RK4. The inputs keep their start
+ * values. The residual is the numerical error of the run (and of that rule). */
 #ifndef CHECK_BOOKS_H
 #define CHECK_BOOKS_H
 
@@ -15,7 +15,7 @@
  * entry is positive if it adds (a motor's work, a push along a coordinate), negative if it removes (a damper, an impact).
  * An exact solution has a zero residual. */
 typedef struct book_account {
-    double level[2]; /* at the start, and now */
+    double level[2]; /* level at the start, and the present one */
     double left;     /* residual after the entries so far */
     double largest;  /* size of the largest entry */
 } book_account;
@@ -28,7 +28,7 @@ typedef struct spread {
     double first;
     double mean;    /* mean of the values minus `first` */
     double squares; /* sum of (value - mean)^2 */
-    bool pushed;    /* for a rate: its acceleration was not zero all the time */
+    bool pushed;    /* a rate whose acceleration was not always zero */
 } spread;
 
 typedef struct books {
@@ -71,7 +71,7 @@ typedef struct books {
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
     double undefined_s; /* the first time */
     uint64_t entries;
-    double time_s; /* of the last entry */
+    double time_s; /* time of the last entry, s */
     double step_s;
 } books;
 

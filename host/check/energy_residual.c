@@ -21,12 +21,12 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
         const kept_entry *e = &kept.entry[i];
         account_enter(&made->energy, e->given);
         switch (e->by) {
-        case GIVER_ENERGIES: break; /* not an energy entry */
+        case GIVER_ENERGIES: break; /* no entry of the energy */
         case GIVER_FORCE:
         case GIVER_INPUT: made->inputs_J += e->given; break;
         case GIVER_DAMPER: made->losses_J += e->given; break;
         case GIVER_CONTACT: made->contacts_J += e->given; break;
-        case GIVER_STEPS: break; /* not with contacts */
+        case GIVER_STEPS: break; /* not possible with contacts */
         }
     }
     kept_account_free(&kept);

@@ -1,4 +1,4 @@
-/* energy_residual.h: the energy residual of a run, the one place of its limit, measure and words.
+/* energy_residual.h: the energy residual of a run: its definition, its limit and its words.
  *
  * The residual is the change of the energy (T + V, or the energy integral if that differs) less the work of inputs, losses and
  * contacts. It is zero for an exact solution. It is divided by the largest entry of the balance:
@@ -41,7 +41,7 @@ typedef struct energy_residual {
     double losses_J;
     double contacts_J;
     double left_J;    /* residual, signed: energy.left */
-    double largest_J; /* the largest entry, or its least value by round-off */
+    double largest_J; /* the largest entry, or the least value that round-off allows for it */
     bool rounded;     /* largest_J is that least value */
     double
         rounding_J; /* round-off of a step times the root of the number of steps, plus that of the energy's evaluation */
@@ -74,7 +74,7 @@ typedef enum giver {
 typedef struct kept_entry {
     giver by;
     place at;     /* the statement; unused for GIVER_ENERGIES and GIVER_STEPS */
-    double given; /* since the start, SI */
+    double given; /* energy given back since the start, SI */
 } kept_entry;
 
 typedef struct kept_account {

@@ -22,8 +22,8 @@ typedef enum finding_id {
 /* Findings about the scene's start. No other step or number type removes them. */
 #define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
-/* After a warning the run cannot be trusted: `whirl run` and `whirl sweep` end with exit status 1. A note keeps status 0. In
- * run_checks.c a small value turns a warning into a note. */
+/* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` then end with exit status 1. After a
+ * note the status is 0. In run_checks.c a small value turns a warning into a note. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
 /* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS depends on the findings. A positive value is a

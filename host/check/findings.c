@@ -141,7 +141,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
         a->at_s, a->value);
 }
 
-/* The contact, other than `besides`, with the most events in steps with too many events; -1: none. */
+/* The contact, except `besides`, with the most events in steps with too many events; -1 if there is none. */
 static int busiest(const run_checks *v, int besides) {
     int found = -1;
     for (int k = 0; k < v->image->contacts; k++) {
@@ -360,7 +360,7 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
         }
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
-        w.method = WH_METHOD_DEFAULT; /* the finer steps are tried with it, too */
+        w.method = WH_METHOD_DEFAULT; /* the finer steps are tried with this method, too */
         wish usual = w;
         if (try_either(s, &usual)) {
             write_options(s, &usual, text);

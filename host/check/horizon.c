@@ -11,14 +11,15 @@
 
 /* Factor on the round-off bound, for what it leaves out: a step's own sums, and the library's functions. */
 #define ROUNDING_ROOM 8.0
-/* Least range of a rate, as a part of its size. For a rate of 34.56 rad/s that varies by 0.007, float cannot resolve a thousandth
- * of the variation. A place has no such least range, because its origin may be anywhere. */
+/* Least range of a rate, as a part of its size. For a rate of 34.56 rad/s that varies by 0.007, float cannot resolve a
+ * thousandth of the variation. Positions have no such least range, because their origin is arbitrary. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A place is constant up to round-off if it moves by less than this part of its distance from the origin, or of one metre
- * or radian. So it is beside a place with the same unit that moves much further (BESIDE_OTHERS). */
+/* A position is constant up to round-off if it moves by less than this part of its distance from the origin, or of one
+ * metre or radian. It is also constant compared with a position of the same unit that moves much further
+ * (BESIDE_OTHERS). */
 #define STAYS 1e-9
-/* In float, a place that moves by less than this part of its distance is constant. */
+/* In float, a position that moves by less than this part of its distance from the origin is constant. */
 #define FLOAT_STAYS 3e-7
 #define BESIDE_OTHERS 1e-3
 /* A start computed by sums counts as round-off of zero if it is at most this part of a metre or radian. */
@@ -73,7 +74,7 @@ static horizon_column judge(const step_doubling *t, int k, double tolerance) {
                            .off = c->off.most * t->left_out,
                            .rounding = c->rounding,
                            .until_s = passages_until_s(&c->off, level)};
-    if (t->aliased.column > 0) { /* both runs are wrong, from an unknown time on */
+    if (t->aliased.column > 0) { /* both runs are wrong from an unknown time on */
         made.verdict = HORIZON_UNTIL;
         made.until_s = 0.0;
         return made;
@@ -131,10 +132,10 @@ void horizon_free(horizon *h) {
 }
 
 /* === aliasing ==================================================================================== */
-/* Detects forcing that aliases with the step. In steps of 4 ms a force of 1 kHz is the same at every stage,
- * like a constant force. In steps of 2 ms it is, too, so the finer run agrees. A third run takes a step that
- * shares no period with either: the run's span over a prime number of steps. It samples such a force at varying phases,
- * and ends elsewhere. The runs are compared at the end of the finer run's trusted span. */
+/* Detects forcing that aliases with the step. In steps of 4 ms a force of 1 kHz is the same at every stage, like a
+ * constant force. The same is true for steps of 2 ms, so the finer run agrees. A third run has a step with no common
+ * period: the run's span divided by a prime number. It samples such a force at varying phases, and has another result.
+ * The runs are compared at the end of the finer run's trusted span. */
 
 /* Steps of the third run per step of the run. It is above one, so that the third run is more accurate, and near no simple ratio. */
 #define STEPS 1.41
@@ -181,7 +182,8 @@ static void compare(step_doubling *t, const horizon *h, const double *now, const
         const horizon_column *c = &h->column[k];
         const double off = fabs(other[k] - now[k]);
         const double range = number_most(c->range, off);
-        const double within = h->tolerance * range; /* so far the run and the finer one agree */
+        /* the run and the finer one agree up to this point */
+        const double within = h->tolerance * range;
         const double least = within + ITS_OWN * (number_least(c->off, within) + c->rounding) +
                              ALIKE * t->column[k].one;
         if (is_compared(t, c, k) && off > least && off / range > t->aliased.part) {
@@ -224,7 +226,7 @@ static loop_end end_of(const step_doubling *t, const image *im, const budget *of
 void aliasing_find(step_doubling *t, budget *of) {
     const image *im = t->shape->image;
     if (t->status != WH_OK || im->steps == 0 || t->shape->kind->steps(t->run) != im->steps) {
-        return; /* it has failed, or was interrupted */
+        return; /* the third run has failed, or was interrupted */
     }
     budget_begin(of);
     image third;

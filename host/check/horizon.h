@@ -13,9 +13,10 @@
 typedef enum horizon_verdict {
     HORIZON_TO_THE_END,
     HORIZON_UNTIL,    /* until_s */
-    HORIZON_STILL,    /* it does not move, so it is accurate to the end */
-    HORIZON_ROUNDING, /* only round-off moves it, so it counts as still */
-    HORIZON_NOT_TOLD, /* both runs have too few digits for it, so their agreement proves nothing */
+    HORIZON_STILL,    /* the column is constant, so it is accurate to the end */
+    HORIZON_ROUNDING, /* only round-off changes the column, so it counts as constant */
+    /* both runs have too few digits for the column, so their agreement proves nothing */
+    HORIZON_NOT_TOLD,
 } horizon_verdict;
 
 typedef struct horizon_column {
@@ -38,7 +39,7 @@ typedef struct horizon {
 } horizon;
 
 horizon horizon_of(const step_doubling *t, double tolerance);
-/* Does the scene move or displace column k? A column that symmetry keeps at zero does not count, despite round-off. */
+/* Does the scene move column k? A column that symmetry keeps at zero does not count, even if round-off changes it. */
 bool horizon_moves(const step_doubling *t, int k);
 /* The run is accurate until this time, s; below 0: unknown, for lack of digits or because the finer run has the same error. */
 double horizon_trusted_s(const horizon *h);

@@ -342,7 +342,7 @@ static form value_of(const taylor_bounds *a, const op *o) {
     case OP_NOISE:
     case OP_CELL:
     case OP_LINE:
-    case OP_CUBIC: break; /* not in such a list */
+    case OP_CUBIC: break; /* no such operation in this list */
     }
     return no_form;
 }
@@ -385,7 +385,7 @@ static enclosure natural_of(const taylor_bounds *a, const op *o) {
     case OP_NOISE:
     case OP_CELL:
     case OP_LINE:
-    case OP_CUBIC: break; /* not in such a list */
+    case OP_CUBIC: break; /* no such operation in this list */
     }
     return unknown;
 }
@@ -514,11 +514,12 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 /* Most halvings of a step, and most parts of it for one contact. */
 #define HALVINGS 24
 #define PARTS_MOST 400
-/* A negative margin is a mere touch if its size is below TOUCH times the margin at the ends, or times its change over the way. It
- * is round-off if it is below WIDTHS times the width of the bounds. */
+/* A negative margin is a mere touch if its size is below TOUCH times the margin at the ends, or times its change over
+ * the step. It is round-off if it is below WIDTHS times the width of the bounds. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* A hidden acceleration is HIDDEN times those at both ends, and would change the rate by the share TURNS in a step. */
+/* An acceleration counts as hidden if it is HIDDEN times those at both ends, and would change the rate by the share
+ * TURNS in a step. */
 #define HIDDEN 2.0
 #define TURNS 0.05
 /* A gap's slope that changes by this share of its size in 2^-EDGE_HALVINGS of a step has an edge there. */
@@ -755,8 +756,8 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Does friction k, which slides at both ends, have a far larger limit between, or a far smaller one that could not
- * keep it stuck? */
+/* Friction k slides at both ends of the step. Is its limit far larger between them, or so small that it could not
+ * stick? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -847,7 +848,8 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* Finds a coordinate with an acceleration on the way that neither end shows. In balanced rest the bounds are only underflow. */
+/* Finds a coordinate with an acceleration on the way that neither end shows. For a body at rest in balance the bounds
+ * are only underflow. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;

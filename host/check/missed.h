@@ -2,9 +2,9 @@
  * crossing that is crossed back, a stop, a steep hill of potential energy, or a friction's narrow limit. Both ends of the
  * step are outside, so the core does not notice them. A step of half the length does not either.
  *
- * The way of a step is the cubic through the places and rates at its ends. A step with events has a way between each two of them.
- * Each gap and condition is bounded on it by Taylor forms. The way is halved until a place inside is found or
- * excluded. A contact that stays undecided after the last halving is reported as undecided.
+ * The path of a step is the cubic through the positions and rates at its ends. A step with events has one path between
+ * each two events. Taylor forms bound each gap and condition on the path. The path is halved until a point inside the
+ * contact is found or excluded. If that fails, the contact is reported as undecided.
  *
  * Accelerations with an exponential function are bounded in the same way. A step has passed over a force if the acceleration is far
  * above both ends and large enough to turn the rate. An undecided force is reported as undecided. Moving limits of a friction are

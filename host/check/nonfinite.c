@@ -136,7 +136,7 @@ static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bo
     return beyond && !(at->turns && turning[n->a]);
 }
 
-/* [blame.nodes]: true for nodes that depend on a turn angle; the caller frees it. */
+/* Which nodes of the expressions depend on a turn angle: an array [blame.nodes], to be freed by the caller. */
 static bool *nodes_that_turn(const image *im) {
     bool *turning = alloc(im->blame.nodes, sizeof *turning);
     for (int i = 0; i < im->blame.nodes; i++) {
@@ -200,7 +200,7 @@ static int innermost(const blamed *v, int node) {
     return part >= 0 ? part : node;
 }
 
-/* Reports `what` at `part`, the place in the line of the statement at `where`. */
+/* Reports that `what` is not finite, at the place `part` of the statement at `where`. */
 static void report(const nonfinite_at *at, place where, place part, const char *what,
                    const char *hint, diags *errors) {
     char text[STATEMENT_SIZE];

@@ -1,7 +1,7 @@
 /* nonfinite.h: locates the expression of a scene that is not a finite number, for messages.
  *
- * A failed step keeps the last good state, so the failure lies ahead of it. The expressions are evaluated
- * there and at a few places along the rates. */
+ * A failed step keeps the last good state. The expressions are evaluated at that state and at a few states that its
+ * rates lead to. */
 #ifndef CHECK_NONFINITE_H
 #define CHECK_NONFINITE_H
 
@@ -43,7 +43,8 @@ typedef struct nonfinite_at {
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
-/* Each function reports the first undefined expression that it finds, with its place and statement; false: none found. */
+/* Each function reports the first undefined expression, with its place and statement. Returns false if there is
+ * none. */
 
 /* Searches the energies, losses, forces and equations, and their slopes. */
 bool nonfinite_term(const nonfinite_at *at, diags *errors);

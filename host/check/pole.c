@@ -20,12 +20,12 @@ enum { HALVINGS = 56 };
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
-/* A value that touches zero is at most this part of both ends there. */
+/* A value touches zero if its minimum is at most this part of its values at both ends. */
 #define TOUCHES 1e-3
 /* The least point of an even value is found by golden sections, to the last digit of its place. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
-/* Most parts of a way: each rejected place splits a part. */
+/* Most parts into which rejected points split the path of a step. */
 enum { PARTS_MOST = 16 };
 
 /* Number of sampled distances, each GROWTH_CLOSER times nearer than the one before. */
@@ -42,8 +42,9 @@ typedef enum growth {
     GROWTH_POLE  /* even growth, as at a pole */
 } growth;
 
-/* Least growth of a pole at each distance. A pole grows by 1.71, the distance to the power -9/10 by 1.62. The ratio of distances
- * is no power of two: numbers with the same digits have the same round-off, which would look like even growth. */
+/* Least growth from one distance to the next that counts as a pole. 1/distance grows by 1.71, the distance to the power
+ * -9/10 by 1.62. The ratio of distances is no power of two: numbers with the same digits have the same round-off, which
+ * would look like even growth. */
 #define GROWS 1.64
 /* Growth is even if its ratios differ by less than this factor. */
 #define EVEN 1.1
@@ -171,7 +172,8 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Does value i change its sign again and again from `from` off the place to `most`? Then it is round-off. */
+/* Does value i change its sign repeatedly at distances from `from` to `most` beside the zero? Then the sign is only
+ * round-off. */
 static bool is_rounding(const looker *l, int i, double zero_at, double from, double most) {
     double before = 0.0;
     double off = from;
@@ -233,7 +235,7 @@ static bool is_there(const spot *s, const double *over) {
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
 }
 
-/* The first value with a pole at the place, seen from `far` off on this side, or -1. */
+/* The first value that grows like a pole at this point, when approached from the distance `far` on this side, or -1. */
 static int grows_from(const looker *l, const spot *s, double zero_at, double far) {
     const int values = l->way->values;
     const double extent = far < 0.0 ? zero_at - s->in.low : s->in.high - zero_at;
@@ -263,8 +265,8 @@ static int grows_from(const looker *l, const spot *s, double zero_at, double far
 /* The zero is searched at this many times the distance of the nearest point. */
 #define ASIDE 5.0
 
-/* The zero, from the sizes on both sides of the estimate: (a - e)^order and (a + e)^order differ by the part order*e/a. The place
- * of a simple zero is known already. */
+/* The position of the zero, from the sizes of the value on both sides of the estimate: (a - e)^order and (a + e)^order
+ * differ by the part order*e/a. The place of a simple zero is known already. */
 static double centred(const looker *l, const spot *s, double aside) {
     const double before = size_at(l, s->of, s->zero_at - aside);
     const double behind = size_at(l, s->of, s->zero_at + aside);
@@ -365,11 +367,12 @@ int pole_on(const pole_way *w) {
  * outside the state, such as a rate recovered from a momentum, are not. */
 
 typedef struct divisor {
-    int node;      /* of the blame list; if `derived`, an operation of the books list */
+    /* index in the list of diagnostic expressions; if `derived`, an operation of the list for the energy balance */
+    int node;
     bool of_a_tan; /* the cosine of a tangent's argument: it changes its sign at the pole */
     bool derived;
     bool leaps;    /* an event may change it at once */
-    bool bends;    /* it is nonlinear in the state, and may touch zero */
+    bool bends;    /* the value is nonlinear in the state, and may touch zero */
     double before; /* value before the step */
     double aside;  /* value at POLE_ASIDE of the step's way */
     double now;    /* value after the step */
@@ -385,14 +388,14 @@ typedef struct denominators {
     bool some_bend;
     int *asked; /* [questions] the image's questions that may grow */
     int questions;
-    vector_field *field; /* for derived divisors; NULL without any */
+    vector_field *field; /* for derived denominators; NULL if there are none */
     double *slope;       /* [field->n] */
 } denominators;
 
 enum {
-    MOVES = 1U,    /* depends on the state */
-    HIDDEN = 2U,   /* and on values outside the state: a highest derivative, a rate recovered from a
-             * momentum */
+    MOVES = 1U, /* depends on the state */
+    /* values that depend on more than the state: on a highest derivative, or a rate recovered from a momentum */
+    HIDDEN = 2U,
     DIVIDES = 4U,  /* a factor of a divisor */
     OF_A_TAN = 8U, /* is the argument of a tangent */
     NEEDED = 16U,
@@ -668,7 +671,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* No test if the way to a pole is less than this part of the moving value, where only round-off grows. */
+/* No test if the distance to a pole is less than this part of the value: there only round-off grows. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {
@@ -678,7 +681,7 @@ struct pole_crossing {
     double *from; /* [components] state before the step: angles, then reals */
     double *to;   /* [components] state after the step */
     uint64_t events;
-    bool leapt; /* this step had events */
+    bool leapt; /* the present step had events */
     bool blind; /* the state before this step is unknown */
     uint64_t unseen;
     missed *contacts;
@@ -719,7 +722,7 @@ void pole_crossing_close(pole_crossing *j) {
 /* Is the divisor tested in this step? Rates that jump at an impact pass through no pole. */
 static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
 
-/* How far this component goes in the step: turn angles are given within a turn. */
+/* The change of this component in the step. Turn angles are given within a turn, so this is the shorter way. */
 static double way_of(const pole_crossing *j, int i) {
     const double way = j->to[i] - j->from[i];
     return i < j->image->angles ? number_centred(way, 6.283185307179586) : way;
@@ -743,7 +746,7 @@ static void go_to(void *of, double share, double *sign, double *value) {
     }
 }
 
-/* How far this component goes in the step, as a part of itself. */
+/* The change of this component in the step, relative to its value. */
 static double relative_way_of(const pole_crossing *j, int c) {
     const double size = number_most(fabs(j->from[c]), fabs(j->to[c]));
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;

@@ -1,10 +1,10 @@
-/* pole.h: steps that jump over a pole, or through a contact (missed.h). No motion passes a place of unbounded growth, such
- * as x'/(v0 + x') at x' = -v0. But a step that is longer than the distance to the pole never evaluates near it. Nor does a
- * step of half the length, so the run and its finer run agree.
+/* pole.h: steps that jump over a pole, or through a contact (missed.h). No motion passes a state at which an expression
+ * grows without bound, such as x'/(v0 + x') at x' = -v0. But a step that is longer than the distance to the pole does
+ * not evaluate the expression near it. Nor does a step of half the length, so the run and its finer run agree.
  *
- * Values that change their sign at a pole are evaluated after each step. After a sign change the way between the
- * two states is tested for a pole. In steps with events only divisors that depend on places alone are tested, because an
- * impact makes rates jump without passing through a pole. The same holds for values that a crossing sets. */
+ * Values that change their sign at a pole are evaluated after each step. After a sign change the path between the two
+ * states is tested for a pole. In steps with events only denominators that depend on positions alone are tested,
+ * because an impact changes rates without passing through a pole. So do the assignments of a crossing. */
 #ifndef CHECK_POLE_H
 #define CHECK_POLE_H
 

@@ -59,8 +59,8 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The remaining part of the budget, minus the share of the remaining steps. While it is below 0, checks that are less important than
- * the finer run are skipped. So they are spread over the whole run, not only over its begin. */
+/* The remaining part of the budget, minus the share of the remaining steps. While it is below 0, checks that are less
+ * important than the finer run are skipped. So these checks are spread over the whole run, not only over its begin. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
@@ -166,7 +166,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* A float run's turn angle moves by whole units, and is always uncertain by two. */
+/* In a float run, a turn angle moves by whole units; its error may always be two units. */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->twins->column[k];
     const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
@@ -205,8 +205,9 @@ static int first_off(const run_checks *v, const horizon *h) {
     return found;
 }
 
-/* The position with an error that grew by RUN_CHECKS_SUDDEN to HORIZON_TOLERANCE within a few steps, or -1. Such steps do not
- * resolve a place of the motion, such as a singularity of the coordinates. In a resolved chaotic motion errors grow more slowly. */
+/* The position with an error that grew by RUN_CHECKS_SUDDEN to HORIZON_TOLERANCE within a few steps, or -1. Such steps
+ * do not resolve some part of the motion, such as the neighbourhood of a singularity of the coordinates. In a resolved
+ * chaotic motion errors grow more slowly. */
 static int first_sudden(const run_checks *v, const horizon *h) {
     int found = -1;
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
@@ -224,7 +225,7 @@ static int first_sudden(const run_checks *v, const horizon *h) {
     return found;
 }
 
-/* Does nothing after too many events or another early end of the comparison, because those have findings of their own. */
+/* Does nothing if the comparison ended early, for example after too many events: there are other findings for that. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->twins;
     horizon h = horizon_of(t, v->part * RUN_CHECKS_TOLERANCE);

@@ -12,9 +12,10 @@
 #include "host/check/horizon.h"
 
 typedef struct finding {
-    bool told;     /* it is reported */
-    double value;  /* measured, in the row's unit */
-    double at_s;   /* it holds at this time, or from then on; below 0: all the time */
+    bool told;    /* the finding is reported */
+    double value; /* measured, in the row's unit */
+    /* time at which the finding is true, or from which on it is; below 0: the whole run */
+    double at_s;
     int component; /* the component or contact concerned, or -1 */
 } finding;
 
@@ -27,8 +28,9 @@ typedef struct run_checks {
     budget *budget; /* shared by all checks: &own, or the caller's */
     double part;    /* factor of the limits of energy and accuracy: 1, and less for a remedy */
     books *books;   /* NULL for a system given by its equations */
-    pole_crossing *jumped;                   /* NULL: no pole */
-    step_doubling *twins;                    /* NULL: it would take too long */
+    pole_crossing *jumped; /* NULL: no pole */
+    /* the comparison with a finer run; NULL: it would take too long */
+    step_doubling *twins;
     uint64_t overruns;                       /* steps with too many events */
     double overran_s;                        /* begin of the first such step */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in such steps */

@@ -10,7 +10,7 @@ enum { RUN_JSON_FILES = 4 };
 
 typedef struct run_json_wish {
     const struct run_checks *verdict;
-    const records *records; /* their current row is the last state */
+    const records *records; /* records, whose current row is the last state */
     const char *said;       /* text of the findings, or of the failure, with hints; or NULL */
     double until_s;         /* the run is accurate until this time; below 0: unknown */
     bool failed;
@@ -19,7 +19,6 @@ typedef struct run_json_wish {
 } run_json_wish;
 
 void run_json(FILE *out, const run_json_wish *w);
-/* `status`: exit status. */
 void horizon_json(FILE *out, const horizon *h, int status);
 
 /* The first keys of every command's object. `kind` is NULL for commands that compare number types and methods. */

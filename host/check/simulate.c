@@ -22,7 +22,7 @@
 #include "host/os/system.h"
 #include "run_json.h"
 
-/* A picture marks at most this many events. */
+/* Most events that a picture shows. */
 #define MARKS 400.0
 
 typedef struct simulation {
@@ -38,7 +38,7 @@ typedef struct simulation {
     decimation *plot; /* NULL without a picture */
     plot_run course;  /* names and marks for a picture, and for the description of the CSV file */
     opening opening;  /* first sentence of the summary */
-    uint64_t steps;   /* of the whole run */
+    uint64_t steps;   /* number of steps of the whole run */
     bool write_failed;
     double shown_s;   /* clock time when the progress was last shown */
     char *said;       /* text of the findings */
@@ -137,8 +137,8 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
-/* Marks an event of the completed step, unless the last mark is too near for a picture to show both. Lifting off a
- * stop is not marked. */
+/* Marks an event of the completed step, unless the last mark is so near that a picture cannot show both. The release of
+ * a stop is not marked. */
 static void mark_events(simulation *sim, uint64_t step) {
     engine_event list[WH_EVENT_LOG];
     plot_run *to = &sim->course;
@@ -235,7 +235,7 @@ static void say_saturated(const simulation *sim) {
     }
 }
 
-/* Says that a restitution, which depends on the motion, has left its range. */
+/* Reports a restitution, which may depend on the motion, that has left its range. */
 static void say_clamped(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const engine_clamped c =
@@ -268,7 +268,7 @@ static void say_failure(simulation *sim, wh_status status) {
 static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
-    if (status != WH_OK) { /* this also explains undefined energies */
+    if (status != WH_OK) { /* a failed step, which also explains undefined energies */
         say_failure(sim, status);
         diags_free(sim->undefined);
         sim->undefined = diags_new();

@@ -38,7 +38,7 @@ FILE *simulation_summary(const simulation_settings *s);
 
 typedef struct simulation_trust {
     unsigned fails; /* the findings that fail the run, as bits (run_checks_fails()) */
-    bool dear;      /* the finer run takes too long */
+    bool dear;      /* the finer run would take too long */
     double
         left; /* remaining operations of the checks' budget; the rows of a summary take at most half of them */
     bool still;     /* no coordinate moves */

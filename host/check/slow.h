@@ -1,9 +1,10 @@
 /* slow.h: detects components that move too slowly for the units of their numbers.
  *
- * A float turn angle moves by whole units of 2^-32 turn, 1.5e-9 rad. If it should move by less than half a unit a step, it
- * stands still; slightly above, its rate is wrong. In fixed point all components move by units of their ranges. A component is
- * reported if the round-off of its steps, summed since the start, ever exceeded SLOW_SHARE of its span and a few
- * units. A component that is slow only now and then is not reported, because it loses little of its span. */
+ * A float turn angle moves by whole units of 2^-32 turn, 1.5e-9 rad. If an angle should move by less than half a unit
+ * per step, it does not move; slightly above that, its rate is wrong. In fixed point all components move by units of
+ * their ranges. A component is reported if the round-off of its steps, summed since the start, ever exceeded SLOW_SHARE
+ * of its span and a few units. A component that is slow only now and then is not reported, because it loses little of
+ * its span. */
 #ifndef CHECK_SLOW_H
 #define CHECK_SLOW_H
 
@@ -12,7 +13,7 @@
 #include "host/engine/engine.h"
 
 #define SLOW_SHARE 1e-3
-#define SLOW_LEAST_RAD 3e-9  /* two units: the round-off of an angle that hardly moves */
+#define SLOW_LEAST_RAD 3e-9  /* two units: the round-off of an angle that hardly moves, rad */
 #define SLOW_LEAST_UNITS 4.0 /* in fixed point, with accelerations in whole units, too */
 
 /* Is component i, angles first, too slow? */

@@ -12,8 +12,8 @@
 #define EVALUATIONS_OF_EVENTS 8.0
 
 /* --- other ways of folding constants ------------------------------------------------------------------*/
-/* Sensitivity of a scene's accelerations to the folding of its constants to double. Compares the scene's
- * lists with those that fold constants in other ways (host/number/folding.h). Most scenes have no such lists. */
+/* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
+ * variants whose constants are folded with other roundings (host/number/folding.h). Most scenes need no variants. */
 
 /* Adds to share[ways] each way's errors off[ways * count], relative to the largest error of the same component. Components have
  * different units. */
@@ -107,8 +107,8 @@ static whole_ratio half_of(whole_ratio step) {
     return ratio_of(0.5 * ratio_times(1, step));
 }
 
-/* Do the slopes have kinks or edges? The error of a step across a kink depends on the kink's place in the step, also in the finer
- * run. So the order is only one. */
+/* Do the slopes have kinks or edges? The error of a step across a kink depends on where in the step the kink is, also
+ * in the finer run. So the order is only one. */
 static bool has_kinks(const image *im) {
     const op_list *step = im->list[IMAGE_STEP];
     bool found = false;
@@ -143,7 +143,8 @@ bool step_doubling_plain(const image_settings *of, image_settings *plain) {
     return plain->tables != of->tables || plain->compensated != of->compensated;
 }
 
-/* Gives the finer run other folded constants: with the same ones both runs would have the same round-off. */
+/* Gives the finer run constants that are folded with other roundings. With the same constants both runs would have the
+ * same round-off. */
 static void fold_the_other_way(image *im) {
     const image *other = constant_sensitivity_furthest(im);
     for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
@@ -164,7 +165,8 @@ static void make_finer(step_doubling *t, const step_doubling_wish *w) {
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
-    t->finer.settings.stabilized = false; /* else both runs follow one wrong motion */
+    /* otherwise both runs would follow the same wrong motion */
+    t->finer.settings.stabilized = false;
     t->each = 1;
     t->left_out = 1.0;
     if (im->settings.matrix == MATRIX_EXACT) {
@@ -315,7 +317,8 @@ static void take_rounding(step_doubling *t, const rounded *r) {
         }
         const int result = result_of(r->image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* a place without a bound is a pole, or a root of nearly zero; most places have one */
+            /* A state without a bound is a pole, or a root of nearly zero. If most states have a bound, the others are
+             * left out. */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
@@ -423,7 +426,7 @@ static bool is_unwrapped(const pair *p) {
     return found;
 }
 
-/* Every column exceeds every level after this time, because nothing is known there. */
+/* After this time nothing is known: every column counts as above every level. */
 static void end_passages(step_doubling *t, double time_s) {
     for (int k = 1; k < t->columns; k++) {
         passages_enter(&t->column[k].off, time_s, (double)INFINITY);
@@ -431,7 +434,8 @@ static void end_passages(step_doubling *t, double time_s) {
     t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
 }
 
-/* A step with too many events lets stops rest that would not rest. A step of half the length does so, too, and the two runs agree. */
+/* A step with too many events lets stops rest that would not rest. A step of half the length has the same error, and
+ * the two runs agree. */
 static bool has_overrun(const pair *p) {
     uint64_t ours = 0;
     uint64_t finers = 0;
@@ -444,7 +448,7 @@ static bool has_jumped(const pair *p) {
     return pole_crossing_some(p->our_jumps) || pole_crossing_some(p->finer_jumps);
 }
 
-/* The finer run catches up with the step that the run has just taken. */
+/* Steps the finer run to the end of the step that the run has just made. */
 static void follow(pair *p, uint64_t begin) {
     step_doubling *t = p->to;
     const bool failed = t->finer_failed_s < 0.0 && !step_finer(p);

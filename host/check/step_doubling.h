@@ -12,7 +12,7 @@
 #include "host/io/records.h"
 #include "pole.h"
 
-/* Most comparisons of the two runs. They are made at evenly spaced step ends. */
+/* Most comparisons of the two runs. They are made at ends of steps, at equal intervals. */
 enum { STEP_DOUBLING_LOOKS = 20000 };
 
 typedef struct step_doubling_wish {
@@ -55,11 +55,12 @@ typedef struct step_doubling_column {
     double high;
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
-    bool has_rate;   /* its rate is in the state, so its origin may be anywhere */
-    bool written;    /* its start is the scene's value, without the round-off of sums */
-    int place;       /* of a rate: the column of its coordinate; else this column */
-    double one;      /* one SI unit, in the column's unit */
-    double alike;    /* the largest range of all places with the column's unit */
+    /* the rate of this column is in the state, so the column's origin is arbitrary */
+    bool has_rate;
+    bool written; /* its start is the scene's value, without the round-off of sums */
+    int place;    /* of a rate: the column of its coordinate; else this column */
+    double one;   /* one SI unit, in the column's unit */
+    double alike; /* the largest range of all places with the column's unit */
     passages off;
 } step_doubling_column;
 
@@ -86,8 +87,9 @@ typedef struct step_doubling {
     double end_s;                 /* end of the run's last completed step */
     wh_status status;             /* of the run's last step */
     void *run;                    /* the final state */
-    bool unwrapped;        /* the finer run failed at an angle beyond the range of double's sine */
-    double finer_failed_s; /* the finer run left all bounds after this time; below 0: it did not */
+    bool unwrapped; /* the finer run failed at an angle beyond the range of double's sine */
+    /* after this time the finer run has left its bounds; below 0: it has not */
+    double finer_failed_s;
     double
         overrun_s; /* after this time one of the two runs had too many events in a step; below 0: neither */
     double
@@ -124,7 +126,7 @@ void step_doubling_enter(step_doubling *t);
 void step_doubling_end(step_doubling *t, wh_status status);
 void step_doubling_free(step_doubling *t); /* NULL is fine */
 
-/* Estimated operations of both runs, and of the finer run alone without its events. */
+/* Estimated number of operations of both runs; and of the finer run alone, without its events. */
 double step_doubling_operations(const image *im, const image *plain);
 double step_doubling_finer_operations(const image *im, const image *plain);
 

@@ -125,7 +125,8 @@ static double strayed(const opening *o, int i) {
     return number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
 }
 
-/* Is output i a length that stays while another length moves? An output is constant if it moves by less than STAYS of `most`. */
+/* Is output i a length that is constant while another length moves? It is constant if it moves by less than STAYS times
+ * `most`. */
 static bool stays(const opening *o, const records *r, int i, double most) {
     const record_column *c = &r->column[i];
     return c->unknown < 0 && strcmp(c->unit->si, "m") == 0 &&

@@ -74,7 +74,6 @@ static const char *taken_in_c(const char *name, bool with_header) {
     return with_header && !emit_c_name_is_free_in_cpp(name) ? "a word of C++" : NULL;
 }
 
-/* The properties of a form. */
 typedef struct form_row {
     const char *word;
     void (*print)(const loaded *made, const char *file);
@@ -83,8 +82,8 @@ typedef struct form_row {
                         const char *file); /* the derivation of the equations (--steps) */
     void (*print_folded)(const loaded *made,
                          const char *file); /* values in place of names (--folded) */
-    bool runs;                              /* it steps the scene: momenta, method and number type
-                                             * matter */
+    /* the form steps the scene: momenta, method and number type matter */
+    bool runs;
     /* For code with the scene's name (--name): the owner of that name there, if it is taken, or NULL. */
     const char *(*name_taken_by)(const char *name, bool with_header);
     /* For code with a header (--header). */

@@ -159,7 +159,7 @@ static int derive_all(source_model *from) {
         }
         unload(&made);
         if (one != EXIT_DONE && in == NULL) {
-            break; /* its scenes have the same error */
+            break; /* all scenes of the mechanism have the same error */
         }
     }
     return code;

@@ -118,7 +118,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
                    ? LIGHT_EQUAL
                    : LIGHT_DIFFERS;
     }
-    if (strcmp(name, "selftest") == 0) { /* it consists of the next fields */
+    if (strcmp(name, "selftest") == 0) { /* the next fields are the results of the self-test */
         return strncmp(value, "good ", 5) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
     }
     return strcmp(value, wanted) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
@@ -300,7 +300,7 @@ static int read_record(const firstlight_options *o, const char *from_name, light
     return code;
 }
 
-/* The emulator's record must be of these scenes, too. Its board, compiler and stack are then the reference. */
+/* The emulator's record must be of the same scenes. Its board, compiler and stack are the reference. */
 static int expect_emulated(const firstlight_options *o, light_expected *e) {
     static light emulated;
     const int code = read_record(o, o->emulated, &emulated);

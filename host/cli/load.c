@@ -17,7 +17,7 @@
 #include "host/lang/override.h"
 #include "host/show/show_equations.h"
 
-#ifdef __wasi__ /* not available: a file has only its given name */
+#ifdef __wasi__ /* no full path: only the name that was given */
 static char *realpath(const char *path, char *resolved) {
     (void)resolved;
     return alloc_copy(path, strlen(path));

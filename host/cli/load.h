@@ -33,7 +33,7 @@ int find_builtin(const struct builtin_model *models, size_t count, const char *t
 
 /* A .whirl file, or the only built-in model that has the target. Free with source_close(). */
 typedef struct source_model {
-    const char *file; /* its name in messages */
+    const char *file; /* the file's name in messages */
     char *text;       /* owned; NULL for a built-in model */
     char *path;       /* owned */
     char *name;       /* owned: the name after the ':', or the built-in name; "" without a name */
@@ -72,7 +72,7 @@ typedef struct loaded {
     image *image;
     instance *instance;   /* NULL unless stored; equations have their own */
     equations *equations; /* NULL unless stored */
-    char *hint;           /* for a valid model that has a better form; or NULL */
+    char *hint;           /* for a valid model that could be written better; or NULL */
     char *contacts; /* contacts in words, whole lines; "" without contacts, or if not requested */
 } loaded;
 

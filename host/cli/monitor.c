@@ -143,7 +143,8 @@ static void ask(monitor *m) {
     char line[DIALOGUE_LINE];
     const char *question = dialogue_question(&m->dialogue, line);
     if (question != NULL) {
-        (void)port_write(&m->line, question, strlen(question)); /* on failure it is sent again */
+        /* if this fails, the question is sent again */
+        (void)port_write(&m->line, question, strlen(question));
         m->asked_ms = now_ms();
     }
 }

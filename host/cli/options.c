@@ -30,7 +30,7 @@ enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
 void options_text(FILE *out, const char *text, int column, int margin, int width) {
     for (; *text != '\0'; text++) {
-        const int word = 1 + (int)strcspn(text + 1, " \n"); /* with the blank before it */
+        const int word = 1 + (int)strcspn(text + 1, " \n"); /* includes the blank before the word */
         if (*text == '\n' || (*text == ' ' && column + word > width)) {
             fprintf(out, "\n%*s", margin, "");
             column = margin;
@@ -106,13 +106,11 @@ bool options_help(int count, char **words, const command_usage *usage) {
     return wanted;
 }
 
-/* Is it `name`, or `name=VALUE`? */
 static bool is_option(const char *word, const char *name) {
     const size_t length = strlen(name);
     return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=');
 }
 
-/* The options that may be repeated. */
 static bool may_be_repeated(const char *name) {
     static const char *const all[] = {"--set",  "--start",  "--with", "--without",
                                       "--over", "--panel",  "--data", "--measure",

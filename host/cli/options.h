@@ -98,8 +98,7 @@ bool options_wants_help(int count, char **words);
 bool options_help(int count, char **words, const command_usage *usage);
 
 /* If words[*at] is `name` (or `name=VALUE`), return its value and advance *at past it. Returns NULL for another word. A
- * missing value is reported and sets *bad. So is a repeated option, unless it may be repeated: one value would replace
- * the other. */
+ * missing value is reported and sets *bad. A repeated option is reported, too, unless it may be repeated. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
 /* A number between two bounds, inclusive, for this option of this command; false, reported with the hint, for other text. */
@@ -145,8 +144,8 @@ typedef struct common_options {
 common_options options_defaults(void);
 void options_forget(common_options *options);
 
-/* If words[*at] is an option of `groups`, take it, advance *at past it and return true. An invalid value is reported
- * and sets *bad. */
+/* If words[*at] is an option of `groups`, stores its value, advances *at past it and returns true. An invalid value is
+ * reported and sets *bad. */
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 

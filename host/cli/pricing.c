@@ -26,7 +26,7 @@
 typedef struct pricing_command {
     const char *name;   /* "price" */
     unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
-    const char *head;   /* of its help text */
+    const char *head;   /* head of the help text */
     const char *failed; /* why its exit status may be 1 */
     int (*run)(pricing *p);
 } pricing_command;
@@ -267,7 +267,7 @@ static bool read_ranges(pricing *p) {
     return true;
 }
 
-/* Varied values must take part, and all places must be able to start. */
+/* Checks that the varied values are used by the scenes, and that every point can start. */
 static bool can_start(pricing *p, const instance *inst) {
     for (int i = 0; i < p->grid.count; i++) {
         const effect *missing = instance_lacks(inst, p->grid.axes[i].symbol);

@@ -100,7 +100,7 @@ struct pricing {
     double effort;   /* operations */
     bool method[WH_METHODS];
     char *words;  /* changes of the scene, as typed */
-    char *target; /* as typed */
+    char *target; /* name of the target, as typed */
     trials trial;
     bool has_trial;
 };

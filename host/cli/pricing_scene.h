@@ -29,7 +29,7 @@ typedef struct pricing_scene {
     trial_source source;
 } pricing_scene;
 
-/* Most places of all varied values together, and places of one range. */
+/* Most points of the grid of all varied values, and most points of one range. */
 enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,

@@ -140,10 +140,12 @@ static double operations_for(trials *t, const setting *s, deviation_pace pace, d
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = -1.0;
-    double operations = 0.0; /* of all tried paces, or of the first one above the limit */
+    /* operations of all tried step lengths, or of the first one above the limit */
+    double operations = 0.0;
     bool ends_early = false;
     int falls = 0; /* tries with a smaller error than all before */
-    int stuck = 0; /* tries since then; if errors fell before, the rest is round-off */
+    /* number of tries since the error last fell; if it fell before, the rest is round-off */
+    int stuck = 0;
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
         *pace = pace_at(i);

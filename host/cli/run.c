@@ -202,7 +202,7 @@ static double read_every_s(const run_options *o, const mechanism *of) {
     return spacing_s;
 }
 
-/* The same as a number of steps. */
+/* The same interval as a number of steps. */
 static bool count_every(const run_options *o, double spacing_s, const image *im, uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
@@ -229,7 +229,7 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-/* This many steps take a minute or more. Without a progress display a message says so. */
+/* This many steps take a minute or more. Without a progress display, a message reports that. */
 #define STEPS_MANY 100000000U
 
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,

@@ -19,8 +19,8 @@
 bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
                      bool *bad);
 
-/* As command_run() with these words and --quiet. The data of a picture goes to *taken, thinned out for this choice, in
- * place of a picture. Call plot_run_close() in any case. */
+/* As command_run() with these words and --quiet. *taken gets the data of a picture, decimated for this choice, and no
+ * picture is drawn. Call plot_run_close() in any case. */
 int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
 
 #endif

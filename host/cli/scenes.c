@@ -255,7 +255,6 @@ typedef struct settings_emission {
                    * of the run in float */
 } settings_emission;
 
-/* Has the setting a word that is new on its axis? */
 static bool has_new_word(settings_emission *to, const setting *s) {
     bool has = false;
     for (int axis = 0; axis < AXES; axis++) {
@@ -278,7 +277,7 @@ static bool write_both(const settings_emission *to, const image *im, const fixed
            write_code(to->folder, im, plan, file, true);
 }
 
-/* The same in fixed point, if the scene has such a step. Few settings have one, so all are written. */
+/* Writes the scene in fixed point, if it has a step in fixed point. Few settings have one, so all are written. */
 static bool write_fixed(const settings_emission *to, image *im, const setting *s, int number,
                         const char *file, const char *target) {
     char options[SETTING_TEXT];

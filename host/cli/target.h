@@ -13,7 +13,7 @@ typedef bool target_take(int count, char **words, int *at, void *options, bool *
 typedef struct own_option {
     const char *word;
     const char **text; /* gets the value as typed */
-    int *count;        /* of a repeatable option: the number of its values in text[] */
+    int *count;        /* number of values in text[], for an option that may be repeated */
     double *number;    /* gets the value as a number from `least` to `most` */
     double least, most;
     bool whole; /* the number must be whole */

@@ -24,7 +24,7 @@ typedef struct conservation {
                          * closed */
 } conservation;
 
-/* Most coordinates recovered at once. */
+/* Most coordinates of one scene that are recovered from momenta. */
 #define CONSERVED_MAX 3
 
 /* The symbol of time in the polys above. */

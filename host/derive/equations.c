@@ -358,7 +358,7 @@ static bool twice_itself(const equations *e, unsigned number, bool *known) {
 }
 
 /* Is T a homogeneous quadratic form of the rates, and V free of them? If no mass contains a rate, T has degree two at
- * most. Its parts of degree one and zero show at rest. */
+ * most. Its parts of degree one and zero are found at rest. */
 static bool is_quadratic(const equations *e) {
     if (has_rates(e, e->stored) || energy_mass_has_rates(e)) {
         return false;

@@ -14,7 +14,6 @@
 
 /* === the symbolic contacts of an instance, in the order of core/contact.h ===================== */
 
-/* One stop, hold, friction or crossing. */
 typedef struct contact_law {
     const contact_statement *from;
     const poly *value;  /* stop: gap; hold: condition; friction: rate; crossing: left - right */
@@ -24,7 +23,7 @@ typedef struct contact_law {
     const poly *bias;   /* J' q' */
     const poly **row;   /* [coordinates] J; NULL for a crossing */
     bool straight;      /* J is constant, and the hold's expression contains no input */
-    bool driven;        /* it follows an input with a rate */
+    bool driven;        /* the contact follows an input with a rate */
 } contact_law;
 
 typedef struct contact_set {

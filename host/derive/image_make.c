@@ -42,7 +42,8 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Most examined parts of a start. Their number may double with each level of lets: p*p with p = q*q, and so on. */
+/* Most parts of a start that are examined. Their number may double with each level of lets: p*p with p = q*q, and so
+ * on. */
 enum { MOST_PARTS = 1000 };
 
 /* Is the expression a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
@@ -68,7 +69,6 @@ static bool is_written(const instance *inst, const expr *e, int *parts) {
     return false;
 }
 
-/* The start of unknown i. */
 static void start_unknown(image_draft *d, const instance *inst, int i) {
     image_unknown *u = &d->made->unknown[i];
     u->starts = inst->start_count[i];

@@ -6,15 +6,16 @@
 #include "host/image/image.h"
 
 /* === one image ================================================================================ */
-/* One image, with its numbers folded in the current way (host/number/folding.h). image_make() makes variants, too. */
+/* Makes one image, whose constants are folded with the current rounding (host/number/folding.h). image_make() makes
+ * variants, too. */
 
 /* The purpose of an image. One to run also has the expressions that may be undefined, in the spelling of the file, so
  * that a message can quote the failed one (host/check/nonfinite.h). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN } image_use;
 
-/* The same lists with the starts, inputs, step and end of `inst`. It must be an instance of the same mechanism and
- * scene with the same parameters. Another step gets a matrix of its own. Free `base` last. NULL, reported, if there is
- * no such matrix. */
+/* An image with the lists of `base`, and the starts, inputs, step and end of `inst`, which must be an instance of the
+ * same mechanism and scene with the same parameters. If the step differs, the image gets its own matrix. Free `base`
+ * last. Returns NULL, and reports the reason, if there is no such matrix. */
 image *image_again(const image *base, const instance *inst, diags *errors);
 
 /* The image of an instance with the equations `e`. `conserve` [count] names the coordinates to recover from their

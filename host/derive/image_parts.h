@@ -5,7 +5,6 @@
 #include "host/image/image.h"
 #include "host/lang/model.h"
 
-/* An unfinished image. */
 typedef struct image_draft {
     image *made;
     /* [sources] sources of places, and their copies */
@@ -22,7 +21,7 @@ image *image_draft_done(image_draft *d);
 void *image_room(image_draft *d, int count, size_t size);
 const char *image_text(image_draft *d, const char *text);
 
-/* The same place in the image's copy of its source; each source is copied once. */
+/* Converts a source place to one in the image's copy of the source; each source is copied once. */
 place image_place(image_draft *d, place at);
 
 /* The unit of a symbol's derivative with so many primes. */

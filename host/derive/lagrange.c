@@ -59,8 +59,8 @@ static double largest_of(const double *m, int n, line of) {
     return largest;
 }
 
-/* One pass scales the rows, the next the columns. It divides by the root of the largest entry, so rows and columns share the
- * scaling. */
+/* One pass scales the rows, the next the columns. Each divides by the root of the largest entry, so rows and columns
+ * share the scaling. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -428,7 +428,8 @@ static const poly *acceleration_of(algebra *a, const symbol *driven) {
     return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
 }
 
-/* The equation of a driven coordinate: q'' = its input's acceleration. It has no momentum, and no force moves it. */
+/* The equation of a driven coordinate: q'' = its input's acceleration. A driven coordinate has no momentum, and no
+ * force moves it. */
 static void drive(equations *e, int i) {
     algebra *a = e->algebra;
     e->momentum[i] = e->velocity[i] = e->potential[i] = poly_number(a, 0.0);
@@ -465,7 +466,7 @@ static bool derive_lagrange(equations *e, diags *errors) {
             const poly *drift =
                 poly_mul(a, poly_derivative(a, momentum, other, 0), poly_symbol(a, other, 1));
             e->velocity[i] = poly_add(a, e->velocity[i], drift);
-            if (other->driven != NULL) { /* its acceleration is known */
+            if (other->driven != NULL) { /* the acceleration of that coordinate is known */
                 const poly *push = poly_mul(a, e->mass[i * n + j], acceleration_of(a, other));
                 e->velocity[i] = poly_add(a, e->velocity[i], push);
                 e->mass[i * n + j] = poly_number(a, 0.0);

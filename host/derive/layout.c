@@ -175,7 +175,7 @@ static int add_real(layout *map, int i, int primes) {
     return map->reals++;
 }
 
-/* Inactive effects leave no trace: their inputs are left out, too. */
+/* Effects that are switched off leave nothing behind: their inputs are left out, too. */
 static void arrange_inputs(layout *map, const instance *inst) {
     const mechanism *m = inst->mechanism;
     map->input = alloc(m->input_count, sizeof *map->input);

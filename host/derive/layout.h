@@ -21,8 +21,8 @@ typedef struct noise_records {
     int count;          /* number of exact that are not NULL */
 } noise_records;
 
-/* In wanted[count], which are folded and settled, replace records without active noise by their outputs, and find the
- * other records. Free with noise_records_free(). */
+/* Replaces, in the expressions wanted[count], records without active noise by their outputs, and finds the other
+ * records. Free with noise_records_free(). */
 noise_records noise_records_find(const equations *e, const conservation *conserved,
                                  const poly **wanted, int count);
 /* Enter them before lowering the polys that contain them. */

@@ -18,9 +18,9 @@ typedef struct piece {
 } piece;
 
 /* Converts terms that cancel near x = 0 or x = pi/2 to powers. Examples: c (1 - cos 2x) = 2 c sin(x)^2, and c (3 - 4
- * cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates). Their derivatives too: 2 sin 2x - sin 4x = 8
- * sin(x)^3 cos(x). The sums would lose all digits there; the powers do not. x must be a whole multiple of the
- * coordinates. Writes to piece[p->count]; returns the number of pieces. */
+ * cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates). The same is done for their derivatives: 2 sin
+ * 2x - sin 4x = 8 sin(x)^3 cos(x). Near such x the sums lose all digits by cancellation; the powers do not. x must be a
+ * whole multiple of the coordinates. Writes to piece[p->count]; returns the number of pieces. */
 int pieces_of(algebra *a, const poly *p, piece *pieces);
 
 typedef struct wave wave;

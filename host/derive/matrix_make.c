@@ -165,7 +165,7 @@ enum { NO_POWER = 1000 };
 
 /* The dependencies of a node of the blame list. */
 typedef struct made_of {
-    int degree;      /* in states, rates and inputs together */
+    int degree;      /* degree in states, rates and inputs together */
     uint64_t states; /* unknowns, a bit each; above 64 they share bits */
     uint64_t inputs; /* inputs, as bits in the same way */
 } made_of;
@@ -214,8 +214,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
-/* Has an operand the same limit of degree as the whole, if the other operand has the degree `other`? If both operands are
- * within their limits, only their combination exceeds the limit. */
+/* Does an operand exceed the same limit as the whole, if the other operand has the degree `other`? If not, only the
+ * combination of both exceeds it. */
 static bool passes_on(diagnostics_code code, int other) {
     switch (code) {
     case DIAGNOSTICS_SAME:

@@ -17,7 +17,7 @@ typedef struct conditions {
     double *r; /* [columns * columns] */
 } conditions;
 
-/* A smaller entry of a vector is round-off. So is the remainder of a vector that depends on others, if it is smaller. */
+/* An entry of a vector below this is round-off. So is the remainder of a vector that depends on others. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 #define SWEEPS_MOST 60
@@ -414,7 +414,8 @@ static symmetry symmetry_of(const equations *e, const double *by) {
     return s;
 }
 
-/* Orthogonalize v against known[count], orthonormal rows. True, and v is added, if the result exceeds round-off. */
+/* Orthogonalize v against known[count], orthonormal rows. If the remainder exceeds round-off, adds it and returns
+ * true. */
 static bool is_new(const double *v, double *known, int *count, int columns) {
     double *mine = &known[*count * columns];
     const double length = vector_length(v, columns);

@@ -22,8 +22,9 @@ typedef struct symmetry {
 } symmetry;
 
 typedef struct symmetries {
-    int count;      /* those with a conserved momentum, then other symmetries of T and V, then
-                     * shifts (A = 0) of T only */
+    /* number of symmetries: first those with a conserved momentum, then other symmetries of T and V, then shifts (A
+     * = 0) of T only */
+    int count;
     symmetry *each; /* [count] */
     int broken;     /* further symmetries of T only: rotations */
     bool complete;  /* values at random states show no missing affine symmetry of T or V */

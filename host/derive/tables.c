@@ -15,7 +15,7 @@
 /* The value of an operation at some angle. */
 typedef struct turn_value {
     double value;
-    double slope; /* a turn */
+    double slope; /* slope per turn */
     double size;  /* sum of absolute addends; round-off is 1e-16 of it */
 } turn_value;
 
@@ -98,7 +98,7 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
         case OP_PHASE:  /* has no value */
-        case OP_LINEAR: /* from here on: not in such lists */
+        case OP_LINEAR: /* the operations from here on do not occur in such lists */
         case OP_RATE:
         case OP_INPUT:
         case OP_ACCEL:
@@ -167,7 +167,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
-/* Is table k even or odd in the angle, to the bit? */
+/* Is table k even (or, if `odd`, odd) in the angle, with the same bits? */
 static bool mirrors(const op_list_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
@@ -341,7 +341,6 @@ static product_sum factor_symbol(collecting *c, int i) {
     return sum;
 }
 
-/* x + sign * y */
 static product_sum added(collecting *c, product_sum x, product_sum y, int sign) {
     op_list *t = c->made->coefficients;
     product_sum sum = {NULL, 0};
@@ -457,7 +456,7 @@ static product_sum sum_of(collecting *c, int i) {
     case OP_MAX:
     case OP_CALL:
     case OP_POW: return function_of(c, o);
-    case OP_ACCEL: /* not in a step */
+    case OP_ACCEL: /* not in the list of a step */
     case OP_TIME:
     case OP_RADIANS:
     case OP_NOISE:
@@ -508,7 +507,6 @@ enum { TRIES = 4096 };
 
 typedef enum coefficient_kind { IS_NOTHING, IS_CONSTANT, IS_TABLE } coefficient_kind;
 
-/* The coefficient of a product. */
 typedef struct coefficient {
     int of; /* operation of the coefficients' list */
     coefficient_kind kind;
@@ -679,7 +677,7 @@ static bool is_multiple(const coefficient *c, int peak, const coefficient *of, d
 }
 
 static void sort_out(tabling *t) {
-    int *first = alloc(t->count, sizeof *first); /* by table */
+    int *first = alloc(t->count, sizeof *first); /* first index, by table */
     for (int k = 0; k < t->count; k++) {
         coefficient *c = &t->coefficient[k];
         const int peak = peak_of(c);
@@ -818,7 +816,6 @@ static op_list *write_list(const tabling *t, const op_list *list, image_tables f
     return made;
 }
 
-/* The cheaper of the two forms. */
 static op_list *cheaper(const tabling *t, const op_list *list, image_tables form, int bits) {
     op_list *made[2];
     for (int k = 0; k < 2; k++) {

@@ -8,7 +8,6 @@
 /* === a list as sums of products =============================================================== */
 /* A step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
 
-/* Most products in one sum. */
 enum { PRODUCTS_MOST = 128 };
 
 /* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
@@ -23,7 +22,7 @@ typedef struct product_sum {
 } product_sum;
 
 typedef struct products {
-    op_list *coefficients; /* functions of turn angles only: no rate, input or real */
+    op_list *coefficients; /* functions of turn angles alone: without rates, inputs and reals */
     int *symbol;           /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
     int symbols;
     product_sum *result; /* [results of the list] */
@@ -42,9 +41,9 @@ typedef struct refusal {
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 
 /* The accelerations (or derivatives) as sum_k c_k(phase) m_k, with m_k products of rates, inputs and reals. The result
- * is `list` with a table for each c_k that is not constant. All must be functions of one phase: the one turn angle, or
- * one whole multiple or sum of such. c_k that differ by a factor share a table. *exact is a list of the tables'
- * functions. NULL, with *why, if the list has no such form. */
+ * is `list` with a table for each c_k that is not constant. All c_k must be functions of one phase: a turn angle, or a
+ * whole multiple or a sum of turn angles. c_k that differ by a factor have one table. *exact is a list of the tables'
+ * functions. Returns NULL, and the reason in *why, if the list has no such form. */
 op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
                      refusal *why);
 

@@ -140,7 +140,6 @@ static const char *next_word(const char *words, size_t *length) {
     return *length > 0 ? words : NULL;
 }
 
-/* Is text[length] one of the words? */
 static bool is_among(const char *words, const char *text, size_t length) {
     size_t size;
     for (const char *at = words; (at = next_word(at, &size)) != NULL; at += size) {

@@ -10,7 +10,6 @@
 
 /* The language-dependent parts of the rows. */
 typedef struct op_style {
-    /* Writes operand a. */
     void (*operand)(FILE *out, const op_list *t, int a);
     /* Writes the number of a leaf: `what` is l, r or u, `a` its index. NULL if no row needs it. */
     void (*leaf)(FILE *out, const void *context, char what, int a);
@@ -37,8 +36,8 @@ void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *resul
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 
-/* "step_matrix", the function that wh_step_matrix() calls. It is called once a step, so inlining it takes no flash on
- * any processor. */
+/* "step_matrix", the function that wh_step_matrix() calls. It is called at one place only, so inlining it takes no
+ * flash on any processor. */
 void c_list_matrix(FILE *out, const op_list *t);
 /* "cells", the tables of a list; nothing without tables. */
 void c_list_cells(FILE *out, const op_list *t);

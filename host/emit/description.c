@@ -130,8 +130,8 @@ static void put_outputs(json *j, const image *im) {
         put_quantity(j, &im->output[i], i, false);
         json_close(j, '}');
     }
-    for (int i = im->own_outputs; i < im->outputs; i++) { /* of coordinates recovered from their
-                                                           * momentum */
+    for (int i = im->own_outputs; i < im->outputs; i++) {
+        /* outputs of coordinates that are recovered from their momentum */
         const int k = i - im->own_outputs;
         json_open(j, NULL, '{');
         put_component(j, im, (component){im->from_momentum[k / 2], k % 2}, i);

@@ -12,7 +12,7 @@
 /* One JSON object. `file` is the .whirl file's name. */
 void describe_json(FILE *out, const image *im, const char *file);
 
-/* The same for readers. */
+/* Writes the description as text for readers. */
 void describe_text(FILE *out, const image *im, const char *file);
 
 /* Words that both use. */

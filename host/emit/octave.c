@@ -94,7 +94,6 @@ static bool may_be_complex(const op_list *t) {
     return found;
 }
 
-/* y at the start. */
 static void write_start(FILE *out, const image *im) {
     const int components = im->angles + im->reals;
     double *start = alloc(components, sizeof *start);

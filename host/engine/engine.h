@@ -11,7 +11,7 @@
 typedef struct engine_event {
     int contact;
     int mode;
-    double at_s;  /* since the step began */
+    double at_s;  /* time since the begin of the step, s */
     bool strikes; /* a stop or a hold gave an impulse */
 } engine_event;
 
@@ -56,9 +56,9 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* For component i, angles first: the largest sum since the start of the round-off of its increments to whole units, and
-     * *span, the sum of the exact increments; SI. Without unit() only turn angles count, which move by 2^-32 turn in float.
-     * 0 in double, and with compensated sums. */
+    /* For component i, angles first: the sum of the round-off of its increments to whole units, at its largest since
+     * the start. *span is the sum of the exact increments. Both are SI. Without unit() only turn angles count, which
+     * move by 2^-32 turn in float. 0 in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* Values that were clamped to their range since the start; NULL: this number has no ranges. */
     uint64_t (*saturated)(const void *run);

@@ -59,7 +59,8 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
     case OP_CELL: return 0.0;
-    case OP_LINE: /* as for a sine: covers the argument, not the interpolation error */
+    /* as for a sine: this bounds the effect of the argument, not the interpolation error */
+    case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);
     case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);

@@ -14,8 +14,8 @@ enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS };
 /* The methods that take every system of this form: "euler, heun or rk4". Returns `text`. */
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
 
-/* All methods, with the default first and marked. Those without first-order systems, or without rates, follow after
- * semicolons. Returns `text`. */
+/* Writes the names of all methods, with the default first and marked. Those that do not take first-order systems, or
+ * rates, follow after semicolons. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
 /* False, with a report for each error: a stop that is passed at the start by more than round-off, an undefined gap, an

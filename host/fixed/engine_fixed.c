@@ -430,7 +430,8 @@ static void run_set_input(void *of, int input, double value) {
     const double high = f->high;
     const double wished = number_nearest(number_scaled(value, f->bits));
     const double held = wished < low ? low : wished > high ? high : wished;
-    run->state.saturated += wished < low - 1.0 || wished > high + 1.0; /* as wh_fixed_of() */
+    /* the same rule as in wh_fixed_of() */
+    run->state.saturated += wished < low - 1.0 || wished > high + 1.0;
     run->state.input[input] = (int32_t)held;
 }
 

@@ -4,7 +4,6 @@
 
 #include "host/engine/engine.h"
 
-/* For images with `fixed`. */
 extern const engine_kind engine_fixed;
 
 #endif

@@ -15,7 +15,8 @@ static enclosure twice(enclosure seen) {
     if (seen.low == 0.0 && seen.high == 0.0) {
         return (enclosure){-1.0, 1.0};
     }
-    if (seen.low == 0.0 || seen.high == 0.0) { /* it began at zero, and may move either way */
+    if (seen.low == 0.0 || seen.high == 0.0) {
+        /* the quantity began at zero, and may move in either direction */
         return (enclosure){-2.0 * enclosure_size(seen), 2.0 * enclosure_size(seen)};
     }
     return (enclosure){seen.low < 0.0 ? 2.0 * seen.low : 0.5 * seen.low,
@@ -126,7 +127,8 @@ static int product_bits(const fixed_list *l, const fixed_op *o) {
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* Bits of a sum: at most those of the finer operand. Constants and compared values must have room. */
+/* Bits of a sum: at most those of the finer operand. The format must also have room for constants and compared
+ * values. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -396,9 +398,10 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 }
 
 /* === ranges of values ========================================================================= */
-/* Interval arithmetic, cell by cell of the turn angles. Over a whole turn at once every denominator might be zero. */
+/* Interval arithmetic for each cell of the turn angles separately. Over a whole turn at once, every denominator could
+ * be zero. */
 
-/* Cells a turn, and of all turn angles together. */
+/* Cells per turn, and cells of all turn angles together. */
 enum {
     CELLS_LEAST = 4,
     CELLS = 64,

@@ -12,10 +12,11 @@
 
 /* === the ranges that components and inputs of a scene keep to ================================= */
 
-/* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a reference run of the
- * scene in double with the scene's method. It reaches twice as far from zero as the run. If the run stays on one side of zero, the
- * near end is half as far from zero as the run; if it stays zero, the range is -1 to 1. False: that run failed (reported), or was
- * interrupted. `progress`: show it on standard error. */
+/* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a reference
+ * run of the scene in double with the scene's method. Its far end is twice the value that is farthest from zero in that
+ * run. If the value does not change its sign, the near end is half the value nearest to zero. If the value is always
+ * zero, the range is -1 to 1. Returns false if that run failed, which is reported, or was interrupted. `progress`: show
+ * the progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
 /* Binary digits of a value. Values fill at most 2^29, so that twice their round-off fits. Results fill 2^28, since a
@@ -43,7 +44,7 @@ typedef enum fixed_code {
 
 typedef struct fixed_operand {
     int op;
-    int shift;      /* right shift in a sum, left shift in a product */
+    int shift;      /* right shift of a sum, left shift of a product */
     int32_t number; /* value of a constant, already shifted */
 } fixed_operand;
 
@@ -63,7 +64,7 @@ typedef struct fixed_op {
     double offset_rad;
     uint32_t offset;
     double value;    /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
-    enclosure range; /* of its possible values */
+    enclosure range; /* range of the possible values */
     int bits;        /* after the binary point */
     bool used;
 } fixed_op;

@@ -177,7 +177,7 @@ static const fixed_op *result_of(const fixed_plan *p, int i) {
     return &p->list->op[p->list->result[i]];
 }
 
-/* The real component that result i of the list moves. There is none for a first-order angle. */
+/* The index of the real component that result i of the list changes; -1 for an angle of a first-order system. */
 static int kept_at(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return p->second ? (p->coordinates - angles) + i : i - angles;
@@ -330,8 +330,8 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Chooses the binary points of all values. Those of the state follow from the list's results, whose points follow from the
- * ranges. */
+/* Chooses the binary points of all values. The ranges determine the points of the list's results, and these determine
+ * the points of the state. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;

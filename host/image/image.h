@@ -21,8 +21,8 @@ enum { IMAGE_WAYS = 6 };
 /* Most coordinates of a mechanism, or first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
-/* The source of a stage's sines of turn angles. They are looked up once a step and then turned (core/step/stage_turn.h), if
- * possible; or they are looked up at each stage (core/step.h). */
+/* The source of a stage's sines of turn angles. If possible, they are looked up once per step and then rotated
+ * (core/step/stage_turn.h); otherwise they are looked up at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -32,7 +32,7 @@ typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ANGLES_NAME) } image_angles;
 #define IMAGE_ANGLES_ONE(id, word) +1
 enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
 #undef IMAGE_ANGLES_ONE
-/* Their words in options and descriptions. */
+/* The words of the sources in options and descriptions. */
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
 /* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with constant
@@ -47,7 +47,7 @@ typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_MATRIX_NAME) } image_matr
 #define IMAGE_MATRIX_ONE(id, word) +1
 enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
 #undef IMAGE_MATRIX_ONE
-/* Their words in options and descriptions. */
+/* The words of the matrices in options and descriptions. */
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
 /* The accelerations' functions of their single turn angle: computed, or interpolated in tables of one turn
@@ -75,10 +75,10 @@ typedef struct image_settings {
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;
-    int cells; /* of a table, for one turn: a power of two; 0: the default of its form */
+    /* number of cells of a table, for one turn: a power of two; 0: the default of the table's form */
+    int cells;
 } image_settings;
 
-/* The default method. */
 #define IMAGE_SETTINGS_DEFAULT \
     { WH_METHOD_DEFAULT, false, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
 
@@ -91,17 +91,17 @@ typedef enum image_role {
                     * momentum */
     IMAGE_BOOKS, /* highest derivatives (by unknown). For a mechanism with energies also the entries
                   * of image_book, the momenta (by unknown) and the energy integral, if any */
-    IMAGE_SIGNALS, /* this and the next two: for contacts (core/contact.h) */
+    IMAGE_SIGNALS, /* this and the next two lists: for contacts (core/contact.h) */
     IMAGE_FORCES,
     IMAGE_SETS,
-    IMAGE_POWERS, /* this and the next: for the ledger (core/ledger.h) */
+    IMAGE_POWERS, /* this and the next list: for the ledger (core/ledger.h) */
     IMAGE_LEVELS,
     IMAGE_MATRIX, /* a whole step, for core/step/matrix_step.h */
     IMAGE_TABLES, /* the exact functions of a step's tables: result[k] is that of table k */
     IMAGE_ROLES
 } image_role;
 
-/* In IMAGE_BOOKS, after the highest derivatives. */
+/* Results of the list IMAGE_BOOKS, after the highest derivatives. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* --- names, units, places ------------------------------------------------------------------------*/
@@ -135,10 +135,10 @@ typedef struct image_unknown {
     const char *text;
     place at;
     bool is_angle;           /* declared in an angle's unit */
-    bool is_length;          /* its dimension is a length */
-    bool conserved;          /* its momentum is constant */
+    bool is_length;          /* the unit is a length */
+    bool conserved;          /* the momentum of this unknown is constant */
     bool driven;             /* an input with a rate: it has no momentum */
-    int order;               /* of its highest derivative */
+    int order;               /* order of the highest derivative */
     image_unit *unit;        /* [order + 1] of the value, the rate, ... */
     const char *momentum_si; /* unit of its momentum */
     int starts;              /* order, but at least 2 */
@@ -151,7 +151,7 @@ typedef struct image_unknown {
 /* An input with a rate, followed by two components of the state inside a step: indices in real[]. */
 typedef struct image_drive {
     int input;
-    int rate; /* also an input */
+    int rate; /* index of the rate, which is also an input */
     int value_at;
     int rate_at;
 } image_drive;
@@ -165,7 +165,7 @@ typedef struct component {
 /* The range in fixed point of a real component or an input. */
 typedef struct image_range {
     const char *name; /* "theta'" */
-    place at;         /* of the range, or of its symbol */
+    place at;         /* place of the range in the source, or of the symbol */
     bool declared;
     double low; /* SI; of the declared symbol */
     double high;
@@ -175,7 +175,7 @@ typedef struct image_range {
 
 typedef struct image_contact {
     int kind;         /* wh_contact_kind */
-    const char *word; /* of the statement: "stop", "hold", ... */
+    const char *word; /* word of the statement: "stop", "hold", ... */
     const char *
         undefined; /* parts that may be undefined: "the condition of this hold, or what it holds," */
     int direction;
@@ -200,7 +200,7 @@ typedef enum ledger_kind {
 typedef struct image_entry {
     ledger_kind kind;
     int account;
-    place at; /* of the term; no source for LEDGER_ENERGIES */
+    place at; /* place of the term in the source; none for LEDGER_ENERGIES */
 } image_entry;
 
 typedef struct image_ledger {
@@ -288,7 +288,7 @@ typedef struct image {
     image_settings settings;
     double step_s;
     whole_ratio step;
-    uint64_t steps; /* to the end */
+    uint64_t steps; /* number of steps to the end */
     double until_s;
 
     wh_form form;
@@ -305,7 +305,7 @@ typedef struct image {
     /* If folding lost digits: variants with other ways of folding (host/number/folding.h). Only their lists are used. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
-    bool unbounded;         /* in a variant, a number of the file is not finite */
+    bool unbounded;         /* in a variant: a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
@@ -327,7 +327,7 @@ typedef struct image {
     const struct fixed_plan
         *fixed; /* the run in fixed point (host/fixed), which the image does not own; or NULL */
 
-    bool has_energies; /* not a system given outright */
+    bool has_energies; /* the scene is no system given by equations, so it has energies */
     bool has_integral; /* the energy in the balance is not T + V (host/derive/equations.h) */
 
     image_contact *contact; /* [contacts] crossings come last */

@@ -49,7 +49,6 @@ const op_row op_rows[OPS] = {
 #undef ROW
 };
 
-/* The operation of a function of the language. */
 static const op_code operation_of[FUNCTIONS] = {
 #define FUNCTION_CORE(value) OP_CALL
 #define FUNCTION_OWN(operation, value) OP_##operation
@@ -185,7 +184,7 @@ bool op_list_is_whole(double multiple) {
     return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
 }
 
-/* No truncation here: a number that is not whole goes to the parts. */
+/* The multiple is not truncated: a number that is not whole is stored in parts. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians) {
     int *turns = NULL;
     double *parts = NULL;
@@ -377,7 +376,7 @@ int op_list_call(op_list *t, function_id function, int a, int b) {
     case OP_IS_UNARY: return op_list_unary(t, code, a);
     case OP_IS_BINARY: return enter_op(t, code, a, b);
     case OP_IS_CALL: return enter(t, (op){.code = code, .function = function, .a = a, .b = b});
-    case OP_IS_CONSTANT: /* not a function */
+    case OP_IS_CONSTANT: /* no function */
     case OP_IS_LEAF:
     case OP_IS_CELL:
     case OP_IS_LOOKUP:

@@ -1,7 +1,7 @@
 /* op_list.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
  * interpreter (host/engine) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
- * results, so all of them give the same bits. Equal operations are entered once; constants are folded; signs move
- * outwards and vanish into subtractions. */
+ * results, so interpreter and generated code give the same bits. Equal operations are entered once; constants are
+ * folded; signs move outwards and vanish into subtractions. */
 #ifndef IMAGE_OP_LIST_H
 #define IMAGE_OP_LIST_H
 
@@ -131,8 +131,8 @@ typedef struct op_list_tables {
     double *number; /* [2^bits][count][terms], in the list's arena */
     double *size;   /* [count]: largest absolute value of a table */
     double *off;    /* [count]: largest interpolation error of a table, without round-off */
-    bool folds;     /* each table is even or odd, and only half is stored */
-    bool *odd;      /* [count]: the table is odd, else even */
+    bool folds;     /* each table is even or odd, and only half of it is stored */
+    bool *odd;      /* [count]: true for an odd table, false for an even one */
 } op_list_tables;
 
 typedef struct op_list {
@@ -215,12 +215,11 @@ bool fits_float(double value);
 /* The first constant that float represents with fewer than its digits, as zero or as infinite; 0 if all fit. */
 double op_list_out_of_float(const op_list *t);
 
-/* The cost of a list. */
 typedef struct op_list_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */
     int divisions;
     int roots;
-    int waves;    /* sines and cosines; those of one phase count once */
+    int waves;    /* number of sines and cosines; those of one phase count once */
     int calls;    /* calls of core/function.h */
     int look_ups; /* in tables; the interpolation counts as arithmetic */
 } op_list_cost;

@@ -13,7 +13,7 @@ static bool op_list_is_raw(const op *o);
 /* === which operations may be multiplied together ============================================== */
 /* The operations of a list that can be multiplied together. Each operation is multiplied by x to an exponent of its
  * own. A sum needs equal exponents of its parts; a product adds them. Constants, and products with constants, accept
- * any exponent; results have exponent zero. These are linear equations, and their solutions are the freedom. */
+ * any exponent; results have exponent zero. These are linear equations; their solutions are the possible scalings. */
 
 /* Exponents are small whole numbers and halves, as are all entries: smaller values are zero. */
 #define NOTHING 1e-9
@@ -58,8 +58,8 @@ static matrix kernel_of(const matrix *m) {
 
 /* --- the equations of a list -----------------------------------------------------------------------------------*/
 
-/* The unknowns: an exponent for each operation, and one for each place where an operation uses a raw value. That place
- * may use it as it is or multiplied. */
+/* The unknowns: an exponent for each operation, and one for each use of a raw value (a state or an input) by an
+ * operation. The value may be used as it is or multiplied by a factor. */
 typedef struct unknowns {
     const op_list *of;
     int *column; /* [2 * count] column of each place: by operation, operand a before b; 0: none */
@@ -180,7 +180,7 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* Places with multiplied raw values. Places of the same value share a factor. */
+/* The uses of raw values that are multiplied. Uses of the same value have a common factor. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* an earlier column of the same value, or itself */
@@ -537,7 +537,7 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
 }
 
 /* The weight of an error in a result that the list does not use again, such as the acceleration of a carriage that
- * nothing depends on. Its error does not grow; the error of another result grows with the motion. */
+ * nothing depends on. The error of such a result does not grow; that of other results grows with the motion. */
 #define UNREAD (1.0 / 64.0)
 
 /* For each result: does the list depend on its component? Both orders: angles, then reals. */

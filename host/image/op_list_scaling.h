@@ -15,8 +15,8 @@ double op_list_bias(const op_list *t, const op_list *like);
 /* Most additional operations of a better list: one, and one for each forty operations. */
 int op_list_scaling_price(const op_list *t);
 
-/* Replace *t by a list that gives the same results, except for double's round-off, with at most half the bias. Without
- * such a list within the allowed number of additional operations, *t stays. */
+/* Replace *t by a list that gives the same results, except for double's round-off, with at most half the bias. If there
+ * is no such list within the allowed number of additional operations, *t stays unchanged. */
 void op_list_scale(op_list **t, int price);
 
 /* --- its parts ----------------------------------------------------------------------------------------------- */
@@ -29,8 +29,8 @@ typedef struct op_list_freedoms {
     int length; /* 3 * operations of the list */
 } op_list_freedoms;
 
-/* First the freedoms without an additional product, then those that multiply one raw value, at all places or at some,
- * then those that multiply two. */
+/* The possible scalings, in this order: those without an additional product, those that multiply one raw value, at all
+ * of its uses or at some, and those that multiply two raw values. */
 op_list_freedoms op_list_freedoms_of(const op_list *t);
 void op_list_freedoms_free(op_list_freedoms *f);
 

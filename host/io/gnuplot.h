@@ -21,7 +21,7 @@
     X("#c2058b") \
     X("#b87289")
 
-/* Areas from good to bad: distinguished by lightness alone. */
+/* Colours of areas, from good to bad. They differ in lightness, so that they can be distinguished without colour. */
 #define PALETTE_AREA_ROWS(X) \
     X("#d0e6f0") \
     X("#8fbf7f") \
@@ -62,8 +62,8 @@ static inline int palette_point(int i) {
 }
 
 typedef struct gnuplot {
-    FILE *to;      /* its commands */
-    FILE *said;    /* its messages, shown after a failure */
+    FILE *to;      /* stream for gnuplot's commands */
+    FILE *said;    /* gnuplot's messages, shown after a failure */
     FILE *drawn;   /* the picture from gnuplot */
     FILE *picture; /* the final picture: an SVG gets a title and alternative text */
     const char *file;

@@ -7,7 +7,7 @@
 
 #include "host/base/alloc.h"
 
-/* One column's part of a bucket. */
+/* The extremes of one column in a bucket. */
 typedef struct extent {
     double least;
     double most;

@@ -654,7 +654,6 @@ static void write_part(FILE *to, const char *text, bool raised) {
     }
 }
 
-/* Quantity and unit. */
 static void write_axis(FILE *to, const char *axis, const char *name, const char *unit) {
     fprintf(to, "set %slabel \"", axis);
     write_part(to, name, false);
@@ -913,7 +912,7 @@ static char *title_of(const panels *p, const plot_choice *choice, const plot_run
     return title;
 }
 
-/* For readers who do not see the picture; free it. */
+/* A description of the picture for readers who cannot see it; to be freed. */
 static char *alternative_text(const panels *p, const plot_run *runs) {
     char *text = alloc_words("Curves over %s.", p->x_name);
     for (int i = 0; i < p->quantities; i++) {

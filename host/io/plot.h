@@ -9,14 +9,14 @@
 
 typedef struct plot_column {
     char *name; /* x, der(x), der(der(x)), ... */
-    char *unit; /* as declared; NULL: unknown */
+    char *unit; /* unit, as declared; NULL: unknown */
     char *text; /* the quantity in words, or "" */
 } plot_column;
 
 /* Owner of all its data. Column 0 is the time, or the first swept value. */
 typedef struct plot_run {
-    char *title; /* for a picture of this run alone */
-    char *label; /* in the legend of a picture of several runs */
+    char *title; /* title of a picture of this run alone */
+    char *label; /* label in the legend of a picture of several runs */
     plot_column *column;
     int columns;
     double *data; /* [rows * columns] row by row; a single row is drawn as points */
@@ -61,7 +61,8 @@ typedef struct plot_choice {
     const char *legend; /* labels of the runs, separated by commas; or NULL */
     const char *title;
     const char *xlabel; /* NULL: quantity and unit */
-    const char *ylabel; /* of the panels, separated by commas; default: quantities and unit */
+    /* labels of the panels, separated by commas; default: quantities and unit */
+    const char *ylabel;
 } plot_choice;
 
 /* Does each name have a quantity, and each panel one unit? If not, reports it. Needs columns, but no data. */
@@ -73,7 +74,7 @@ enum { PANELS_MOST = 64, PANELS_QUANTITIES = 256 };
 
 /* A drawn quantity: its column in each run, or -1. */
 typedef struct panels_quantity {
-    char *name;  /* as displayed: theta' */
+    char *name;  /* name as displayed: theta' */
     int *column; /* [runs] */
     int panel;
 } panels_quantity;
@@ -86,7 +87,7 @@ typedef struct panels {
     int *x; /* [runs] column */
     const char *x_unit;
     char *x_name;
-    char *label[PANELS_QUANTITIES]; /* of the runs */
+    char *label[PANELS_QUANTITIES]; /* labels of the runs */
     int runs;
 } panels;
 

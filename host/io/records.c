@@ -178,7 +178,7 @@ struct traces {
     const records *form;
     vcd *vcd;
     FILE *out;
-    whole_ratio step; /* in units */
+    whole_ratio step; /* the step in units */
     double units_per_s;
     int *signal;   /* [columns] signal of a column; the time has none */
     int *mode_of;  /* [contacts] wire of a contact */

@@ -49,10 +49,10 @@ bool records_write(const records *r);
  * above its value. A stop and a crossing also have an event at the located instant of the impact or crossing (core/state.h
  * logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
 
-/* The unit of the dump's times, 10^-power s. It is the coarsest unit, of at most a second, that divides the records' spacing;
- * with contacts it is also at most a thousandth of the step. There may be no such power of ten (a step of 1/3 ms), or the run's
- * end may be 2^52 units or more. Then it is the finest unit that the end permits: times are rounded, but still differ. False if
- * they would not differ, because records are less than a femtosecond apart. */
+/* The unit of the dump's times, 10^-power s. It is the coarsest unit, of at most a second, that divides the records'
+ * spacing; with contacts it is also at most a thousandth of the step. If there is no such power of ten (for a step of
+ * 1/3 ms), or the run's end is 2^52 units or more, the unit is the finest that the end permits: times are then rounded.
+ * Returns false if rounded times would be equal, because records are less than a femtosecond apart. */
 bool traces_power(const image *im, uint64_t every, int *power);
 
 typedef struct traces traces;

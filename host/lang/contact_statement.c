@@ -22,7 +22,7 @@ static bool add_contact(parser *in, const contact_statement *made);
  * a sum continues after it. NESTING_MAX bounds the recursion. */
 
 typedef struct reading {
-    word_id statement; /* for hints */
+    word_id statement; /* the statement, for hints */
     int depth;         /* depth of parentheses */
 } reading;
 
@@ -343,7 +343,7 @@ static contact_statement contact_begun(const parser *in, const statement_word *w
         .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
 }
 
-/* The quantity of a stop or a hold must move. */
+/* The quantity of a stop or a hold must depend on a coordinate. */
 static void check_moves(parser *in, place at, const expr *value, const char *what) {
     if ((value->uses & USES_UNKNOWNS) == 0 && !value->dim.unknown) {
         diag_error(in->diags, at, NULL, "%s must depend on a coordinate", what);

@@ -172,7 +172,7 @@ static symbol *declare(parser *in, const token *name, symbol_kind kind) {
     case SYM_INPUT: append(in, &into->inputs, &into->input_count, made); break;
     case SYM_LET: append(in, &into->lets, &into->let_count, made); break;
     case SYM_OUTPUT: append(in, &into->outputs, &into->output_count, made); break;
-    case SYM_RECORD: break; /* not declared: a noise makes it */
+    case SYM_RECORD: break; /* not declared in the file: a noise makes this symbol */
     }
     return made;
 }

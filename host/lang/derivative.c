@@ -316,8 +316,8 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* An input without a rate in the expression, or with `rates` one that is a rate; NULL if there is none. Each let is
- * visited once. */
+/* Finds an input without a rate in the expression or, if `rates`, an input that is a rate; NULL if there is none. Each
+ * let is visited once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;

@@ -31,7 +31,7 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name);
 /* --- operators (operators.c) --- */
 expr *expr_new(parser *in, expr_op op, place at);
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right);
-/* left - right of a comparison: both must have one dimension. */
+/* Returns left - right of a comparison. Both sides must have the same dimension. */
 const expr *expr_difference(parser *in, place at, const expr *left, const expr *right);
 const expr *expr_negate(parser *in, place at, const expr *operand);
 const expr *expr_call(parser *in, function_id function, place at, const expr *left,

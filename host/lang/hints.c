@@ -54,7 +54,7 @@ static bool opposes_at_rest(const term *of, valuation *known) {
     return jump < 0.0 && nearer < 0.5 * jump;
 }
 
-/* The second difference of F over two rates on either side of rest. */
+/* The second difference of F over two rates on either side of zero. */
 static double bend(const term *of, const symbol *coordinate, valuation *known, double rate) {
     return term_at(of, coordinate, known, rate) + term_at(of, coordinate, known, -rate) -
            2.0 * term_at(of, coordinate, known, 0.0);

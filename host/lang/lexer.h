@@ -30,7 +30,7 @@ typedef struct token {
     token_kind kind;
     int sign;
     place at;
-    const char *text; /* in the source, not terminated */
+    const char *text; /* points into the source, not terminated */
     size_t length;
     int primes;
     double number;
@@ -39,7 +39,7 @@ typedef struct token {
 } token;
 
 typedef struct lexer {
-    place at; /* of the next character */
+    place at; /* place of the next character */
     bool starts_line;
     bool stopped; /* only TOKEN_END follows */
     diags *diags;

@@ -13,7 +13,7 @@ struct names {
     struct arena *arena;
     named **slots;
     size_t slot_count; /* a power of two */
-    named **entries;   /* in the order of declaration */
+    named **entries;   /* the named things, in the order of declaration */
     int count;
 };
 

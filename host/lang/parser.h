@@ -18,7 +18,7 @@ typedef struct named {
     int mark;            /* number of the last visit, for walks and duplicates */
     place mark_at;
     struct named *rate; /* let: its time derivative, if an expression has named it */
-    struct named *next; /* in its slot */
+    struct named *next; /* next entry in the same slot */
 } named;
 
 typedef struct names names;
@@ -40,7 +40,7 @@ typedef enum expr_context {
     CONTEXT_GAP,      /* the quantity of stops and holds: coordinates, no rates */
     CONTEXT_EVENT,    /* other parts of stop, friction, hold, when: up to first derivatives */
     CONTEXT_LET,      /* any name; each use of the let is checked */
-    CONTEXT_OUTPUT    /* up to second derivatives, and earlier outputs */
+    CONTEXT_OUTPUT    /* second derivatives and earlier outputs are allowed */
 } expr_context;
 
 /* The current mechanism. */
@@ -82,7 +82,7 @@ typedef struct parser {
     token token;     /* the current token */
     int parentheses; /* number of open parentheses, inside which lines continue */
     int nesting;
-    place statement_at; /* of the current statement */
+    place statement_at; /* place of the current statement */
     diags *diags;
     struct arena *arena;
     expr_context context;

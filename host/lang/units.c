@@ -433,7 +433,6 @@ bool dim_fits(dimension a, dimension b) {
 
 bool dim_is_none(dimension dim) { return dim_fits(dim, dim_none()); }
 
-/* a * b^sign */
 static bool combine(dimension a, dimension b, int sign, dimension *result) {
     dimension made = dim_none();
     made.any = a.any || b.any;

@@ -60,7 +60,7 @@ typedef struct dimension {
 /* A dimension with whole exponents. */
 dimension dim_of(int length, int mass, int time, int current, int temperature);
 dimension dim_none(void);
-dimension dim_energy(void); /* also torque */
+dimension dim_energy(void); /* also the dimension of torque */
 
 /* Equal, or one of them fits everything. */
 bool dim_fits(dimension a, dimension b);
@@ -113,7 +113,7 @@ const char *unit_name(int index);
  * *value SI units. */
 char *unit_in_si(int index, double *value, char *buffer, size_t size);
 
-/* True if the text itself names an angle: rad, deg or rev. */
+/* True if the unit's text contains an angle: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);
 
 #endif

@@ -51,7 +51,8 @@ valuation valuation_new(const mechanism *of, struct arena *arena, diags *diags);
 /* The SI value. `known` may be NULL if the tree has only numbers and operators. */
 double expr_value(const expr *tree, valuation *known);
 
-/* The same; reports at `at` and returns 0 if it is not finite. `what` names it, such as "parameter 'm'". */
+/* As value_of(); but a value that is not finite is reported at `at` and becomes 0. `what` names it, such as "parameter
+ * 'm'". */
 double finite_value(const expr *tree, valuation *known, place at, const char *what);
 
 /* The value of parameter `index`. Reports once if it is not finite or depends on itself. */

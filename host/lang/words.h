@@ -77,14 +77,15 @@ enum {
 
 /* Rules of a word. */
 enum {
-    RESERVED = 1,      /* not available as a user's name */
-    DECLARES = 2,      /* declares the name after it */
-    ENDS_EFFECT = 4,   /* at the beginning of a line inside an effect: its brace is missing */
+    RESERVED = 1, /* not available as a user's name */
+    DECLARES = 2, /* declares the name after it */
+    /* if the word is at the beginning of a line inside an effect, the effect's brace is missing */
+    ENDS_EFFECT = 4,
     ENDS_SCENE = 8,    /* the same for a scene */
     ENDS_WHEN = 16,    /* the same for a `when` */
     INTO_EFFECT = 32,  /* in a scene: the message points to an effect */
-    BY_ENERGIES = 64,  /* for mechanisms given by their energies only */
-    BY_EQUATIONS = 128 /* for systems given by their equations only */
+    BY_ENERGIES = 64,  /* only for mechanisms given by their energies */
+    BY_EQUATIONS = 128 /* only for systems given by their equations */
 };
 #define FILE_FORM "a file begins with: mechanism NAME \"title\""
 #define ENDS_ALL (ENDS_EFFECT | ENDS_SCENE | ENDS_WHEN)
@@ -178,7 +179,8 @@ typedef enum word_id {
 
 #define WORD_ONE(...) +1
 enum {
-    STATEMENT_WORDS = 0 BODY_WORD_ROWS(WORD_ONE) SCENE_WORD_ROWS(WORD_ONE), /* they come first */
+    /* the words of statements come first */
+    STATEMENT_WORDS = 0 BODY_WORD_ROWS(WORD_ONE) SCENE_WORD_ROWS(WORD_ONE),
     WORD_COUNT = STATEMENT_WORDS INNER_WORD_ROWS(WORD_ONE)
 };
 #undef WORD_ONE
@@ -193,7 +195,6 @@ typedef struct statement_word {
 
 const statement_word *word_row(word_id id);
 
-/* Does the text spell this word? */
 bool word_is(word_id id, const char *text, size_t length);
 /* The word that begins a statement, or WORD_COUNT if there is no such word. */
 int word_find(const char *text, size_t length);
@@ -204,7 +205,6 @@ const char *first_word_hint(const char *text, size_t length);
 /* The energy with this name in other texts, and its name here; or NULL. */
 const char *energy_hint(const char *text, size_t length);
 
-/* The word of a contact: "stop". */
 const char *contact_word(contact_kind kind);
 
 #endif

@@ -253,7 +253,7 @@ static void put_number(FILE *to, bool there, double value) {
     }
 }
 
-/* Write names and signals, once they are known. */
+/* Writes names and signals when they are known. */
 static void head(recording *r, const schema_channel *c) {
     if (r->headed) {
         return;
@@ -312,7 +312,7 @@ static void keep_row(recording *r, const double *values) {
            (size_t)r->columns * sizeof values[0]);
 }
 
-/* One sample: its own values, then those common to the frame. */
+/* Takes one sample: its own values, then those that the whole frame has in common. */
 static void take_sample(recording *r, const schema_channel *c, int64_t time_us, const uint8_t *each,
                         const uint8_t *once) {
     double values[1 + 2 * SCHEMA_FIELDS];

@@ -14,7 +14,7 @@
 enum { SCHEMA_CHANNELS = 8, SCHEMA_FIELDS = 8, SCHEMA_NAME = 32, SCHEMA_STATES = 32 };
 
 typedef struct schema_field {
-    char name[SCHEMA_NAME]; /* with its unit: "load [N]" */
+    char name[SCHEMA_NAME]; /* name with its unit: "load [N]" */
     unsigned size;          /* bytes */
     bool is_signed;
     double scale;
@@ -37,11 +37,10 @@ typedef struct schema {
     bool states_known;
 } schema;
 
-/* Take an answer of the console. True if it describes a channel, the states or another rate, which are then known. An
- * unreadable answer changes nothing. */
+/* Takes an answer of the console. Returns true if the answer describes a channel, the states or another rate, and
+ * stores that. An answer that cannot be read changes nothing. */
 bool schema_take(schema *s, const char *line);
 
-/* Bytes of fields[count]. */
 unsigned schema_bytes(const schema_field *fields, int count);
 
 /* Losses, and their places. */
@@ -79,7 +78,7 @@ typedef struct recording {
     int signal[2 * SCHEMA_FIELDS]; /* signals of the run's fields */
     int pulse[2];
     bool ends;    /* the rig reports the ends of pulses */
-    bool high[2]; /* this pulse has not ended yet */
+    bool high[2]; /* the pulse of this sensor has not ended yet */
     int trip;
     double *row; /* plotted rows of `columns` values, thinned out above the limit */
     int64_t rows;

@@ -96,8 +96,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* The rate follows the answer that describes its frames. The first question has a unique answer: until it arrives,
- * received lines may answer another program's questions. */
+/* The rate is set after the answer that describes its frames. The first question has a unique answer. Lines that arrive
+ * before it may be answers to another program's questions. */
 static const struct {
     const char *words;
     const char *answer; /* beginning of the answer */

@@ -23,7 +23,7 @@ typedef struct wire {
     uint8_t chunk[WIRE_ROOM]; /* bytes of a frame since the last zero */
     unsigned length;
     bool is_text;  /* the bytes since the last zero are text */
-    bool is_frame; /* they are a frame; if neither, it is not known yet */
+    bool is_frame; /* the bytes are a frame; if neither flag is set, this is not known yet */
     bool too_long;
     char line[WIRE_LINE + 1]; /* text received so far; complete after WIRE_TEXT */
     unsigned columns;
@@ -45,10 +45,10 @@ void wire_forget(wire *w);
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* After so many answers: the rig is present; was_off is known; earlier telemetry has ended. */
+/* After this number of answers: the rig is present; was_off is known; earlier telemetry has ended. */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
-/* All zeros except `rate`: nothing asked yet. */
+/* All zeros except `rate`: no question was asked yet. */
 typedef struct dialogue {
     int rate;  /* samples a second */
     int asked; /* the current question */
@@ -62,8 +62,8 @@ typedef struct dialogue {
 /* The line to send now, with its end; NULL after the last answer. */
 const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]);
 
-/* A received line. True if it is an answer, or the echo of a question: not for other readers. Lines from before the
- * first question, and repeated answers after a repeated question, leave `asked` unchanged. */
+/* Takes a received line. Returns true if the line is an answer or the echo of a question, and so not for other readers.
+ * Lines from before the first question, and repeated answers after a repeated question, leave `asked` unchanged. */
 bool dialogue_answer(dialogue *d, const char *line);
 
 #endif

@@ -60,7 +60,6 @@ typedef struct big {
     uint32_t word[WORDS];
 } big;
 
-/* n = n * factor + more */
 static void times(big *n, uint32_t factor, uint32_t more) {
     uint64_t carry = more;
     for (int i = 0; i < n->count; i++) {

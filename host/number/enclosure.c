@@ -84,8 +84,8 @@ static enclosure waves(enclosure t, int from) {
     return sum;
 }
 
-/* x less the nearest whole number of quarter turns; *quarters is that number within a turn. False: x is too
- * far, or too wide to be useful. */
+/* Subtracts the nearest whole number of quarter turns from x; *quarters is that number modulo four. Returns false if x
+ * is too large, or too wide to be useful. */
 static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
     if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {
@@ -143,7 +143,7 @@ enclosure enclosure_cosine(enclosure a) {
 
 /* --- roots, exponentials, powers -----------------------------------------------------------------------*/
 
-/* Is `root` the exact root of `of`? Then a whole number stays whole. */
+/* Is `root` the exact root of `of`? Then the enclosure of a whole number stays a point. */
 static bool is_whole_root(double root, double of) {
     return root <= 0x1p26 && number_nearest(root) == root && root * root == of;
 }
@@ -169,7 +169,7 @@ static enclosure exponential(double x) {
         }
     }
     const enclosure y = enclosure_of(number_scaled(x, -halvings));
-    enclosure sum = {0.0, 2.0}; /* of 1 + y/n (1 + y/(n+1) ...) */
+    enclosure sum = {0.0, 2.0}; /* 1 + y/n (1 + y/(n+1) ...), which is between 0 and 2 */
     for (int n = 20; n > 0; n--) {
         sum = enclosure_add(enclosure_of(1.0),
                             enclosure_div(enclosure_mul(y, sum), enclosure_of((double)n)));
@@ -241,7 +241,8 @@ enclosure enclosure_power(enclosure a, enclosure exponent) {
 
 /* --- the language's functions ---------------------------------------------------------------------------*/
 
-/* Encloses a function that is monotonic between `least` and `most`. Its values are accurate to 0.6 units of the last place. */
+/* Encloses a function that is monotonic between `least` and `most`. Its values have errors of at most 0.6 units in the
+ * last place. */
 static enclosure steady(function_id function, enclosure a, double least, double most) {
     const double low = enclosure_lesser(enclosure_larger(a.low, least), most);
     const double high = enclosure_larger(enclosure_lesser(a.high, most), least);

@@ -79,7 +79,6 @@ static inline enclosure enclosure_mul(enclosure a, enclosure b) {
         enclosure_above(enclosure_larger(enclosure_larger(p, q), enclosure_larger(r, s)))};
 }
 
-/* a x */
 static inline enclosure enclosure_times(enclosure a, double x) {
     const double p = a.low * x;
     const double q = a.high * x;
@@ -120,7 +119,6 @@ enclosure enclosure_sine(enclosure a);
 enclosure enclosure_cosine(enclosure a);
 enclosure enclosure_exp(enclosure a);
 enclosure enclosure_log(enclosure a);
-/* a^n. */
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent for a > 0; for all a if the exponent is a whole number. */
 enclosure enclosure_power(enclosure a, enclosure exponent);

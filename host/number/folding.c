@@ -73,7 +73,7 @@ static double other_neighbour(twofold exact, double x, double y) {
 
 static bool is_short(double x) { return (digits_of(x) & ((UINT64_C(1) << 26) - 1)) == 0; }
 
-/* The same for a value of which only the double is known. */
+/* The other value of a result of which only the double is known. */
 static double other_value(double value, double x) {
     return isfinite(value) ? moved(value, moved_by(value, x, (digits_of(value) >> 26 & 1U) != 0))
                            : value;
@@ -101,7 +101,7 @@ static void note_rest(double x) {
     }
 }
 
-/* A residue that vanishes next to a number is no loss. Otherwise the sum has no correct digit. */
+/* If a residue is lost beside a number, that is no loss. Otherwise the sum has no correct digit. */
 static void note_sum(double x, double y, double sum) {
     if (x == 0.0 || y == 0.0) {
         return;
@@ -159,8 +159,8 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* Does the way move products and quotients, too? If all results moved to the other side, a quotient could undo the move of a sum in
- * it: (K + k)/K - 1. */
+/* Are products and quotients changed, too? If all results were moved to the other side, a quotient could cancel the
+ * change of a sum in it: (K + k)/K - 1. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }

@@ -35,13 +35,13 @@ typedef struct folding {
 
 /* Returns the previous one, which must be restored before `f` ends. */
 folding *folding_use(folding *f);
-/* The way of the current one. */
 int folding_way(void);
 
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
-/* As number_power() and number_call(). A sine or cosine no larger than the round-off of its angle is a residue. */
+/* As number_power() and number_call(), with the record. A sine or cosine no larger than the round-off of its angle is a
+ * residue. */
 double folding_power(double base, double exponent);
 double folding_call(function_id function, double x, double y);
 /* Does `left`, the difference of two numbers of this size, count as zero? It does up to `part` of their size, because decimals

@@ -93,7 +93,6 @@ double number_slope(function_id function, int which, double x, double y) {
 /* --- whole numbers ------------------------------------------------------------------------------- */
 #define ALL_WHOLE 0x1p52 /* no number from here on has a fraction */
 
-/* The whole part of a size below ALL_WHOLE. */
 static double whole_part(double size) { return (double)(int64_t)size; }
 
 /* `size` with the sign of x, also for zeros. */

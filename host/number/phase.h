@@ -1,4 +1,4 @@
-/* phase.h: angles and multiples of angles as the float build keeps them: whole numbers of 2^-32 turn. */
+/* phase.h: angles and multiples of angles as the float build stores them: in whole units of 2^-32 turn. */
 #ifndef NUMBER_PHASE_H
 #define NUMBER_PHASE_H
 

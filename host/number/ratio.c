@@ -64,7 +64,8 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
     uint128 left = {0, 0};
     uint128 quotient = {0, 0};
     for (int bit = 127; bit >= 0; bit--) {
-        const bool carried = left.high >> 63 != 0; /* then `left` is 2^128 and more, so above b */
+        /* `left` is then 2^128 or more, and so above b */
+        const bool carried = left.high >> 63 != 0;
         left = uint128_plus(uint128_left(left, 1), uint128_of(uint128_right(a, bit).low & 1U));
         if (carried || !uint128_below(left, b)) {
             left = uint128_minus(left, b);
@@ -80,7 +81,7 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
 /* === ratios =================================================================================== */
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
-#define TENTH (UINT64_MAX / 10) /* below it, ten times as much fits */
+#define TENTH (UINT64_MAX / 10) /* below this, ten times the number has room */
 
 /* A rational number; `in` may be 0: infinity. */
 typedef struct end {
@@ -120,7 +121,8 @@ static whole_ratio between(end low, end high) {
 /* The simplest fraction within 2^-51 of the value, or a little less. */
 static whole_ratio simplest(double value) {
     int exponent;
-    const double mantissa = number_split(value, &exponent); /* below one: 53 bits after the point */
+    /* below one, with 53 bits after the point */
+    const double mantissa = number_split(value, &exponent);
     const uint64_t digits = (uint64_t)number_scaled(mantissa, MANTISSA);
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
     const uint64_t off = 2;
@@ -225,7 +227,7 @@ double ratio_times(uint64_t count, whole_ratio each) {
     uint128 of = uint128_times(uint128_of(count), uint128_of(each.numerator));
     int shift = 0;
     while (!uint128_is_zero(of) &&
-           of.high >> 62 == 0) { /* a denominator has 60 bits at most: 66 are left */
+           of.high >> 62 == 0) { /* a denominator has at most 60 bits: 66 remain */
         of = uint128_left(of, 1);
         shift++;
     }

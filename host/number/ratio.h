@@ -23,7 +23,6 @@ uint128 uint128_times(uint128 a, uint128 b);
 uint128 uint128_over(uint128 a, uint128 b, uint128 *rest);
 bool uint128_below(uint128 a, uint128 b); /* a < b */
 bool uint128_is_zero(uint128 a);
-/* Shifts by 0 ... 127 bits. */
 uint128 uint128_left(uint128 a, int bits);
 uint128 uint128_right(uint128 a, int bits);
 
@@ -37,15 +36,15 @@ typedef struct whole_ratio {
     uint64_t denominator; /* > 0 */
 } whole_ratio;
 
-/* The fraction that `value` was before the round-off of units and doubles. It is the shorter one of the decimal with the fewest
- * digits (at most 15) and the simplest fraction within a relative error of 2^-51. So 0.0011000000000000001 is 11/10000, and 1/44100
- * is exact.
- * A decimal with more than 60 bits in numerator or denominator (9.99999999999999e-7) becomes the simplest fraction, too. The
- * result is 0 for values not above zero, and clamped to RATIO_LEAST and RATIO_MOST. */
+/* The fraction that `value` was before the round-off of units and doubles. The candidates are the decimal with the
+ * fewest digits (at most 15) and the simplest fraction, both within a relative error of 2^-51. The shorter one is
+ * taken. So 0.0011000000000000001 is 11/10000, and 1/44100 is exact. A decimal with more than 60 bits in numerator or
+ * denominator (9.99999999999999e-7) becomes the simplest fraction, too. The result is 0 for values not above zero, and
+ * clamped to RATIO_LEAST and RATIO_MOST. */
 whole_ratio ratio_of(double value);
 
-/* The whole number nearest to whole / part; of two equally near ones, the lower. False if it exceeds 2^63. `part` is above
- * zero. */
+/* The whole number nearest to whole / part; of two equally near ones, the lower. Returns false if it exceeds 2^63.
+ * `part` is above zero. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
 
 /* Number of steps in a spacing of `each_s` seconds. False if it is not within 1e-6 of a whole number of at least 1. */

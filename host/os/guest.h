@@ -41,7 +41,7 @@ typedef struct guest {
 
 typedef enum guest_heard {
     GUEST_FRAME,
-    GUEST_ENDED,  /* it closed the line: it is exiting, or has died */
+    GUEST_ENDED,  /* the guest closed the line: it is exiting, or has died */
     GUEST_SILENT, /* no message for patience_s */
     GUEST_STOPPED /* the user interrupted */
 } guest_heard;

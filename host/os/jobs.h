@@ -16,9 +16,10 @@ typedef struct jobs {
     uint64_t first;
     uint64_t end;
     void *context;
-    /* In a worker: writes the point's row, and in `reason` one line or nothing for deliver(). False if it failed. */
+    /* Called in a worker: writes the point's row, and into `reason` one line or nothing for deliver(). Returns false if
+     * it failed. */
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
-    /* In the parent: takes a row, in order. False ends all work. */
+    /* Called in the parent, in order of the points: takes a row. Returning false ends all work. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
     /* In the parent, after some rows or a moment: writes out the delivered rows, shows progress. */
     bool (*pause)(void *context, uint64_t next);

@@ -134,7 +134,7 @@ typedef struct fault_case {
     double after_s;
     double duration_s;
     /* While it runs: */
-    int note_at;    /* in orders.output */
+    int note_at;    /* index of the note in orders.output */
     int input;      /* index of the scene's input; for FAULT_STUCK the first of two */
     double healthy; /* the input's normal value, or a sensor's requested one */
     bool reached;   /* the note has reached its value, */
@@ -170,7 +170,6 @@ char *fault_parameter(const fault_plan *plan, unsigned i);
 /* The faults as a tap; for one run. */
 tap fault_tap(fault_plan *plan);
 
-/* Print a table of all kinds. */
 void fault_print_kinds(FILE *out);
 
 /* --- between the files of faults --------------------------------------------------------------------------------*/

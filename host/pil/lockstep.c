@@ -354,7 +354,7 @@ void talk_end(talk *t) {
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
-#define PIECE_STEPS 1e4 /* most steps of a piece, because steps may be arbitrarily short */
+#define PIECE_STEPS 1e4 /* most steps in one part, because steps may be arbitrarily short */
 
 static void note_most(peak *m, double value, double at_s) {
     if (value > m->value) {

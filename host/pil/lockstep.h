@@ -1,6 +1,6 @@
-/* lockstep.h: a firmware image and a plant, in turns, until the firmware ends; or a tape in place of the plant. One
- * waits while the other computes, so a run is reproducible at any speed. The firmware's computing costs plant time: its
- * counted instructions times the seconds for each. This delays its outputs, and its next readings. */
+/* lockstep.h: a firmware image and a plant (or a tape in its place) that compute alternately until the firmware ends.
+ * Each waits while the other computes, so a run is reproducible at any speed. The firmware's computing costs plant
+ * time: its counted instructions times the seconds for each. This delays its outputs, and its next readings. */
 #ifndef PIL_LOCKSTEP_H
 #define PIL_LOCKSTEP_H
 
@@ -21,7 +21,7 @@ typedef struct talk {
     wh_reset remembered;             /* data that the firmware wants to find after a reset */
     bool said_end;                   /* the firmware sent WH_FRAME_END with end_status */
     int end_status;
-    FILE *tape; /* or NULL */
+    FILE *tape; /* file for the tape, or NULL */
 } talk;
 
 /* Start the guest and receive its hello. False, reported: report->end has the reason. */

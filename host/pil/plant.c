@@ -405,7 +405,7 @@ static void watch(plant *p) {
 
 /* --- a reset of the controller ----------------------------------------------------------------------------*/
 
-/* True in a reset. Pending orders then never take effect. */
+/* True while the processor is in reset. Orders that wait then never take effect. */
 static bool is_reset(plant *p) {
     if (!p->reset.now && plant_has_reached(p, p->reset.at_ticks)) {
         p->reset.now = true;
@@ -597,7 +597,7 @@ bool plant_advance(plant *p, double until_ticks) {
     return true;
 }
 
-/* Take the due entries of a queue, `most` at most; further due ones are lost. */
+/* Takes the due entries of a queue, at most `most`; further due ones are lost. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
     while (*there < q->count && q->event[*there].at_ticks <= plant_now(p) + NEARLY) {

@@ -25,15 +25,15 @@ typedef struct bound {
 
 typedef struct binding {
     unsigned count;
-    bound bound[WH_SIGNALS_MAX]; /* as in the hello */
-    unsigned outputs;            /* of the firmware */
+    bound bound[WH_SIGNALS_MAX]; /* bindings, in the order of the hello */
+    unsigned outputs;            /* number of the firmware's outputs */
     unsigned edges;
     unsigned samples;
     unsigned notes; /* notes are not bound */
 } binding;
 
-/* A readable quantity of that name, an output, coordinate or rate: sets place, index, rate and turns. Returns its unit,
- * or NULL if there is none. */
+/* Binds an output, coordinate or rate of that name: sets place, index, rate and turns. Returns its unit, or NULL if
+ * there is none. */
 const char *bind_read(bound *b, const image *im, const char *name);
 
 /* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. False, reported. */
@@ -43,7 +43,7 @@ bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char
 /* Records of the plant of a run in the loop as comma-separated values, in the columns of host/io/records.h. */
 
 typedef struct recorded {
-    const char *name; /* of the file; "-": standard output */
+    const char *name; /* name of the file; "-": standard output */
     FILE *file;
     records *rows;
     uint64_t every; /* steps between rows */
@@ -77,7 +77,7 @@ typedef struct plant_event {
     uint8_t status;
 } plant_event;
 
-/* In order of at_ticks. */
+/* A queue, in order of at_ticks. */
 typedef struct plant_queue {
     plant_event event[PLANT_PENDING];
     unsigned count;
@@ -89,8 +89,9 @@ typedef struct plant_resets {
     double takes_ticks; /* length of a reset */
     bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs */
     double watchdog_ticks; /* the watchdog's timeout */
-    bool now;              /* in reset: the caller has to restart it, see plant_restart() */
-    bool starved;          /* the watchdog caused it */
+    /* a reset is due: the caller has to restart the processor, see plant_restart() */
+    bool now;
+    bool starved; /* the watchdog caused it */
     unsigned count;
     double last_ticks; /* time of the last one */
 } plant_resets;
@@ -99,7 +100,7 @@ typedef struct plant {
     const image *image;
     const binding *binding;
     plant_wish wish;
-    void *run; /* of engine_double */
+    void *run; /* a run of engine_double */
     wh_status status;
     uint64_t steps;
     double step_ticks;

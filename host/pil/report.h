@@ -7,9 +7,9 @@
 #include "host/os/guest.h"
 #include "host/pil/plant.h"
 
-/* The interface for faults (fault.h) and observers. They are called in turn: before the first message, after each
- * message of the firmware, and before each message to it. A message reaches the other side as they changed it; the
- * answer may take *late_s longer. A tape has the messages as the firmware received and sent them. NULL: no call. */
+/* The interface for faults (fault.h) and observers, which may read and change messages. Its functions are called before
+ * the first message, after each message of the firmware, and before each message to the firmware. The answer to a
+ * message may take *late_s longer. A tape has the messages as the firmware received and sent them. NULL: no call. */
 typedef struct tap {
     const char *name;
     void *of;
@@ -62,7 +62,7 @@ typedef struct lockstep_report {
     uint64_t exchanges;
     told_note note[WH_SIGNALS_MAX];
     unsigned notes;
-    double time_s; /* of the plant */
+    double time_s; /* time of the plant, s */
     double wall_s;
     bool counted; /* the firmware counts its instructions */
     peak acted;   /* instructions from the readings until the outputs were set */
@@ -76,9 +76,9 @@ typedef struct lockstep_report {
     double cut_s;          /* time of the cut */
     unsigned resets;       /* resets of the firmware's processor */
     double reset_s;        /* time of the last reset */
-    uint64_t hash;         /* of all orders, without instruction counts */
-    uint64_t op_list_hash; /* of the tape's orders */
-    uint64_t plant_hash;   /* of the scene's last state */
+    uint64_t hash;         /* hash of all orders, without instruction counts */
+    uint64_t op_list_hash; /* hash of the tape's orders */
+    uint64_t plant_hash;   /* hash of the last state of the plant */
 } lockstep_report;
 
 /* === in words ================================================================================= */

@@ -21,9 +21,9 @@
 typedef struct taped {
     const char *name;
     FILE *file;
-    wh_hello hello; /* of the firmware */
+    wh_hello hello; /* hello of the firmware */
     wh_signal signal[WH_SIGNALS_MAX];
-    uint64_t hash;  /* of all orders and remembered data so far */
+    uint64_t hash;  /* hash of all orders and remembered data so far */
     uint64_t turns; /* read so far */
     uint16_t sequence;
     double before_s; /* time of the last reset */
@@ -31,14 +31,14 @@ typedef struct taped {
     wh_frame_reader reader;
     bool endless; /* a frame is missing */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
-    uint8_t words[GUEST_LINE_BYTES]; /* of the hello */
+    uint8_t words[GUEST_LINE_BYTES]; /* strings of the hello */
 } taped;
 
 /* The firmware's readings at `ticks` and its answer; or a reset, which also resets its timer. */
 typedef struct taped_turn {
     uint32_t ticks;
-    double time_s; /* of the plant */
-    bool is_reset; /* then only `reset` is valid */
+    double time_s; /* time of the plant, s */
+    bool is_reset; /* if true, only `reset` is valid */
     wh_reset reset;
     wh_readings readings;
     bool answered; /* false: the firmware had ended, or the run was over */
@@ -107,7 +107,6 @@ static void taped_close(taped *t) {
     }
 }
 
-/* The number of channels of a kind of signal. */
 static unsigned taped_channels(const taped *t, wh_signal_kind kind) {
     unsigned count = 0;
     for (unsigned i = 0; i < t->hello.signals; i++) {
@@ -207,7 +206,7 @@ typedef struct rows {
     uint64_t heard;              /* ticks since the plant's time 0 */
     bool cut;                    /* a row has reported the cut */
     bool told;                   /* outputs and notes have rows, with the values in value[] */
-    float value[WH_SIGNALS_MAX]; /* by channel, the notes after the outputs */
+    float value[WH_SIGNALS_MAX]; /* values by channel, the notes after the outputs */
 } rows;
 
 static const wh_signal *signal_of(const taped *t, wh_signal_kind kind, unsigned channel) {
@@ -364,7 +363,7 @@ static void say_difference(const wh_orders *kept, const wh_orders *now, const ta
     }
 }
 
-/* One turn. False at the tape's end and after an error, which is in report->end. */
+/* One exchange. Returns false at the end of the tape and after an error, which is in report->end. */
 static bool play(taped *from, talk *t) {
     lockstep_report *r = t->report;
     taped_turn kept;

@@ -155,7 +155,7 @@ typedef struct going {
     flowpipe *tube;
     void *run;
     enclosure step_s; /* the run's step length */
-    enclosure next_s; /* from the tube's time to the run's next record */
+    enclosure next_s; /* time from the tube to the next record of the run */
     enclosure *exact; /* [states] */
     uint64_t done;    /* completed steps of the run */
 } going;
@@ -199,7 +199,7 @@ static bool go_on(going *g) {
     if (look_within(g, h_s, &last_s) > 0) {
         good = flowpipe_on(g->tube, last_s);
         g->next_s = g->step_s;
-    } else { /* it is shorter than the remaining part of the run's step */
+    } else { /* the tube's step is shorter than the rest of the run's step */
         const double part_s = number_least(h_s, 0.5 * g->next_s.low);
         good = flowpipe_on(g->tube, enclosure_of(part_s));
         g->next_s = enclosure_sub(g->next_s, enclosure_of(part_s));
@@ -305,7 +305,7 @@ typedef struct figure {
     char text[40];
 } figure;
 
-/* Rounded up to so many places: statements proved for x also hold for the printed number. */
+/* Rounds up to this number of places, so that a statement proved for x is true for the printed number, too. */
 static figure not_less(double x, int places) {
     figure f;
     const char *end;

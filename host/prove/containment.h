@@ -8,7 +8,7 @@
 #include "host/engine/engine.h"
 #include "host/prove/flowpipe.h"
 
-#define CONTAINMENT_TOLERANCE 1e-3 /* of a coordinate's range in the run */
+#define CONTAINMENT_TOLERANCE 1e-3 /* as a part of a coordinate's range in the run */
 
 typedef struct containment_wish {
     const exact_motion *motion;
@@ -31,7 +31,6 @@ typedef enum containment_verdict {
     CONTAINMENT_UNENDED /* proved until until_s, where the tube or the run ends: see containment_found's `end` */
 } containment_verdict;
 
-/* The reason for the end. */
 typedef enum containment_end {
     CONTAINMENT_AT_END,   /* the end of the run, or all states have left their tolerances */
     CONTAINMENT_RUN_ENDS, /* the run failed */
@@ -58,7 +57,7 @@ typedef struct containment_state {
 typedef struct containment_found {
     containment_state *state; /* [motion->states] */
     int states;
-    wh_status status;   /* of the run's last step */
+    wh_status status;   /* status of the run's last step */
     uint64_t run_steps; /* completed steps */
     uint64_t flowpipe_steps;
     double tube_s; /* the tube's last time */

@@ -69,7 +69,8 @@ static int sum_of_terms(making *k, term_kind kind, int unknown) {
     return sum;
 }
 
-/* d/dt dL/dq' - dL/dq = Q - dF/dq', with the terms of q'' on the left and all others on the right. */
+/* Builds Lagrange's equations d/dt dL/dq' - dL/dq = Q - dF/dq', with the terms of q'' on the left and all others on the
+ * right. */
 static bool lagrange(making *k) {
     graph *g = k->graph;
     const int kinetic = sum_of_terms(k, TERM_T, -1);

@@ -110,8 +110,9 @@ static double off_orthogonal(int n, const double *axes) {
     return most;
 }
 
-/* inverse[n * n]: an enclosure of the inverse of `axes`. False if they are too far from orthogonal. A^-1 = (I - E)^-1
- * A^T with E = I - A^T A. In the row norm, (I - E)^-1 differs from I by at most |E| / (1 - |E|). */
+/* Computes inverse[n * n], an enclosure of the inverse of `axes`. Returns false if the axes are too far from
+ * orthogonal. A^-1 = (I - E)^-1 A^T with E = I - A^T A. In the row norm, (I - E)^-1 differs from I by at most |E| / (1
+ * - |E|). */
 static bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
     const double e = off_orthogonal(n, axes);
     if (!(e < 0.25)) {
@@ -348,7 +349,7 @@ void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
 
 /* === the tube ================================================================================= */
 
-/* Bound on the remainder of a step, relative to the largest value of a state so far. It limits the step, */
+/* Bound on the remainder of a step, relative to the largest value of a state so far. This limits the step, */
 #define REMAINDER 0x1p-54
 /* but a step shorter than this is useless, s. */
 #define STEP_LEAST_S 1e-9
@@ -361,7 +362,7 @@ struct flowpipe {
     int order;
     int first;        /* coefficients up to this one use derivatives; later ones are small */
     taylor *middle;   /* coefficients at the centre */
-    taylor *all;      /* coefficients over the whole box, with derivatives up to `first` */
+    taylor *all;      /* coefficients over the whole box, and derivatives up to `first` */
     taylor *over;     /* coefficients over a whole step, one order more */
     double *centre;   /* [states] a point x of the tube is centre plus off */
     zonotope *off;    /* deviation from the centre */
@@ -370,10 +371,10 @@ struct flowpipe {
     enclosure *along; /* [states] box of the deviation along these axes */
     enclosure *turn;  /* [first + 1][states * states] coefficients of the derivatives times the axes
                        */
-    enclosure *stay;  /* [states] box that contains the motion over the whole step */
+    enclosure *stay;  /* [states] box that contains the motion during the whole step */
     double *largest;  /* [states] */
     double open_s;    /* length of the open step; 0: not open */
-    double guess_s;   /* for the next step */
+    double guess_s;   /* guess of the next step, s */
     uint64_t steps;
     double products;
 };
@@ -574,8 +575,8 @@ static bool all_finite(const flowpipe *t) {
     return good;
 }
 
-/* Move the centre by the middle of the displacement; the remainder of its enclosure goes to `left`. The displacement is
- * small, so little precision is lost. */
+/* Moves the centre by the middle of the displacement. `left` gets the remainder of the displacement's enclosure. The
+ * displacement is small, so little precision is lost. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);

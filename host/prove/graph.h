@@ -65,7 +65,6 @@ bool graph_is_number(const graph *g, int a);
 bool graph_is_zero(const graph *g, int a);
 bool graph_is_one(const graph *g, int a);
 
-/* The derivative by a variable. */
 int graph_slope(graph *g, int a, int variable);
 /* `a` with 0 in place of the variables from `first` on. */
 int graph_without(graph *g, int a, int first);

@@ -67,7 +67,6 @@ static void dual_add_products(enclosure *to, enclosure number, const enclosure *
     }
 }
 
-/* to = number to */
 static void dual_scale(enclosure *to, enclosure number, int width) {
     for (int j = 0; j < width; j++) {
         to[j] = enclosure_mul(to[j], number);

@@ -349,7 +349,7 @@ static void show_atom(const show *s, const atom *x, double exponent) {
     show_exponent(s, exponent);
 }
 
-enum { RANKS = 4 + PRIMES_MAX }; /* of show_rank() */
+enum { RANKS = 4 + PRIMES_MAX }; /* number of results of show_rank() */
 
 /* Position of a factor in a product: 0 parameters, 1 inputs, 2 coordinates, then the others. */
 static int show_rank(const atom *x) {
@@ -477,7 +477,6 @@ static wave common_wave(algebra *a, const poly *p) {
     return common.sines + common.cosines > 0 ? common : (wave){NULL, 0, 0};
 }
 
-/* ratio * let. */
 static void show_named(const show *s, const symbol *let, double ratio, bool leading) {
     show_sign(s, ratio < 0.0, leading);
     double top;
@@ -778,7 +777,6 @@ typedef struct collected {
     int highest; /* most primes in the key */
 } collected;
 
-/* Returns the number of groups. */
 static int collect(algebra *a, const poly *p, collected *groups) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {

@@ -50,13 +50,12 @@ const poly *show_common(algebra *a, const poly *p);
 
 /* === one product for readers ================================================================== */
 
-/* A common factor of these coefficients: its top and bottom divide those of all fractions. With `whole`, dividing by it
- * gives whole numbers. */
+/* A common factor of these coefficients: its top and bottom divide those of all fractions. If `whole`, the coefficients
+ * divided by it are whole numbers. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
 /* The sign between two factors, unless this is the first. */
 void show_separate(const show *s, bool *first);
-/* A let, and its expression. */
 typedef struct let_row {
     const symbol *let;
     const poly *value;

@@ -76,7 +76,7 @@ static int width_of_command(span *s) {
     if (begins(*s, aligned)) {
         const span all = {s->from, behind_group(*s)};
         int depth = 0;
-        do { /* to the \end of this environment */
+        do { /* up to the \end of this environment */
             depth += begins(*s, "\\begin") ? 1 : begins(*s, "\\end") ? -1 : 0;
             s->from++;
         } while (depth > 0 && s->from < s->end);
@@ -218,7 +218,7 @@ static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
     FILE *out = alloc_text(&text, &length);
-    const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows after the first */
+    const int indent = factors ? QUAD + SIGN : QUAD; /* indentation of the rows after the first */
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);
@@ -565,7 +565,7 @@ static void write_left_side(const show *s, const equations *e, int i) {
     }
 }
 
-/* One equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
+/* Prints one equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
 static void show_equation(const show *s, const equations *e, int i) {
     show_row row;
     const show *to = show_row_begin(&row, s);

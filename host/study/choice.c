@@ -108,8 +108,8 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w) {
 
 /* Most instructions of a run on an emulator: about ten seconds. */
 #define RUN_INSTRUCTIONS 1e9
-/* Price of an evaluation for a number type without any counted run. It is low, so that such rows come first and one of
- * them is counted. */
+/* Price of an evaluation for a number type without any counted run. It is low, so that such rows are tried first and
+ * one of them is counted. */
 #define UNTRIED 1e-3
 
 /* With contacts: the expected cost of runs that were not counted, from the cost of an evaluation by number type. */
@@ -227,7 +227,8 @@ static void print_figure(FILE *out, const char *name, const cost_figure *f, cons
     }
 }
 
-/* The most that a step is declared to take, in the unit of the row's steps; 0: not known. */
+/* The largest number of instructions that a step may take by declaration, in the unit of the row's steps; 0: not
+ * known. */
 static double declared_of(const table_row *row) {
     return has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
 }

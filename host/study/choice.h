@@ -19,7 +19,7 @@ typedef struct choice_wish {
     table_wish table;   /* includes the error, in the unit of the trial's errors, and the rate */
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
-    double ram_bytes;   /* with the stack; 0: no limit */
+    double ram_bytes;   /* limit of the RAM with the stack; 0: no limit */
     bool
         counts; /* the chosen rows will be counted, so a prediction may exceed a limit by its error bound */
     const char *prices;                           /* the source of the prices, in words */
@@ -28,7 +28,7 @@ typedef struct choice_wish {
 
 /* A row compared with the limits. A load is the time of the longest steps, as a part of the period, or of a second without a rate. */
 typedef struct choice_row {
-    int row;      /* of the table, or -1 */
+    int row;      /* index of the row in the table, or -1 */
     double worst; /* upper bound on the cycles (or instructions) of a second of the longest steps */
     double load;  /* 0: unknown */
     double load_most;
@@ -53,7 +53,7 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w);
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);
 
-/* Prints both answers; or that no row fits, with the nearest row. */
+/* Prints both answers; or, if no row is within the limits, says so and prints the nearest row. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words);
 /* The same as one JSON object (docs/warnings.md has the schema), without the hint of limits that would fit;

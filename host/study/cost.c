@@ -95,8 +95,8 @@ static cost_class class_of(const op *o) {
 static bool is_part_of_pair(const op *o) { return o->code == OP_SIN || o->code == OP_COS; }
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
-/* Executions of an inlined list's operations per step. Compilers share operations that are the same at every stage, and
- * those of stages at the same place. */
+/* Executions of an inlined list's operations per step. Compilers compute operations only once if they are the same at
+ * every stage, or at several stages with equal positions. */
 typedef struct times {
     double stages;
     double places;
@@ -423,7 +423,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number != COST_FIXED && !takes_method(im)) {
         return (cost){.why = "this method is not possible for the scene"};
     }
-    if (im->contacts > 0) { /* their memory is laid out by the board's compiler */
+    if (im->contacts > 0) { /* the board's compiler decides about the layout of their memory */
         return (cost){.why = "the cost of contacts depends on the motion: it must be counted"};
     }
     cost c = {.why = "", .state_bytes = cost_known(state_bytes(im, number), COST_EXACT)};

@@ -47,7 +47,8 @@ typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_FIXED, COST_NUMBERS } c
 extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double", "fixed" */
 
 typedef struct cost_board {
-    const char *name; /* its folder of boards/, or "host" for this kind of machine (x86-64) */
+    /* name of its folder in boards/, or "host" for this kind of machine (x86-64) */
+    const char *name;
     const char *core; /* "Cortex-M4F" */
     bool fpu;         /* float in hardware */
     /* How its cycles are known: COST_ESTIMATED, COST_SIMULATED, or COST_RANGE: cycles an instruction, least and most. */
@@ -55,8 +56,8 @@ typedef struct cost_board {
     double cycles_least; /* COST_RANGE only, else 0 */
     double cycles_most;
     double clock_Hz;  /* the chip's clock as the board sets it, or 0 */
-    long flash_bytes; /* of the chip, or 0 if the board is no single chip */
-    long ram_bytes;   /* of the chip, or 0 */
+    long flash_bytes; /* flash of the chip, or 0 if the board is no single chip */
+    long ram_bytes;   /* RAM of the chip, or 0 */
 } cost_board;
 
 #define COST_BOARD_DEFAULT "mps2-an386"

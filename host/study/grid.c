@@ -24,7 +24,8 @@ overrides changes_at(const grid *g, const overrides *base, uint64_t point) {
         snprintf(number, sizeof number, "%.17g", value[i]);
         if (a->symbol == NULL) {
             if (changes.step != base->step) {
-                free((void *)(uintptr_t)changes.step); /* a step swept twice: the last holds */
+                /* if a step is swept twice, the last one counts */
+                free((void *)(uintptr_t)changes.step);
             }
             changes.step = alloc_words("%s", number);
         } else {

@@ -6,10 +6,10 @@
 
 #include "host/lang/model.h"
 
-/* One --over: `count` values from `from` to `to` (SI), even, or even in the logarithm. */
+/* One --over: `count` values from `from` to `to` (SI), equally spaced, or equally spaced in the logarithm. */
 typedef struct axis {
-    char *name;           /* as typed: "r", "theta'", "step" */
-    char *column;         /* its CSV column: the name; "start(theta')" for a start value */
+    char *name;           /* name as typed: "r", "theta'", "step" */
+    char *column;         /* CSV column: the name; "start(theta')" for a start value */
     const symbol *symbol; /* parameter, input, coordinate or state; NULL: the step */
     int primes;
     double from;
@@ -20,7 +20,7 @@ typedef struct axis {
 
 /* Every combination; the last axis runs fastest. Starts as {0}; free with grid_free(). */
 typedef struct grid {
-    const char *command; /* in messages; NULL: "sweep" */
+    const char *command; /* command in messages; NULL: "sweep" */
     const char *option;  /* NULL: "--over" */
     axis *axes;
     int count;
@@ -36,7 +36,6 @@ void grid_free(grid *g);
 /* The values of point `point` < g->points, by axis: value[g->count], SI. The ends are exact. */
 void grid_values(const grid *g, uint64_t point, double *value);
 
-/* The axis that varies the step, or -1. */
 int grid_step_axis(const grid *g);
 
 /* Does an axis vary a parameter? Then each point has equations of its own. */

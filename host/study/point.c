@@ -70,7 +70,7 @@ static double period_of(const gauge *g, double step_s, double epsilon) {
         return (double)NAN;
     }
     uint64_t crossings = 0;
-    double first = 0.0; /* in steps */
+    double first = 0.0; /* first sample, in steps */
     double last = 0.0;
     for (uint64_t i = 1; i < g->samples; i++) {
         const double before = g->kept[i - 1];

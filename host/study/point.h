@@ -61,7 +61,7 @@ void gauge_end(gauge *g);
 
 typedef struct measure {
     measure_kind kind;
-    const char *name; /* its CSV column: the text as typed */
+    const char *name; /* CSV column: the text as typed */
     const expr *of;
 } measure;
 
@@ -154,8 +154,8 @@ void sweep_header(const sweep *s, FILE *out);
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
-/* The image of a point. *plain: the image of the finer run if step_doubling_plain() requires one; `plain` may be NULL. Returns
- * NULL, reported, if the point has no image that can start. */
+/* The image of a point. *plain: the image of the finer run if step_doubling_plain() requires one; `plain` may be NULL.
+ * Returns NULL, and reports the reason, if the point has no image that can start. */
 image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors);
 
 /* Runs the point and writes its row, including the line's end. The columns stay empty if the run fails, or

@@ -436,7 +436,8 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
     const bool runs = t->image[0]->contacts > 0;
-    const bool ranged = runs || setting_is_fixed(s); /* its ranges are those to the end */
+    /* the ranges are those of the run to the end */
+    const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
                        words->target, words->changes, trial_place(t, point),
@@ -834,7 +835,7 @@ static int count_line(char *line, char *row, int size) {
     return status;
 }
 
-/* Whole runs at all places; unknown if one of them failed. */
+/* Counts whole runs at all points; the result is unknown if one of them failed. */
 static int count_runs(const trials *t, const table_words *words, table_row *row) {
     bool bounded = true;
     int status = 0;

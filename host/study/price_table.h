@@ -25,7 +25,7 @@ typedef struct table_price {
 
 /* With contacts, all steps of a run are counted, at each place of a range. */
 typedef struct counted_run {
-    double steps; /* counted steps at all places; 0: no whole runs were counted */
+    double steps; /* number of counted steps of all points; 0: no whole runs were counted */
     double
         instructions_bound; /* declared upper bound for a step (docs/dev/events.md); 0: unknown */
     double cycles_bound;
@@ -48,7 +48,8 @@ typedef struct table {
     int settings;    /* number of settings that the scene allows */
     int unpriced;    /* number of settings without a price, which are left out */
     const char *why; /* the reason for one unpriced setting, or "" */
-    int broken_off;  /* settings with finer steps left untried for lack of operations */
+    /* number of settings whose finer steps were not tried, because the allowed operations were used up */
+    int broken_off;
 } table;
 
 /* A chosen row's error may be at most the requested error divided by this. */
@@ -79,7 +80,6 @@ void table_free(table *made);
 /* Sorts the rows by price, and marks the front. */
 void table_sort(table *made);
 
-/* *known: false without a price. */
 table_price table_price_of(const cost *c, double step_s, bool *known);
 
 /* === three rows =============================================================================== */
@@ -92,13 +92,13 @@ typedef struct three_rows_wish {
     const trial_source *source; /* has one point */
     const cost_board *board;
     setting setting;         /* the run's, in the board's number */
-    image_settings plain;    /* of the reference's image */
+    image_settings plain;    /* settings of the reference's image */
     wh_method method;        /* the reference's method, */
-    int order;               /* and the order by which its error falls */
+    int order;               /* the order by which the reference's error falls */
     double limit;            /* as in reference_steps */
     whole_ratio step;        /* the run's step, s */
     whole_ratio priced_step; /* as in trial_wish */
-    uint64_t steps;          /* of the run */
+    uint64_t steps;          /* number of steps of the run */
 } three_rows_wish;
 
 typedef struct three_rows {

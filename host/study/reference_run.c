@@ -130,7 +130,7 @@ static long double logarithm(long double x) {
         return x < 0.0L ? (long double)NAN : x > 0.0L || x != x ? x : -(long double)INFINITY;
     }
     if (x > 0.8L && x < 1.25L) {
-        const long double s = (x - 1.0L) / (x + 1.0L); /* below 1/9: a term adds 6 bits */
+        const long double s = (x - 1.0L) / (x + 1.0L); /* below 1/9: each term adds 6 bits */
         long double sum = 0.0L;
         for (int k = 2 * (LDBL_MANT_DIG / 6) + 1; k >= 1; k -= 2) {
             sum = 1.0L / (long double)k + s * s * sum;
@@ -366,7 +366,7 @@ struct extrapolation {
     const image *image;
     extrapolation_setting how;
     long_list *list;
-    evaluator *rough; /* in double, for bounds on the list's round-off */
+    evaluator *rough; /* evaluates in double, for bounds on the list's round-off */
     double *input;    /* [inputs] */
     int count;        /* components */
     long double *state;
@@ -611,7 +611,7 @@ static bool enter(const reference *r, const records *now, int record, deviation_
         }
         const long double unit = what.column >= 0 ? 1.0L : c->largest;
         const double off = (double)(long_size((long double)now->row[k] - row[k]) / unit);
-        if (d->column < 0 || !(off <= d->error)) { /* or NaN */
+        if (d->column < 0 || !(off <= d->error)) { /* also true for NaN */
             d->error = off;
             d->column = k;
             d->known = (double)(c->off / unit);

@@ -15,9 +15,9 @@
 #include "host/number/functions.h"
 
 /* === functions and lists in long double ======================================================= */
-/* The language's functions, and an operation list, in long double: 64 binary digits on x86, 113 on AArch64.
- * The extrapolated reference is computed with them. They share no code with the core or with a library. Where an iteration begins
- * with a double's value, the missing digits are computed here.
+/* The language's functions, and an operation list, in long double: 64 binary digits on x86, 113 on AArch64. The
+ * extrapolated reference is computed with them. These functions use no code of the core or of a library. If an
+ * iteration begins with a double's value, the missing digits are computed here.
  *
  * Errors are a few units of the last place; for powers they are about |exponent log(base)| times as large. */
 
@@ -60,8 +60,8 @@ bool long_list_asks(const op_list *t, int result, op_code code);
 
 typedef struct extrapolation extrapolation;
 
-/* Accuracy: `columns` rules (order 2 columns). In each step the last two columns agree within `tolerance` of each
- * component's largest value so far. */
+/* The accuracy of an extrapolation: `columns` rules (order 2 columns). In each step the last two columns must agree
+ * within `tolerance` of each component's largest value so far. */
 typedef struct extrapolation_setting {
     int columns; /* <= EXTRAPOLATION_COLUMNS */
     double tolerance;
@@ -88,14 +88,14 @@ double extrapolation_operations(const extrapolation *e);
 typedef struct reference_steps {
     uint64_t steps; /* steps in a record's spacing, even; 0: compute the best reference instead */
     wh_method method;
-    int order; /* of the method's error */
+    int order; /* order of the method's error */
     double
         limit; /* trusted while the two runs differ by less than this part of a component's largest value */
 } reference_steps;
 
 typedef struct reference_wish {
-    const image *image;  /* with any step and end */
-    whole_ratio spacing; /* of the records, s */
+    const image *image;  /* image with any step and end */
+    whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */
     double operations;   /* limit on the operations of each of the two computations */
     reference_steps by;
@@ -128,7 +128,7 @@ typedef struct reference {
     char *how;   /* the two settings, in words */
     char *why;   /* the reason for an early end of the trust, or for no reference at all; else "" */
     bool broken; /* the trust ends early for lack of small steps, not because the motions diverge */
-    bool still;  /* no reference, because nothing moves */
+    bool still;  /* no quantity moves, so there is no reference */
     bool stopped; /* interrupted: it is of no use */
 } reference;
 
@@ -176,7 +176,8 @@ typedef struct deviation_of_what {
 } deviation_of_what;
 
 typedef struct deviation {
-    bool usable;  /* it reached the end with errors below give_up and without clamped values */
+    /* the reference reached the end with errors below give_up and without clamped values */
+    bool usable;
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with that error */
     double known; /* the reference's own error in that column: errors near it are only bounds */

@@ -496,9 +496,9 @@ typedef struct sitting {
     uint64_t found[FINDINGS]; /* number of points with this finding, and the first one */
     uint64_t found_first[FINDINGS];
     uint64_t unlooked_points; /* points that were not checked for some finding */
-    unsigned unlooked;        /* those findings, as bits */
+    unsigned unlooked;        /* bits: findings that were not checked */
     unsigned against;
-    unsigned fails; /* for these findings the exit status is 1 */
+    unsigned fails; /* bits: findings after which the exit status is 1 */
 } sitting;
 
 enum { TOLD_MAX = 20 };

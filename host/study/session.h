@@ -25,7 +25,7 @@ typedef struct resumable_csv {
     uint64_t rows;   /* existing rows */
     uint64_t failed; /* rows with empty measures */
     char *beside;    /* FILE.sweep */
-    char *notes;     /* its lines "noted: WORD"; "" without any */
+    char *notes;     /* lines "noted: WORD" of the file; "" if there are none */
 } resumable_csv;
 
 typedef struct resumable_csv_settings {
@@ -37,7 +37,7 @@ typedef struct resumable_csv_settings {
     /* The swept fields of row `row`, as in the file. */
     void (*swept)(const void *context, uint64_t row, FILE *out);
     const void *context;
-    bool fresh; /* start again, even over existing rows */
+    bool fresh; /* start again, even if the file has rows */
 } resumable_csv_settings;
 
 /* Opens and checks the file; writes a missing header. Returns an exit status: 0 good, 1 the file
@@ -56,7 +56,7 @@ void sweep_json_axes(json *j, const grid *g);
 /* === everything that decides the bytes of a sweep's CSV, as lines of text ===================== */
 
 typedef struct shard {
-    uint64_t number; /* from 1 */
+    uint64_t number; /* number of the point, from 1 */
     uint64_t of;
 } shard;
 

@@ -397,7 +397,7 @@ static bool draw(const char *file, const stability_map *m, const char *words, co
     return gnuplot_close(&g);
 }
 
-/* For readers who do not see the picture; free it. */
+/* A description of the picture for readers who cannot see it; to be freed. */
 static char *alternative_text(const stability_map *m) {
     char *text = alloc_words("A map of %s and %s.", m->grid->axes[m->along].column,
                              m->grid->axes[1 - m->along].column);

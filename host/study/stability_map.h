@@ -41,7 +41,7 @@ typedef struct map_cell {
 } map_cell;
 
 typedef struct map_wish {
-    sweep of; /* with two axes, in float or double */
+    sweep of; /* the sweep with two axes, in float or double */
     double tolerance;
     void (*progress)(double runs, void *told); /* completed runs; or NULL */
     void *told;

@@ -99,7 +99,7 @@ void subsets_close(subsets *s) {
 
 /* --- runs side by side -------------------------------------------------------------------------------*/
 
-/* One of the runs side by side. Lane 0 is the full run. */
+/* One of the runs that are made side by side. Lane 0 is the run of the full scene. */
 typedef struct lane {
     subset *subset;
     image *image;
@@ -177,7 +177,7 @@ static bool terms_act(const lane *all, vector_field *less) {
     return act;
 }
 
-/* The effect of this contact acts. The effect is found by the statement's place. */
+/* Records that the effect of this contact acts. The effect is found by the statement's place in the source. */
 static void contact_acts(subsets *s, int contact) {
     for (int i = 0; i < s->of->contact_count; i++) {
         const contact_statement *c = &s->of->contacts[i];

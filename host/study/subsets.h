@@ -19,7 +19,7 @@ enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 typedef struct subset {
     uint64_t out;
     const char *failed; /* the reason why no run reached the end; NULL: one did */
-    bool same;          /* its records are those of the full run, to the bit */
+    bool same;          /* its records have the same bits as those of the full run */
     int contacts;
     double *moved; /* [columns] largest difference over the run, in the column's unit */
     double figure[SUBSET_FIGURES]; /* cycles of a step without events (or instructions), the most
@@ -45,7 +45,8 @@ typedef struct subsets {
 /* Makes the full scene's image. False, reported: it has no image, or too many effects. subsets_close() in any case. */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
-/* Runs the full scene, together with those without one effect. False, reported, if the full run diverges. */
+/* Runs the full scene, together with those without one effect. Returns false, and reports the reason, if the full run
+ * diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
 /* Runs subsets of the effects that acted: all, or with *greedy one more effect left out at a time. Returns the one that

@@ -222,7 +222,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
         } else if (axis == AXIS_TABLES) {
             snprintf(text + used, SETTING_TEXT - used, "%s", tables[i].options);
         } else if (axis == AXIS_METHOD && has_matrix(s)) {
-            continue; /* a matrix takes the method's place */
+            continue; /* the matrix replaces the method */
         } else if (row->always_written || i > 0) {
             snprintf(text + used, SETTING_TEXT - used, " %s %s", row->option, row->word(i));
         }
@@ -355,8 +355,8 @@ static void cut(trials *t) {
     }
 }
 
-/* Drops the places without motion, which have no largest value to compare an error with. If no place has motion, all stay, and the
- * report says so. */
+/* Drops the points without motion, for which there is no largest value to compare an error with. If no point has
+ * motion, all stay, and the report says so. */
 static void drop_still(trials *t) {
     int kept = 0;
     for (int p = 0; p < t->points; p++) {

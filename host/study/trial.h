@@ -27,7 +27,6 @@ typedef enum setting_axis { SETTING_AXES(SETTING_AXIS) AXES } setting_axis;
 #undef SETTING_AXIS
 
 const char *setting_heading(setting_axis axis);
-/* The word of a setting on an axis. */
 const char *setting_word(const setting *s, setting_axis axis);
 
 /* All combinations that make sense for some scene. With a matrix there is no choice of method or angles, and with tables no angle
@@ -35,8 +34,8 @@ const char *setting_word(const setting *s, setting_axis axis);
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
-/* Is its method requested? NULL: the default ones, rk4 and nystroem3 to 5. Over the points of docs/figures/price.csv the
- * others save nothing in the median. A matrix takes the place of the default method. */
+/* Is its method requested? NULL: the default ones, rk4 and nystroem3 to 5. Over the points of docs/figures/price.csv
+ * the others save nothing in the median. A matrix replaces the default method. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
 /* The setting's place among all, and the place of its number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
@@ -78,7 +77,7 @@ typedef struct trial_wish {
     const trial_source *source;
     const cost_board *board;
     const char *of;      /* the compared output, coordinate or rate; NULL: the worst component */
-    whole_ratio spacing; /* of the records, s */
+    whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */
     reference_steps by;  /* the steps of the references */
     const image_settings *plain; /* settings of the references' images; NULL: the default ones */
@@ -93,10 +92,10 @@ typedef struct trial_planned {
 
 typedef struct trials {
     trial_wish wish;
-    int points;  /* number of the source's places with motion; all places if nothing moves at all */
-    int *place;  /* [points] their numbers in the source */
-    char *still; /* the options of the omitted places: " --set M=0,"; or NULL */
-    image **image;          /* [points] of the references */
+    int points;    /* number of the source's points with motion; all points if there is no motion */
+    int *place;    /* [points] their numbers in the source */
+    char *still;   /* the options of the omitted places: " --set M=0,"; or NULL */
+    image **image; /* [points] of the references */
     reference **reference;  /* [points] */
     trial_planned *planned; /* [points] in fixed point: priced and to be run */
     int worst;              /* the point whose reference ends first, or is least accurate */

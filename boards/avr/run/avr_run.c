@@ -98,7 +98,6 @@ static settings read_arguments(int argc, char **argv) {
     return all;
 }
 
-/* The address of a symbol, or 0. */
 static uint32_t address_of(const elf_firmware_t *firmware, const char *name) {
     for (uint32_t i = 0; i < firmware->symbolcount; i++) {
         if (strcmp(firmware->symbol[i]->symbol, name) == 0) {

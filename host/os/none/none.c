@@ -1,5 +1,5 @@
-/* none.c: a machine without processes, signals and serial lines. One thing runs after the other; other programs and
- * lines are refused. */
+/* none.c: a machine without processes, signals and serial lines. Jobs run one after the other; starting programs and
+ * opening lines fails. */
 #include <errno.h>
 #include <stdlib.h>
 #include <time.h>

@@ -85,7 +85,7 @@ static void work(const jobs *j, int tickets, int results) {
         FILE *row = alloc_text(&text[0], &length[0]);
         FILE *reason = alloc_text(&text[1], &length[1]);
         answer a;
-        memset(&a, 0, sizeof a); /* padding too: it goes through a pipe */
+        memset(&a, 0, sizeof a); /* padding, too, because it goes through a pipe */
         a.point = point;
         a.good = j->work(j->context, point, row, reason);
         alloc_text_end(row);

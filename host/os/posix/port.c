@@ -50,7 +50,7 @@ static bool make_plain(port *p, double baud) {
 /* Two readers of a line would take bytes from each other. */
 static bool have_alone(int file) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        return true; /* true, too, if the system has no exclusive access */
+        return true; /* true even if the system has no exclusive access */
     }
     errno = EBUSY;
     return false;
