@@ -17,7 +17,7 @@
 
 typedef struct measured {
     bool busy;
-    double off;       /* at every step, relative to the range */
+    double off;       /* largest error at any step, relative to the range */
     double looked_at; /* the error at 32 steps, relative to the range */
 } measured;
 
@@ -181,7 +181,8 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
         }
     }
     double range = 1e-300;
-    for (int i = 0; i < h->of.bodies; i++) { /* of all: a small range is no scale */
+    for (int i = 0; i < h->of.bodies; i++) {
+        /* the largest range of all bodies, because a small range is no scale */
         range = fmax(range, high[i] - low[i]);
     }
     for (int k = 0; k < h->of.bodies; k++) {

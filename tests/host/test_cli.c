@@ -111,7 +111,7 @@ TEST(counts, counts_are_exact) {
         if (end_s > 1.6e9 && count > 2.0) {
             continue;
         }
-        int places = 0; /* up to 14 digits, which a double can tell apart */
+        int places = 0; /* at most 14 digits, which a double can represent */
         double digits = end_s;
         while (places < 12 && digits < 1e12) {
             digits *= 10.0;
@@ -119,7 +119,7 @@ TEST(counts, counts_are_exact) {
         }
         const duration until = duration_of((uint64_t)digits, places, "s", 1);
         expect_count(&step, &until);
-        if (step.digits < 1000 && count < 1e9) { /* exactly so many */
+        if (step.digits < 1000 && count < 1e9) { /* exactly this number of steps */
             const duration whole =
                 duration_of((uint64_t)floor(count + 1.0) * step.digits, 0, "s", step.in);
             int behind = 0;
@@ -140,7 +140,7 @@ TEST(counts, times_are_rounded_once) {
         const whole_ratio r = {1 + random_below(1000000), 1 + random_below(UINT64_C(1) << 40)};
         const uint64_t count = random_below(UINT64_MAX) >> random_below(64);
         const double time = ratio_times(count, r);
-        const wide exact = (wide)count * r.numerator; /* below 2^84 */
+        const wide exact = (wide)count * r.numerator; /* the product is below 2^84 */
         int places;
         const uint64_t digits = (uint64_t)ldexp(frexp(time, &places), 53);
         places -= 53; /* time = digits * 2^places */
@@ -421,7 +421,7 @@ TEST(firstlight, command) {
     snprintf(files[0], sizeof files[0], "%s", model_keep(""));
     snprintf(files[1], sizeof files[1], "%s.md", files[0]);
     put(files[1], page_head);
-    write_record(NULL, NULL, NULL); /* of zeros: the command prints the expected values */
+    write_record(NULL, NULL, NULL); /* a record of zeros: the command prints the expected values */
     ask(&hashes);
     TEST_ASSERT_EQUAL(1, hashes.status);
     TEST_ASSERT_NOT_NULL(strstr(hashes.out, "hashes: 0 of 5 equal\n"));
@@ -439,7 +439,7 @@ TEST(firstlight, command) {
              strstr(record, "end ") + 4);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(got(files[1]), line), got(files[1]));
     TEST_ASSERT_NULL(strstr(got(files[1]), "no row yet"));
-    ask(&what); /* again */
+    ask(&what); /* runs the command again */
     TEST_ASSERT_EQUAL(0, what.status);
     TEST_ASSERT_NOT_NULL(strstr(what.out, "has this record already"));
 

@@ -50,14 +50,15 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
             const char *changes[NAMES + 1];
             char wanted[80];
             said what;
-            for (int k = 0; k < NAMES; k++) { /* all of them once: good */
+            for (int k = 0; k < NAMES; k++) { /* all names, once each: accepted */
                 snprintf(text[k], sizeof text[k], "%s=%.3f %s", names[k],
                          dice_between(&d, 0.1, 1.0), units[k]);
                 changes[k] = text[k];
             }
             tell(&ways[w], changes, NAMES, &what);
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
-            const bool same = dice_one_of(&d, 2) == 0; /* also with the same value */
+            /* the second time with the same value, or another */
+            const bool same = dice_one_of(&d, 2) == 0;
             snprintf(text[NAMES], sizeof text[NAMES], "%s = %s%s", names[i],
                      same ? strchr(text[i], '=') + 1 : "7 ", same ? "" : units[i]);
             changes[NAMES] = text[NAMES];
@@ -75,9 +76,9 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
 /* A measure of finite samples overflows; the same samples, made small enough, give a number. */
 TEST(command_changes, measures_that_overflow_fail_their_points) {
     static const struct {
-        const char *measure; /* of x swinging over +-1 */
-        double most;         /* of the factor, in 1e308, with a finite measure */
-        double least;        /* with an infinite one */
+        const char *measure; /* a measure of x, which oscillates between -1 and 1 */
+        double most;         /* largest factor of x, in 1e308, for which the measure is finite */
+        double least;        /* least factor for which it is infinite */
     } cases[] = {{"mean", 1e-8, 0.1}, {"amplitude", 0.8, 1.5}, {"period", 1e-8, 1.5}};
     dice d = dice_of("overflows", 4302);
     for (unsigned i = 0; i < 30; i++) {

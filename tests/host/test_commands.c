@@ -133,7 +133,7 @@ TEST(commands, built_in_names) {
     static const struct {
         const char *target;
         const char *file; /* NULL: refused */
-        const char *name; /* or the message */
+        const char *name; /* a name, or the message */
     } all[] = {{"spun", "one.whirl", "spun"},
                {"gear:spun", "one.whirl", "spun"},
                {"gear:slow", "three.whirl", "slow"},

@@ -1,5 +1,5 @@
-/* test_contact.c: contacts too busy for a step that is also too coarse for a spring or a damper. The remedy in a
- * warning must cure all reported problems. */
+/* test_contact.c: contacts with more events than a step can resolve, while the step is also too coarse for a spring or
+ * a damper. The remedy in a warning must remove all reported problems. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -210,8 +210,8 @@ static double pi(void) { return acos(-1.0); }
 #define ALL_KG (4.0 * ECCENTRIC_KG)                                     /* weight ratio 1/3 */
 #define MOMENT_KG_M (2.0 * LB * INCH * (0.152 * 7.25 / 2 + 0.15 * 6.5)) /* sum of m r */
 
-/* Largest and least X over the next `turns` turns. A turn is not a whole number of steps. So over twenty turns
- * some step ends within a twentieth of a step of the swing's end: (0.05 w h)^2/2, 2e-6 of the swing. */
+/* Largest and least X over the next `turns` turns. A turn is not a whole number of steps. So in twenty turns some step
+ * ends within a twentieth of a step of an extreme. The error is then (0.05 w h)^2/2, 2e-6 of the range. */
 static void swing(motion *m, double turns, double *least, double *most) {
     const double until = motion_value(m, "theta") + turns * 2.0 * pi();
     *least = HUGE_VAL;
@@ -343,7 +343,7 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     return true;
 }
 
-/* A hold that captures at that moment, beside resting stops that may be released. */
+/* Draws a hold that captures at the time of the impact, next to resting stops that may be released. */
 static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
@@ -455,7 +455,7 @@ TEST(contact_law, holds_capture_by_their_law) {
 
 /* --- forces ---------------------------------------------------------------------------------------------------- */
 
-/* At rest on its stops, held and sticking; then the loads act. */
+/* Draws a body at rest on its stops, with active holds and sticking friction; then the loads act. */
 static void draw_rest(uint64_t *seed, drawn *b) {
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
@@ -530,7 +530,8 @@ TEST(contact_law, forces_share_a_load_by_their_law_in_float) { check_forces(&eng
 
 /* --- impacts and forces ---------------------------------------------------------------------------------------- */
 
-/* The same with loads that press and lift, and speeds from fast to almost zero, so that some flights are too short. */
+/* Draws the same with loads in both directions, and speeds from fast to almost zero, so that some flights are too
+ * short. */
 static bool draw_mixed(uint64_t *seed, drawn *b) {
     if (!draw_impact(seed, DRAWN_STEP_S / 2.0, b)) {
         return false;

@@ -1,5 +1,5 @@
-/* test_contact_bound.c: random states of every built-in scene with contacts. No step evaluates the accelerations more
- * often than declared or hangs, and no stop, friction or hold adds energy.
+/* test_contact_bound.c: random states of every built-in scene with contacts. No step hangs or evaluates the
+ * accelerations more often than declared, and no stop, friction or hold adds energy.
  *
  * RANDOM_STEPS steps per scene; WHIRL_RANDOM_STEPS asks for more. */
 #include "command.h"
@@ -109,7 +109,8 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         uint64_t overruns;
         wh_status status = WH_OK;
         for (int i = 0; i < RUN && status == WH_OK; i++) {
-            status = kind->step(run); /* a state perturbed too far may be refused */
+            /* the step is refused if the random state is too far outside the possible ones */
+            status = kind->step(run);
             const uint64_t now = kind->evaluations(run, &w.declared);
             w.evaluations = now - before > w.evaluations ? now - before : w.evaluations;
             before = now;

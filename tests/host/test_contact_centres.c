@@ -181,7 +181,7 @@ static outcome run(const machine *c, const engine_kind *kind, double h, double u
     return o;
 }
 
-/* Machines at rest, started exactly at a dead centre and driven; slow passages, fast ones. */
+/* Draws a machine. Some start at rest exactly at a dead centre and are driven; others pass it slowly or fast. */
 static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     machine c = {.kind = kind};
     c.J = random_between(seed, 0.05, 0.4);
@@ -193,11 +193,11 @@ static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     c.a = random_between(seed, -3.0, 3.0);
     c.rate = random_between(seed, 3.0, 15.0) * (random_bits(seed) % 2U != 0 ? 1.0 : -1.0);
     c.torque_Nm = 0.0;
-    if (how == 1) { /* at the centre at rest, and driven */
+    if (how == 1) { /* at the dead centre at rest, and driven */
         c.a = 0.0;
         c.rate = 0.0;
         c.torque_Nm = random_between(seed, 5.0, 12.0);
-    } else if (how == 2) { /* at the centre, in motion */
+    } else if (how == 2) { /* at the dead centre, in motion */
         c.a = 0.0;
     } else if (how == 3) { /* a heavy wheel creeps over it */
         c.J = random_between(seed, 1e3, 1e5);

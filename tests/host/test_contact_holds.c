@@ -1,5 +1,5 @@
-/* test_contact_holds.c: holds keep their place over 1e5 steps and more: rods, linkages, gears. The held value is state;
- * an assignment sets it again. Linkages that lie flat are refused. */
+/* test_contact_holds.c: holds keep their value for 1e5 steps and more: rods, linkages, gears. The value that a hold
+ * keeps is part of the state, and an assignment changes it. Linkages in their flat position are refused. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -137,8 +137,8 @@ TEST(contact_holds, linkages_stay_closed) {
     }
 }
 
-/* If shortest + longest equals the sum of the others, the linkage lies flat once per turn. From there it can continue in two
- * ways. */
+/* If shortest + longest equals the sum of the others, the linkage lies flat once per turn. From that position two
+ * motions are possible. */
 TEST(contact_holds, a_flat_linkage_is_refused) {
     const char *asked = getenv("WHIRL_FLAT_RUNS");
     const int runs =
@@ -176,7 +176,7 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
                 printf("%sstatus %d, a = %g, %s\n", text, (int)status, motion_value(&m, "a"),
                        KINDS[n]->name);
             }
-            /* the run does not end much earlier, and the last good state is kept */
+            /* the run does not end much earlier, and its last good state stays */
             missed[n] += status != WH_E_SINGULAR || flat > 0.1;
             motion_close(&m);
         }
@@ -220,7 +220,8 @@ TEST(contact_holds, gears_keep_their_mesh) {
 
 /* --- held values are state -------------------------------------------------------------------------------------- */
 
-/* An assignment that moves a held body is not undone: the hold keeps the new place, and the energy balance closes. */
+/* An assignment that moves a held body is not undone: the hold keeps the new value, and the energy balance has no
+ * residual. */
 TEST(contact_holds, an_assignment_gives_it_anew) {
     uint64_t seed = 15;
     for (int i = 0; i < 10; i++) {
@@ -253,7 +254,7 @@ TEST(contact_holds, an_assignment_gives_it_anew) {
 }
 
 /* An input raises a stop. Bodies held to the body on it, directly or along a chain, with a coupled or uncoupled mass
- * matrix, move along by the distance that keeps the hold. */
+ * matrix, move by the distance that satisfies the holds. */
 TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
     uint64_t seed = 17;
     double worst[2] = {0.0, 0.0};
@@ -278,7 +279,7 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 5));
         const double kept[2] = {motion_value(&m, "off_y"), motion_value(&m, "off_z")};
         for (int step = 0; step < 20; step++) {
-            const double u = 0.01 * (step % 7); /* up at once or in steps, and down again */
+            const double u = 0.01 * (step % 7); /* raised at once or in steps, and lowered again */
             m.kind->set_input(m.run, 0, u);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
             worst[number] = fmax(worst[number], fabs(motion_value(&m, "off_y") - kept[0]));
@@ -296,8 +297,8 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
 /* An expression and its bodies of 1 kg or kg*m^2, pushed along it by $f. */
 typedef struct held {
     const char *expression;
-    const char *unit; /* of the expression, */
-    const char *push; /* of the force */
+    const char *unit; /* unit of the expression, */
+    const char *push; /* and of the force */
     const char *coordinates;
     const char *kinetic;
     double yields; /* its acceleration by a force of 1; 0: not constant */
@@ -359,9 +360,9 @@ static const char *fill(const char *from, const held *of, const double number[st
     return to;
 }
 
-/* When a hold closes at its own limit, its condition equals the limit to the last digits. The hold stays closed in both
- * number formats, against any pull and through other events in the same steps, until another condition releases it. A hold
- * that starts at its limit stays closed, unless its body moves out. */
+/* A hold that closes because its expression reaches the limit of its own condition. The hold stays closed in both
+ * number formats, with any load and through other events in the same steps, until another condition releases it. A hold
+ * that starts at its limit stays closed, unless its body moves out of the condition. */
 TEST(contact_holds, a_hold_stays_at_its_own_limit) {
     dice d = dice_of("contact_holds", 1);
     int failures = 0;
@@ -433,8 +434,8 @@ static const stepping *each_number(int i) {
 
 /* --- the weaker contact -------------------------------------------------------------------------------- */
 
-/* Three contacts on two coordinates: the forces are not unique. No split of the load may move bodies that the contacts
- * can hold together. */
+/* Three contacts on two coordinates: the forces are not unique. However the load is shared, bodies that the contacts
+ * can hold must not move. */
 TEST(contact_load, leaning_blocks_rest_exactly) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
@@ -474,7 +475,7 @@ static void run_groove(const char *const slopes[2], const char *restitution,
     const uint64_t events = contacts_events(&m);
     printf("  %s, %s, %s, %s: %llu events, %llu overruns\n", slopes[0], slopes[1], restitution,
            kind->name, (unsigned long long)events, (unsigned long long)contacts_overruns(&m));
-    /* at rest in the corner; gravity and both sides leave only a product's round-off */
+    /* at rest in the corner: only the round-off of a product remains */
     const double speed = hypot(motion_value(&m, "x'"), motion_value(&m, "y'"));
     TEST_ASSERT_TRUE(speed < 1e-15);
     TEST_ASSERT_TRUE(hypot(motion_value(&m, "x"), motion_value(&m, "y")) < 1e-15);
@@ -568,7 +569,8 @@ TEST(contact_load, restitution_has_its_range_while_running) {
     motion_close(&m);
 }
 
-/* An assignment sets a held rate: the hold captures it again and books momentum m (2 - 0) and energy m 2^2/2. */
+/* An assignment sets the rate of a held expression. The hold captures again, and its ledger entries are the momentum m
+ * (2 - 0) and the energy m 2^2/2. */
 TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     static const char text[] =
         "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
@@ -611,11 +613,11 @@ TEST(contact_load, a_crossing_at_a_steps_end_is_located) {
 }
 
 /* === contact rest ============================================================================= */
-/* Bodies that come to rest together, pressed together only by their braking: static friction keeps them at rest in
- * spite of round-off in forces and rates. */
+/* Bodies that come to rest together and are pressed together only because they brake: static friction keeps them at
+ * rest in spite of round-off in forces and rates. */
 
-/* x brakes; y pushes it through a straight or curved buffer. The push on one of them is below its static friction. With
- * `both`, y rubs, too. */
+/* x brakes, and y pushes x through a straight or curved buffer. The push on one of them is below its static friction.
+ * If `both`, y has friction, too. */
 static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, size_t size) {
     const double mass[2] = {exp(random_between(seed, -1.0, 1.0)),
                             exp(random_between(seed, -1.0, 1.0))};
@@ -627,7 +629,7 @@ static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, siz
     const double ratio = random_bits(seed) % 3U != 0 ? random_between(seed, 0.5, 1.0) : 1.0;
     const double push = random_between(seed, -0.5, 0.5) * mu * ratio * normal;
     char second[160] = "";
-    if (both) { /* gently: y keeps pushing */
+    if (both) { /* a weak load: y keeps pushing */
         const double own = 0.05 * normal * slope * mass[1] / mass[0];
         snprintf(second, sizeof second, "friction y static %.17g kinetic %.17g normal %.17g [N]\n",
                  mu, mu * ratio, own);
@@ -681,7 +683,7 @@ TEST(contact_rest, wagons_that_both_brake) { check_wagons(true, true, "curved, b
 /* --- rows of wagons ---------------------------------------------------------------------------------------- */
 
 /* A row of wagons with brakes and plastic buffers, with or without a wall, pushed below static friction. They come to
- * rest in few events, in the same place for every step, without overlap. */
+ * rest with few events, at the same position for every step, without overlap. */
 static void write_row(uint64_t *seed, int wagons, bool wall, char *text, size_t size) {
     int at = snprintf(text, size, "mechanism row\n");
     char T[400] = "0";
@@ -778,8 +780,8 @@ TEST(contact_rest, rows_of_wagons) {
 
 /* --- a force elsewhere ------------------------------------------------------------------------------------------ */
 
-/* A growing force pulls a small body off or along, beside an unrelated large force on another body. The round-off of
- * one must not be mistaken for the other. */
+/* A growing force pulls or moves a light body, while a large, unrelated force acts on another body. The round-off of
+ * the large force must not decide about the light body. */
 TEST(contact_rest, a_force_elsewhere_holds_nothing) {
     for (int i = 0; i < 8; i++) {
         char text[700];

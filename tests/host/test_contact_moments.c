@@ -108,15 +108,16 @@ static int collide(chain *c, double *first_Ns) {
     return count;
 }
 
-/* The lower body stands free on the floor. Hit by the upper one, it is pulled off so hard that it moves up again before
- * the step ends. The floor must still be hit. */
+/* The lower body stands on the floor. After a hit by the upper one, a strong force pulls it up again before the step
+ * ends. The impact on the floor must still be found. */
 TEST(contact_moments, an_impact_that_is_over_within_the_step) {
     uint64_t seed = 8;
     for (int i = 0; i < 40; i++) {
         const double u = random_between(&seed, 0.2, 1.0);
         const double e = random_between(&seed, 0.2, 0.9);
         double mass[2] = {exp(random_between(&seed, -1.0, 1.0)), 0.0};
-        mass[1] = random_between(&seed, 0.05, 0.3) * e * mass[0]; /* it does not return */
+        /* so that the upper body does not come back */
+        mass[1] = random_between(&seed, 0.05, 0.3) * e * mass[0];
         chain c = {{1e300, mass[0], mass[1], 1.0}, {0.0, 0.0, -u, 1e300}, e, {0}};
         double floor_Ns;
         if (collide(&c, &floor_Ns) > 6) {
@@ -293,7 +294,7 @@ typedef struct row {
     double mass_kg[CONTACT_SQUEEZED_BODIES];
     double place_m[CONTACT_SQUEEZED_BODIES];
     double speed_mps[CONTACT_SQUEEZED_BODIES];
-    double end_m; /* the other wall's place; the first is at 0 */
+    double end_m; /* position of the other wall; the first is at 0 */
     double restitution[CONTACT_SQUEEZED_BODIES + 1];
     double normal_N; /* 0: no friction */
 } row;
@@ -386,7 +387,7 @@ TEST(contact_squeezed, nothing_is_squeezed_through) { watch_many(run_row); }
 
 enum { WALLS_MOST = 5, CAGE_STEPS = 60 };
 
-/* One body of two coordinates and any inertia among walls that enclose the origin, some with friction in both
+/* A body with two coordinates and any inertia between walls around the origin, some with friction in both
  * directions. */
 typedef struct cage {
     double mass_kg[3]; /* xx, xy, yy */
@@ -483,7 +484,7 @@ TEST(crossings, each_crossing_sets_its_own) {
             "T = 1 [kg]*(x'^2 + y'^2 + z'^2 + u'^2)/2\n"
             "scene s {\nstep 10 [ms]\nuntil 10 [s]\nstart x' = 1 [m/s]\n");
         double rate[3] = {0.0};
-        double rates[6][3]; /* after so many levels */
+        double rates[6][3]; /* rates after each level of rounds */
         memcpy(rates[0], rate, sizeof rate);
         for (int level = 0; level < levels; level++) {
             length += (size_t)snprintf(text + length, sizeof text - length,
@@ -523,15 +524,15 @@ TEST(crossings, each_crossing_sets_its_own) {
 
 /* --- crossings that reverse the motion -------------------------------------------------------------------------- */
 
-/* A body falls to or past a level under a pull of either sign, and a crossing sets its rate to k x' + c: mostly back,
- * or onward. Each reversal is one crossing; moving back over the location's residual is not another. Between crossings
- * it moves on a parabola with known crossing times. */
+/* A body falls to or past a level under a pull of either sign, and a crossing sets its rate to k x' + c: mostly in the
+ * opposite direction. Each reversal is one crossing; a return over the error of location is not another. Between
+ * crossings the motion is a parabola with known crossing times. */
 typedef struct bounce {
     int direction; /* of the crossing: +1 rising, -1 falling, 0 both */
     double pull;   /* m/s^2, downwards */
     double k;
     double c_mps;
-    double x_m; /* above the level */
+    double x_m; /* distance above the level */
     double v_mps;
 } bounce;
 
@@ -644,8 +645,8 @@ TEST(crossings, what_turns_back_crosses_once) {
     TEST_ASSERT_TRUE(taken > 10 && crowded > 1);
 }
 
-/* A body stops at its crossing and stands there, alone or by friction, until another crossing moves it on or back. That is
- * one crossing. On its way it crosses a second level, half a metre further, which counts too. */
+/* A body comes to rest at the level of its crossing, with friction or without, until another crossing moves it on or
+ * back. That is one crossing. Then it crosses a second level, half a metre further, which counts, too. */
 TEST(crossings, what_stands_at_its_crossing) {
     dice d = dice_of("what stands", 5521);
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -686,8 +687,8 @@ TEST(crossings, what_stands_at_its_crossing) {
     }
 }
 
-/* One crossing sets a body onto the level of another, and it moves on or back. Only levels passed by motion are
- * crossed. The level that it was set onto is not, nor is it crossed on leaving. */
+/* One crossing sets a body exactly onto the level of another crossing, and the body moves on or back. Only levels
+ * passed by motion are crossed: not the level onto which the body was set, neither then nor when it leaves. */
 TEST(crossings, what_is_set_onto_another) {
     dice d = dice_of("set onto", 5522);
     unsigned passed = 0;
@@ -757,7 +758,7 @@ TEST(crossings, what_impacts_throw_across) {
         const double due_s = hits == 0 ? passes_s : fall_s + passes_s;
         const double next_s = hits == 0 ? fall_s : 2.0 * fall_s;
         if (fabs(since_s - due_s) < 1e-2 || since_s < 1e-2 || next_s - since_s < 1e-2) {
-            continue; /* too near to decide in float */
+            continue; /* too near the level to decide in float */
         }
         motion m;
         motion_open_text(&m, text, i % 2 == 0 ? IN_DOUBLE : IN_FLOAT);

@@ -1,6 +1,6 @@
-/* test_contact_redundant.c: a plate on two to five supports in a line, more than needed: the load's distribution is
- * undetermined, the motion is not. It rests, or leaves all supports at once when they fall away faster, or tips over
- * the outermost one under a torque. Closed forms. */
+/* test_contact_redundant.c: a plate on two to five supports in a line, more than needed: the forces are not unique, but
+ * the motion is. The plate rests, or leaves all supports at once when they accelerate downwards faster than gravity, or
+ * tips over the outermost one under a torque. Compared with closed forms. */
 #include "command.h"
 #include "contacts.h"
 #include "motion.h"

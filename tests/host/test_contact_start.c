@@ -16,7 +16,7 @@ enum { MOST = 5 };
  * Any order of the stops. */
 typedef struct row {
     uint64_t seed;
-    double offset_m; /* of the places, so that gaps have round-off */
+    double offset_m; /* offset of all positions, so that gaps have round-off */
     double gap_m;
 } row;
 
@@ -321,8 +321,9 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
     return off_at(UNTIL_S, h, wanted, step_s, text);
 }
 
-/* If a motion is too fast for the step, both programs err; with an eighth of the step their errors are 4096 times smaller. A
- * check a little later is needed too, because an impact exactly at the end may have happened in only one of them. */
+/* If a motion is too fast for the step, Whirl and the reference both have errors; with an eighth of the step these are
+ * 4096 times smaller. The comparison is repeated slightly later, because an impact exactly at the end may have happened
+ * in only one of them. */
 static double off_in_finer(const hybrid *h, const char *text) {
     const double later_s = UNTIL_S + 8.0 * STEP_S;
     const hybrid_motion wanted = hybrid_move(h, HYBRID_STEP_S / 8.0, later_s, STEP_S);

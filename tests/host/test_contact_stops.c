@@ -82,7 +82,8 @@ TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
         const double height = dice_between(&d, 0.1, 2.0);
         const double speed = sqrt(2.0 * G * height);
         const double e = dice_between(&d, -0.6, 1.6);
-        const double slope = dice_between(&d, -0.2, 0.2); /* it starts at e - slope speed */
+        /* the body starts at the speed e - slope speed */
+        const double slope = dice_between(&d, -0.2, 0.2);
         const double begin = e - slope * speed;
         snprintf(text, sizeof text,
                  "mechanism ball\ncoordinate z [m]\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"

@@ -1,7 +1,8 @@
-/* test_cures.c: every named cure has been tried. Nonlinear motions run with ruinously coarse steps by all methods. They
- * are a charge by another, a chemical bond, hardening springs, a double pendulum, and a spring shaken by a heavy clock.
- * Linear theory sees another motion there. Each cure in a warning or failure is applied: then no warning remains, and
- * the energy agrees with this file's formulas. Untried cures must be named as such. */
+/* test_cures.c: every remedy in a warning works. Nonlinear motions run with much too coarse steps by all methods: a
+ * charge near another, a chemical bond, hardening springs, a double pendulum, and a spring driven by a heavy clock.
+ * Linear theory does not describe these motions. Each remedy in a warning or failure is applied: then no warning
+ * remains, and the energy agrees with this file's formulas. A remedy that Whirl has not tried must be marked as
+ * such. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -17,7 +18,7 @@ typedef enum ruined_kind { ORBIT, BOND, HARDENING, DOUBLE_PENDULUM, CLOCKED, KIN
 
 typedef struct ruined {
     ruined_kind kind;
-    double a, b; /* of the kind */
+    double a, b; /* parameters of the kind of motion */
     double step_s;
     unsigned steps;
     wh_method method;
@@ -167,9 +168,9 @@ TEST(cures, cures_were_tried) {
     TEST_ASSERT_TRUE(told > cases / 3 && done > told / 2 && untried <= told / 5);
 }
 
-/* A body rolls up to the top of a hill, where its errors grow as exp(t), beside a spring that needs a shorter step. In float,
- * round-off decides on which side it rolls down; that is chaos, and Whirl reports no finding. A cure in float must still be
- * right to the end. */
+/* A body rolls up to the top of a hill, where its errors grow as exp(t), beside a spring that needs a shorter step. In
+ * float, round-off decides on which side it rolls down; that is chaos, and Whirl reports no finding. A remedy in float
+ * must still give a right result to the end. */
 TEST(cures, cures_in_float_are_right_to_the_end) {
     dice d = dice_of("cures_float", 29112026);
     const unsigned cases = dice_cases(few_or_all(12, 60));

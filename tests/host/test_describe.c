@@ -105,9 +105,9 @@ TEST(describe, every_field_is_documented) {
 }
 
 /* === image rows =============================================================================== */
-/* The tables of an image, row by row. Each component, account and input has its place in the core's order
- * (core/scene.h, core/ledger.h), once, with the meaning of the file. A missing or shifted row would change no motion of
- * scenes without it. */
+/* The tables of an image, row by row. Each component, account and input has exactly one row, in the core's order
+ * (core/scene.h, core/ledger.h), with the meaning that the file gives. A missing or shifted row would not change the
+ * motion of scenes that do not use it. */
 
 /* --- momenta ------------------------------------------------------------------------------------------*/
 
@@ -160,7 +160,7 @@ TEST(image_rows, momenta_are_energy_by_time_over_their_coordinate) {
 /* --- components ---------------------------------------------------------------------------------------*/
 
 /* angle[] and real[]. Of second order: the angles, the other positions, all rates. Of first order: all states. Each
- * integrated unknown has one place; those recovered from momenta have no place. */
+ * integrated unknown has one row; those recovered from momenta have none. */
 static void check_components(const image *im, const char *name) {
     int seen[IMAGE_COMPONENTS_MAX][ORDERS_MAX] = {{0}};
     for (int i = 0; i < im->angles + im->reals; i++) {

@@ -160,7 +160,7 @@ static void check_equal_weights(const wheel *w) {
         expect_between("  least radius, m", w->ring_m - w->shift_m - 1e-12,
                        w->ring_m - w->shift_m + 1e-4, r[i].least);
     }
-    /* closed form: the weights' centre of mass does not move on the carriage, so nothing moves it */
+    /* closed form: the weights' centre of mass does not move on the carriage, so no force acts on the carriage */
     expect_between("  carriage, |X|, m", 0.0, 1e-12, range_drift(&r[0]));
     expect_between("  carriage, |Y|, m", 0.0, 1e-12, range_drift(&r[1]));
     const double all_kg = w->weights * w->weight_kg;

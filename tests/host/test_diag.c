@@ -85,7 +85,8 @@ TEST(diag, order) {
     for (unsigned c = 0; c < cases; c++) {
         told rows[ERRORS_MOST];
         const int count = 1 + (int)dice_one_of(&d, ERRORS_MOST);
-        const unsigned few = 1 + dice_one_of(&d, LENGTH); /* so that places repeat */
+        /* so that several errors have the same place */
+        const unsigned few = 1 + dice_one_of(&d, LENGTH);
         for (int i = 0; i < count; i++) {
             rows[i] = (told){(int)dice_one_of(&d, FILES), dice_one_of(&d, few)};
             const place at = {&files[rows[i].file], 1, (int)rows[i].offset + 1, rows[i].offset};

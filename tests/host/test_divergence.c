@@ -41,7 +41,7 @@ static const char rotor[] = "mechanism rotor\n"
 static const engine_kind *const kinds[] = {&engine_float, &engine_double};
 
 /* Steps until failure, at most `most` steps. The state must be the one before the failed step, and further steps must
- * fail alike. Returns the completed steps. */
+ * fail in the same way. Returns the completed steps. */
 static uint64_t run_into_failure(motion *m, unsigned most) {
     const uint64_t first = m->kind->steps(m->run);
     uint64_t before = m->kind->hash(m->run);
@@ -385,8 +385,8 @@ static double factor(int order, double z) {
     return sum;
 }
 
-/* The finer run uses the method if its order is 4, else RK4. If both share the order, a factor 16/15 adds the finer
- * run's own error. */
+/* The finer run uses the method if its order is 4, else RK4. If both have the same order, the error of the finer run
+ * adds a factor 16/15. */
 static void hold_growth(dice *d, wh_method method, int order, bool events) {
     const double size = dice_between(d, 0.05, 0.3);
     const int steps = (int)(dice_between(d, 3.0, 12.0) / size);
@@ -725,7 +725,8 @@ TEST(trust_kinks, exact_steps_are_right_to_the_end) {
     TEST_ASSERT_TRUE(worst > 0.0 && worst < 1e-11);
 }
 
-/* Two undamped masses on springs: phases drift from the truth, until both report it. */
+/* Two undamped masses on springs: the phases of the run deviate more and more from the exact ones, until the warning
+ * and the exact error agree that they are too large. */
 TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
     dice d = dice_of("trust matrix", 1409);
     int ended = 0;
@@ -854,8 +855,8 @@ TEST(twins, plain_settings) {
 
 /* --- the report ------------------------------------------------------------------------------------------ */
 
-/* The extremes belong to the motion, and the difference at the end to two separate runs. A rate's round-off moves its
- * coordinate for the whole time. */
+/* The extremes are those of the motion, and the difference at the end is that of two separate runs. The round-off of a
+ * rate moves its coordinate for the whole time. */
 TEST(twins, what_is_told) {
     static const struct {
         const char *name;
@@ -900,7 +901,7 @@ TEST(twins, what_is_told) {
     }
 }
 
-/* Of 1200 steps: before the next one. */
+/* Before the next one of 1200 steps. */
 TEST(twins, an_end_from_outside) {
     char text[TEXT];
     motion m;
@@ -954,7 +955,7 @@ TEST(twins, what_they_take) {
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = method});
         const double told = step_doubling_operations(m.image, m.image);
         const int own = wh_methods[method].order >= 4 ? (int)method : (int)WH_METHOD_DEFAULT;
-        const int methods[] = {(int)method, own, own}; /* the finer run takes two */
+        const int methods[] = {(int)method, own, own}; /* the finer run takes two methods */
         double counted = 0.0;
         for (int k = 0; k < 3; k++) {
             motion run;

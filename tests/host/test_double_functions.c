@@ -25,7 +25,7 @@ static double within(double least, double most) { return least + (most - least) 
 static double either(double x) { return (scattered() & 1U) != 0 ? -x : x; }
 /* Any bits: every exponent equally often, with zeros, subnormals, infinities and NaN. */
 static double any(void) { return wh_of_bits(scattered()); }
-/* Every exponent from 2^least to 2^most equally often. */
+/* A random number whose exponent is uniform from `least` to `most`. */
 static double scaled_between(int least, int most) {
     const int exponent = least + (int)(scattered() % (uint64_t)(most - least));
     return either(ldexp(1.0 + unit(), exponent));
@@ -144,7 +144,7 @@ TEST(double_functions, atan2) {
             if (kind == 1) {
                 y = within(-1.0, 1.0);
                 x = within(-1.0, 1.0);
-            } else if (kind == 2) { /* of similar size */
+            } else if (kind == 2) { /* two numbers of similar size */
                 x = isfinite(y) ? y * either(within(0.01, 1.0)) : x;
             } else if (kind == 3) {
                 x = isfinite(y) ? y * scaled_between(-70, 70) : x;

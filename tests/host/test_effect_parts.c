@@ -230,7 +230,7 @@ TEST(effect_parts, inertia_of_effects) {
 /* --- noise and inputs of effects -------------------------------------------------------------- */
 
 /* Noise acts on the records alone, the same everywhere; inputs of effects. */
-#define SMALL 1e-9 /* far above a parabola's round-off in 1000 steps of RK4 */
+#define SMALL 1e-9 /* far above the round-off of a parabola in 1000 steps of RK4 */
 
 /* --- noise ------------------------------------------------------------------------------------------------------ */
 

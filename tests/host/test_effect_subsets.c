@@ -30,7 +30,7 @@ enum { MOST = 8, X = 0, VX = 1, Y = 2, VY = 3, N = 4, STEPS = 2000, CASES = 50, 
 #define STEP_S 1e-3
 
 typedef struct carts {
-    int kind[MOST]; /* [effects], each once */
+    int kind[MOST]; /* [effects] a permutation of the kinds */
     int effects;
     double p[KINDS];
     double m[2]; /* kg */
@@ -300,7 +300,8 @@ static int ties(const subsets *s, const double (*moved)[2], unsigned acting, uns
     return found;
 }
 
-/* In every second case, the limits for which most sets are equally small: then the price decides. */
+/* In every second case, draws the limits for which the largest number of sets has the least size: then the price
+ * decides. */
 static void draw_limits(dice *d, subsets *s, const double (*moved)[2], unsigned acting,
                         unsigned count) {
     double best[2] = {0.0, 0.0};

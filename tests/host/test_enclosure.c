@@ -40,7 +40,7 @@ static void expect_holds(const char *what, enclosure got, quad exact) {
     TEST_ASSERT_TRUE_MESSAGE((quad)got.low <= exact && exact <= (quad)got.high, message);
 }
 
-/* For points: at most so many units in the last place between the ends. */
+/* For point arguments: at most `units` units in the last place between the ends. */
 static void expect_narrow(const char *what, enclosure got, double units) {
     const double unit = fmax(fabs(got.low), fabs(got.high)) * 0x1p-52 + 1e-300;
     TEST_ASSERT_TRUE_MESSAGE(got.high - got.low <= units * unit, what);

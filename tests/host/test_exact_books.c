@@ -93,7 +93,7 @@ TEST(exact_books, long_exact_steps_are_believed) {
 
 typedef struct free_scene {
     const char *name;
-    bool drifts; /* by the method's error; else only by round-off */
+    bool drifts; /* drifts because of the method's error; otherwise only by round-off */
 } free_scene;
 
 static const free_scene FREE[] = {
@@ -186,7 +186,7 @@ static bool listed(const char *name) {
     return false;
 }
 
-/* 1 if it is force-free. Fails if the list says otherwise. */
+/* Returns 1 if the scene has no external forces. Fails if that contradicts the list. */
 static int check_listed(const scene *s) {
     diags *errors = diags_new();
     instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
@@ -215,7 +215,7 @@ TEST(force_free, no_force_free_scene_is_forgotten) {
 
 enum { QUANTITIES_MAX = 8 };
 
-/* The momenta, then the places of the centre of mass, along the free coordinates. */
+/* The momenta along the free coordinates, then the positions of the centre of mass. */
 typedef struct drifts {
     unsigned count;
     unsigned momenta; /* count of momenta, which come first */
@@ -309,7 +309,7 @@ TEST(force_free, momentum_and_centre_of_mass_stay_at_each_scenes_own_step) {
 enum { ENTRIES_MAX = 400 };
 
 typedef struct account_book {
-    double smooth; /* of the energies, inputs and dampers */
+    double smooth; /* sum of the entries of energies, inputs and dampers */
     double contact[16];
     double left_over; /* numerical drift */
 } account_book;

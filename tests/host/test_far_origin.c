@@ -1,8 +1,8 @@
 /* test_far_origin.c: energy residual of runs far from the origin. Energies are expanded, so the terms of k (x - b)^2/2
- * with x near b are (b/amplitude)^2 larger than the energy. Their round-off is not the step's error. The origin of
- * random mechanisms is 1 to 1e8 amplitudes away. A fine step must cause no warning, and a coarse one must not be
- * trusted, as far as round-off allows a verdict. A number format with too few digits must be reported exactly when it
- * matters, and the proposed remedy is applied. */
+ * with x near b are (b/amplitude)^2 larger than the energy. Their round-off does not count as an error of the step. The
+ * origin of random mechanisms is 1 to 1e8 amplitudes away. A fine step must cause no warning, and a coarse one must not
+ * be trusted, as far as round-off allows a verdict. A number format with too few digits must be reported exactly when
+ * it matters, and the proposed remedy is applied. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -163,8 +163,8 @@ static double far_most(far_kind kind, bool is_float) {
     return kind == SOFT ? (is_float ? 2.0 : 6.0) : kind == WAVE && is_float ? 5.0 : 8.0;
 }
 
-/* A float has thousands of round-offs of 1e-7 of the distance. That is little of a swing up to a thousand amplitudes,
- * and more than a hundredth from a hundred thousand on. Beyond 1e7 the swing is lost. */
+/* A float has thousands of round-offs of 1e-7 of the distance. Up to a thousand amplitudes away, that is a small part
+ * of the motion; from a hundred thousand on, more than a hundredth; beyond 1e7 the motion is lost. */
 static void expect_fine(const said *what, far_kind kind, bool is_float, double tens,
                         const char *text) {
     const bool swings = kind == SPRING || kind == APART || kind == PARAMETER || kind == DAMPED;
@@ -264,7 +264,8 @@ TEST(far_origin, carts_that_stand) {
         const double step_s = pow(10.0, dice_between(&d, -4.0, -2.0));
         const unsigned steps = 200 + dice_one_of(&d, 3000);
         const double way_m = speed_mps * step_s * steps;
-        const double places = pow(10.0, dice_between(&d, -4.0, 1.0)); /* in a step */
+        /* units in the last place per step */
+        const double places = pow(10.0, dice_between(&d, -4.0, 1.0));
         const double far_m =
             floor(speed_mps * step_s * places * (is_float ? 0x1p24 : 0x1p53) / 16.0) * 16.0;
         if (far_m > 9e14) { /* beyond 1e15 a run ends */
@@ -342,7 +343,7 @@ TEST(far_origin, cures_are_silent) {
             said then;
             const int end = named_words(&list[c], method, "float", words, 2);
             if (i % 3U == 0 && !list[c].compensated) {
-                words[end] = "--compensated"; /* as before */
+                words[end] = "--compensated"; /* the options of the first run */
                 words[end + 1] = NULL;
             }
             command_say(command_run, words, &then);

@@ -15,13 +15,13 @@ typedef struct slope_case {
     int steps;
 } slope_case;
 
-/* Lengths; further away, two double runs may stand still alike. */
+/* A distance in lengths. Further away, two runs in double may both stand still. */
 #define TOLD_MOST 4e7
 
 enum { RECORDS = 40, COLUMNS = 5 };
 
 typedef struct motion_rows {
-    int columns; /* with the time */
+    int columns; /* number of columns, with the time */
     int rows;
     double value[RECORDS + 2][COLUMNS];
 } motion_rows;
@@ -65,7 +65,7 @@ static void slope_mechanism(const slope_case *c, double far_m, char *text, size_
 static void run_with(const slope_case *c, const char *text, const char *number, const char *more,
                      said *what) {
     char every[40];
-    const int stride = c->steps / RECORDS; /* whole */
+    const int stride = c->steps / RECORDS; /* a whole number */
     snprintf(every, sizeof every, "%.17gs", stride * c->step_s);
     const char *words[] = {model_keep(text), "--number", number, "--csv", "-",
                            "--every",        every,      more,   NULL};

@@ -1,5 +1,5 @@
-/* test_faults.c: the verdicts of the fault campaign: draws are reproducible and readable; the judge's truth equals
- * closed forms; it finds every violation and nothing else. */
+/* test_faults.c: the verdicts of the fault campaign: random cases are reproducible; the true force and speed equal
+ * closed forms; every violation of a rule is found, and nothing else. */
 #include "test.h"
 
 #include <unistd.h>
@@ -57,13 +57,13 @@ typedef struct made_up {
     int turns;
     const char *fault;
     double on_s;  /* the enable is on from here, */
-    double off_s; /* to here */
+    double off_s; /* the drive is on until this time */
     bool drives;
     bool calibration;
     bool runs_away;
-    int state; /* that it reports, */
+    int state; /* the state that the controller reports, */
     int trip;
-    int state_after; /* and after a reset */
+    int state_after; /* and that after a reset */
     int trip_after;
     int cause;
     bool delays;
@@ -85,7 +85,7 @@ static const made_up honest = {.rpm = 330.0,
                                .cause = 2,
                                .end = LOCKSTEP_DONE};
 
-/* A processor in reset starts again; true: it started and is has not sent anything. */
+/* A processor in reset starts again. Returns true if it has started and has not sent anything. */
 static bool starts_again(plant *on) {
     if (on->reset.now) {
         TEST_ASSERT_TRUE(plant_advance(on, on->reset.last_ticks + on->reset.takes_ticks));
@@ -172,8 +172,8 @@ TEST(faults, truth) {
     }
 }
 
-/* A wrong result is no lie if its quality is not good, it has no turns, its stated interval covers the error, or only
- * calibration could find it. */
+/* A wrong result does not count as a lie if its quality is not good, it has no turns, its interval contains the true
+ * value, or only calibration could show the error. */
 TEST(faults, no_lies) {
     made_up wrong = honest;
     wrong.amplitude_N = 21.0;
@@ -195,7 +195,7 @@ TEST(faults, no_lies) {
     m = wrong;
     m.half_N = 25.0;
     TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
-    m = honest; /* more turns than recorded */
+    m = honest; /* the case of more turns than recorded */
     m.turns = 40;
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
     m = honest;
@@ -213,11 +213,11 @@ TEST(faults, off_is_off) {
         m = honest;
         m.state = states[i];
         m.swing_J = 0.0;
-        m.fault = "stuck@0.5"; /* from then on it gets faster */
+        m.fault = "stuck@0.5"; /* from then on each turn is faster */
         m.off_s = 99.0;
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.stays_on && v.runs_on && v.untold == (states[i] != 4));
-        m.off_s = 1.2; /* the second turn is over after 0.86 s */
+        m.off_s = 1.2; /* the second turn ends after 0.86 s */
         v = judged(&m);
         TEST_ASSERT_TRUE(!v.stays_on && !v.runs_on && v.untold == (states[i] != 4));
         m.fault = "stuck@2.9";
@@ -232,14 +232,14 @@ TEST(faults, stops) {
     m.off_s = 1.001;
     verdict v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && fabs(v.halted_s - 2e-3) < 3e-4);
-    m.off_s = 0.5; /* it was off already */
+    m.off_s = 0.5; /* the enable was already off */
     v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && v.halted_s == 0.0);
-    m.off_s = 1.003; /* an order too late, */
+    m.off_s = 1.003; /* an order that comes too late, */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    m.off_s = 99.0; /* or never */
+    m.off_s = 99.0; /* or never comes */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    for (int when = 0; when < 12; when++) { /* again, while pressed or afterwards */
+    for (int when = 0; when < 12; when++) { /* driven again while stop is pressed, or afterwards */
         m.on_s = 1.02 + when * 0.13;
         m.off_s = m.on_s + 0.02;
         TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
@@ -248,7 +248,8 @@ TEST(faults, stops) {
     TEST_ASSERT_FALSE(judged(&m).halted);
 }
 
-/* Off in that instant, permanently; the trip is known afterwards, and so is the reset. */
+/* After a reset the motor is off at once, permanently. The controller must know the trip afterwards, and the reset must
+ * be recorded. */
 TEST(faults, resets) {
     made_up m = honest;
     for (int when = 0; when < 10; when++) {
@@ -260,7 +261,7 @@ TEST(faults, resets) {
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.halted && v.happened && v.halted_s < 1e-9 && v.halted_s >= 0.0);
         TEST_ASSERT_FALSE(v.forgets || v.latched);
-        m.off_s = 99.0; /* it continues in its state */
+        m.off_s = 99.0; /* the controller continues in its state */
         v = judged(&m);
         TEST_ASSERT_TRUE(v.halted_s < 0.0);
         m.on_s = 2.0;
@@ -298,7 +299,7 @@ static char firmware[512];
 static motion cart;
 static lockstep_report report;
 
-/* In the folder of this program. */
+/* Finds the firmware in the folder of this program. */
 static void find_firmware(void) {
     const ssize_t length = readlink("/proc/self/exe", firmware, sizeof firmware - 20);
     firmware[length > 0 ? length : 0] = '\0';
@@ -406,7 +407,8 @@ static void test_listening(void) {
     TEST_ASSERT_TRUE(heard.most_N > 1.0F && heard.most_N <= 20.0F);
 }
 
-/* A watching tap sees the plant move and changes nothing, also while the firmware computes for ten milliseconds. */
+/* A watching tap gets the states of the plant and changes nothing, even if the firmware computes for ten
+ * milliseconds. */
 static void test_watching(void) {
     for (int late = 0; late < 2; late++) {
         lockstep_wish wish = wish_until(1.5);
@@ -490,7 +492,7 @@ static void test_tapes_of_tapped_runs(void) {
     tape_of_a_tapped_run(&taps[1], 300);
 }
 
-/* A processor says hello again after a reset; only exchanges during the reset are missing. */
+/* After a reset the processor sends its hello again; only the exchanges during the reset are missing. */
 static void test_tapes_of_resets(void) {
     static const struct {
         const char *words;
@@ -538,8 +540,9 @@ SUITE(lockstep) {
 }
 
 /* === replay =================================================================================== */
-/* A random tape in place of the plant (host/pil/taped.c): played to its end or the firmware's. It ends at the first
- * different answer, with a message, and is refused if it belongs to another firmware or is invalid. */
+/* A random tape replaces the plant (host/pil/taped.c). It is played to its end or to the end of the firmware. The
+ * replay ends at the first answer that differs, with a message. A tape of another firmware, or an invalid one, is
+ * refused. */
 
 /* Plays the tape and expects this end after `turns` turns. Returns the message. */
 static const char *replay(lockstep_end end, unsigned turns, bool with_hello) {

@@ -25,7 +25,7 @@ typedef struct short_run {
     int steps;
     bool by_force; /* which does work; else a spring */
     bool stop;
-    double beside_N; /* on a falling body beside it, whose energy may dominate */
+    double beside_N; /* force on a second, falling body, whose energy may dominate */
 } short_run;
 
 static short_run draw(dice *d) {
@@ -62,7 +62,7 @@ static double off_by(const short_run *r, const char *csv) {
     double off[2] = {0.0, 0.0};
     double low[2] = {r->start_m, 0.0};
     double high[2] = {r->start_m, 0.0};
-    double value[5]; /* time, both places, both rates */
+    double value[5]; /* time, both positions, both rates */
     for (const char *row = csv; (row = said_row(row, 5, value)) != NULL;) {
         const double phase = r->swing_radps * value[0];
         const double is[2] = {r->start_m * cos(phase), -r->start_m * r->swing_radps * sin(phase)};
@@ -166,8 +166,9 @@ TEST(small_told, slow_angles) {
     model_drop();
 }
 
-/* A body that moves by a few to some hundred of float's least numbers. Round-off must be reported above a fiftieth of
- * the way, and not below a thousandth. The same for a spring whose products of rates fall below the normal numbers. */
+/* A body that moves by a few to some hundred of float's smallest numbers. Round-off must be reported if it is above a
+ * fiftieth of the distance, and not below a thousandth. The same for a spring whose products of rates are below the
+ * normal numbers. */
 TEST(small_told, small_numbers) {
     unsigned told = 0;
     for (unsigned n = 0; n < dice_cases(usual_or(40, 20)); n++) {
@@ -202,8 +203,8 @@ TEST(small_told, small_numbers) {
     model_drop();
 }
 
-/* A damper takes powers too small for float, beside a stop, for which the run keeps the account itself. The motion is
- * right, so the balance must allow for them. */
+/* A damper whose power is too small for float, with a stop, for which the run computes the energy account itself. The
+ * motion is right, so the account must not be reported. */
 TEST(small_told, lost_powers) {
     for (unsigned n = 0; n < dice_cases(8); n++) {
         char text[300];
@@ -260,13 +261,14 @@ TEST(sweeps_told, failures) {
 
 /* === thresholds =============================================================================== */
 /* Each finding on both sides of its limit (host/check/finding.h). A scene with one parameter causes no report at one
- * end and one at the other. Bisection finds the place of the limit: just beyond it the finding is reported, with a
- * value just beyond the limit; just within it is not. That place is known, mostly in closed form, so that a limit wrong
- * by a twentieth fails. Findings that count steps have their own suites (pole, missed, busy). */
+ * end and one at the other. Bisection finds the parameter at the limit. Just beyond it, the finding is reported with a
+ * value just beyond the limit; just within it, there is no report. The parameter at the limit is known, mostly in
+ * closed form, so that a limit that is wrong by 5 % fails. Findings that count steps have their own suites (pole,
+ * missed, busy). */
 
 enum { TEXT = 1200, HALVINGS = 24 };
 
-/* "%1$.17g" is the parameter, in the decade `silent` to `told`, randomly extended at both ends. */
+/* "%1$.17g" is the parameter. It is drawn between `silent` and `told`, and somewhat beyond. */
 static const struct {
     finding_id id;
     const char *number;

@@ -91,7 +91,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     const outcome end = run_of(&d);
     const double span = 2.0 * value;
     const double where = kind == 1 ? end.angle[0] : end.real[0];
-    /* a start and an input are each rounded once, too */
+    /* the start and the input each have one rounding error, too */
     double worst = fabs(where - span) / span;
     worst = kind == 0 ? fmax(worst, fabs(end.real[1] - span) / span) : worst;
     TEST_ASSERT_FALSE_MESSAGE(end.held, text);
@@ -131,7 +131,7 @@ TEST(fixed_loss, books_believe_what_is_right) {
     for (int mass = -6; mass <= 6; mass += 2) {
         for (int spring = -6; spring <= 6; spring += 2) {
             const double w = pow(10.0, 0.5 * (spring - mass));
-            if (w > 100.0) { /* too coarse a step */
+            if (w > 100.0) { /* the step is too coarse */
                 continue;
             }
             char *text = alloc_words(
@@ -217,7 +217,7 @@ static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t see
     }
 }
 
-/* Its run to the end: real[reals], then angles; the largest value of each real. */
+/* Runs the scene to its end. Results: real[reals], then the angles; and the largest value of each real. */
 static uint64_t run(const engine_kind *kind, const image *im, double *end, double *far) {
     void *of = kind->start(im);
     for (uint64_t k = 0; k <= im->steps; k++) {
@@ -293,7 +293,7 @@ static void check_saturation(const derived *d, const char *text) {
     fixed_plan *p = plan_of(d->image, &report);
     TEST_ASSERT_TRUE_MESSAGE((p == NULL) == (report[0] != '\0'), report);
     free(report);
-    if (p == NULL) { /* it may start outside */
+    if (p == NULL) { /* the scene may start outside its ranges */
         return;
     }
     d->image->fixed = p;
@@ -511,7 +511,7 @@ static double range_bound_of(const fixed_plan *p, int at, int rate, double until
 TEST(fixed_ranges, what_has_no_acceleration_moves) {
     static const struct {
         const char *text;
-        int at, rate; /* of the reals; -1: the angle, or absent */
+        int at, rate; /* indices of position and rate in the reals; -1: the angle, or absent */
         bool moves;
     } kinds[] = {
         {"coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nscene s { start a' = %.9f [rad/s]", -1, 0,
@@ -552,8 +552,7 @@ TEST(fixed_ranges, what_has_no_acceleration_moves) {
     }
 }
 
-/* A swing so small that a step adds more at the lowest place than the whole range of the rate: with all ranges not
- * declared. */
+/* An oscillation that is so small that one step changes the rate by more than its whole range. No range is declared. */
 TEST(fixed_ranges, small_swings) {
     for (int power = -7; power <= 0; power++) {
         char *text = alloc_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"

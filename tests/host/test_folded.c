@@ -30,7 +30,7 @@ typedef struct held {
     int links;
     double mass_kg[MOST];
     link link[LINKS];
-    double start[MOST]; /* of the coordinates */
+    double start[MOST]; /* start of each coordinate */
     double step_s;
     int steps;
     bool by_equations;
@@ -95,7 +95,8 @@ static void put_energies(FILE *out, const held *h) {
 static void put_equations(FILE *out, const held *h) {
     for (int q = 0; q < h->bodies; q++) {
         fputs("equation 0 [N]", out);
-        for (int b = q; b < h->bodies; b++) { /* those that are counted from it */
+        for (int b = q; b < h->bodies; b++) {
+            /* the bodies whose coordinates are relative to this one */
             fputs(" + ", out);
             put_number(out, h, "m", b, h->mass_kg[b], "kg");
             fputc('*', out);
@@ -183,11 +184,12 @@ static void run_by_bodies(const held *h, long double *end, double *range) {
 
 typedef struct seen {
     bool refused;
-    bool told;    /* of folding */
+    bool told;    /* a loss by constant folding was reported */
     bool warned;  /* any warning */
-    bool trusted; /* to the end */
-    bool untold;  /* `whirl trust` answered "unknown": the round-off bound is too large */
-    double off;   /* largest error relative to the coordinate's range */
+    bool trusted; /* trusted to the end */
+    /* `whirl trust` answered "unknown", because the bound on round-off is too large */
+    bool untold;
+    double off; /* largest error relative to the coordinate's range */
 } seen;
 
 /* Two runs with the same folded numbers cannot show the error. */
@@ -319,8 +321,8 @@ static int ways_of(const char *text) {
     return ways;
 }
 
-/* A mass on an arm from a carriage. The arm's zero is quarter turns off, which leaves the last digits of their cosines,
- * and a spring's decimals leave theirs; `k` is beside it. */
+/* A mass on an arm from a carriage. The arm's zero differs by quarter turns, whose cosines have round-off in their last
+ * digits; so have the decimals of a spring. The term with `k` must not be lost beside this round-off. */
 static void arm_text(dice *d, double k, char *text, size_t size) {
     static const char *const angle[] = {"90 [deg]",  "pi/2",      "180 [deg]",
                                         "-90 [deg]", "270 [deg]", "pi"};
@@ -358,7 +360,8 @@ TEST(folded, rounding_alone_is_nothing_lost) {
     TEST_ASSERT_TRUE(20 * asked <= cases); /* when round-offs add up to more */
 }
 
-/* The converse: numbers that vanish beside such residues are lost, and residues that vanish beside numbers are not. */
+/* Numbers that are smaller than such round-off are lost and must be reported. Round-off that is smaller than the
+ * numbers must not be reported. */
 TEST(folded, numbers_beside_a_rest) {
     dice d = dice_of("folded", 3);
     for (unsigned k = 0; k < dice_cases(200); k++) {
@@ -376,8 +379,8 @@ TEST(folded, numbers_beside_a_rest) {
     }
 }
 
-/* Two stiff springs, one pulling and one pushing, differ by 20 to 80 units in the last place. That is as small as
- * decimals' round-off in the nearest folding, but the whole force on the mass. */
+/* Two stiff springs, one pulling and one pushing, differ by 20 to 80 units in the last place. That is as small as the
+ * round-off of decimals in constant folding, but it is the whole force on the mass. */
 TEST(folded, what_is_nearly_the_same) {
     dice d = dice_of("folded", 4);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 5)); k++) {
@@ -403,9 +406,10 @@ TEST(folded, what_is_nearly_the_same) {
 }
 
 /* === folded numbers =========================================================================== */
-/* A soft spring computed from much larger numbers, by parameters or in place: differences, quotients, roots and
- * functions. It holds a mass, or determines its start, push, friction or an event's assignment. The reference is the
- * closed form with the intended spring. Wrong runs are not trusted; accurate ones cause no report. */
+/* A soft spring whose rate is computed from much larger numbers, by parameters or in the formula: differences,
+ * quotients, roots and functions. It acts on a mass, or determines the mass's start, a push, friction or an event's
+ * assignment. The reference is the closed form with the intended spring. Wrong runs are not trusted; accurate ones
+ * cause no report. */
 
 /* The soft spring is `k`, or the number in the last column is chosen so that the formula of K yields k. */
 typedef struct maker {
@@ -436,7 +440,7 @@ typedef enum use { HOLDS, STARTS, PUSHES, RUBS, SETS, USES } use;
 typedef struct drawn {
     unsigned maker;
     use use;
-    bool inside; /* in place, without parameters of its own */
+    bool inside; /* in the formula, without parameters of its own */
     double soft_Npm;
     double hard_Npm;
     double rate_radps;
@@ -505,7 +509,7 @@ static void put_motion(FILE *out, const drawn *w, const char *soft) {
 static void wanted_of(const drawn *w, double *x_m, double *v_mps) {
     const double turn = w->rate_radps * w->end_s;
     switch (w->use) {
-    case RUBS: /* it stops after 6 s */
+    case RUBS: /* the mass stops after 6 s */
         *x_m = 9.0;
         *v_mps = 0.0;
         break;

@@ -1,6 +1,7 @@
-/* test_folding_ways.c: constants folded in other ways (host/number/folding.h): sums, products, quotients, powers and
- * functions of random numbers, against long double or fma(). Exact results stay. Others move by one or two doubles: in
- * one way to the other side of the exact value, in the others to either. */
+/* test_folding_ways.c: constants folded with other roundings (host/number/folding.h): sums, products, quotients, powers
+ * and functions of random numbers, compared with long double or fma(). Exact results stay. Other results change by one
+ * or two units in the last place: with one rounding to the other side of the exact value, with the others to either
+ * side. */
 #include "host/number/folding.h"
 
 #include "command.h"

@@ -29,7 +29,7 @@ static void expect_near(int f, double wanted, double got, double allowed, double
 
 #define WIDTH 1e-3
 
-/* By fourth-order differences. False if the function is not smooth near the place. */
+/* The slope by fourth-order differences. Returns false if the function is not smooth near this point. */
 static bool difference(int f, int which, double x, double y, double *slope) {
     double value[5];
     for (int k = -2; k <= 2; k++) {
@@ -95,7 +95,7 @@ TEST(function_rows, slopes_where_they_jump) {
     TEST_ASSERT_TRUE(number_slope(FN_SIGN, 0, 0.0, 0.0) == 0.0);
 }
 
-/* A function that is real everywhere has a value at every place; any other lacks one at some places. */
+/* A function that is real everywhere has a value at every point; any other function has none at some points. */
 TEST(function_rows, range) {
     uint64_t seed = SEED + 4;
     for (int f = 0; f < FUNCTIONS; f++) {

@@ -138,8 +138,9 @@ static double stops_after(double p, double span, double v) {
 static double pulled_m(double t, double *speed) {
     const double w = PHASE_RATE;
     const double quarter = acos(-1.0) / 2.0;
-    const double loose = acos(PULL_N / (STATIC * LOAD_N)); /* where it breaks loose */
-    double now = 0.0;                                      /* phase */
+    /* the angle at which the mass breaks loose */
+    const double loose = acos(PULL_N / (STATIC * LOAD_N));
+    double now = 0.0; /* phase */
     double v = 0.0;
     double x = 0.0;
     const double end = w * t;
@@ -171,7 +172,7 @@ static double pulled_off_m(double step_s, const engine_kind *kind, uint64_t *eve
     double off = 0.0;
     motion m;
     open_hard(&m, HARD "pulsating_load.whirl", "load_pulsates", kind, step_s);
-    for (int i = 1; i <= 30; i++) { /* at the same moments, at any step */
+    for (int i = 1; i <= 30; i++) { /* at the same moments, whatever the step */
         double v;
         motion_to(&m, 0.1 * i);
         const double x = pulled_m(0.1 * i, &v);
@@ -367,7 +368,8 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
     double cured_m = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const wh_method own = crude[i % 4];
-        const double d_m = pow(10.0, dice_between(&d, -4.0, -2.6)); /* beyond: Nystroem 3 */
+        /* d is drawn up to the limit for nystroem3 */
+        const double d_m = pow(10.0, dice_between(&d, -4.0, -2.6));
         char set[40];
         char about[SAID_SIZE + 100];
         said what;
@@ -385,7 +387,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
         }
         const double step_s = strstr(hint, "--step ") != NULL ? said_named_step_s(hint) : 1e-3;
         const wh_method method = method_named(hint, own);
-        /* at 1 m/s the turn takes d/u; the proposed step must not be far shorter than that needs */
+        /* at 1 m/s the turn takes d/u; the proposed step must not be much shorter than this requires */
         TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s <= 1e-3, about);
         const double now_m = passage_by(method, d_m, step_s, &engine_double, false);
         snprintf(about + strlen(about), 40, " -> %.3g m", now_m);
@@ -422,8 +424,8 @@ TEST(hard_origin, through_the_origin) {
 
 /* A flight without forces past the origin: `away` is the nearest point, at distance d, and `way` the direction of flight. */
 typedef struct flight {
-    double at[3], rate[3]; /* at its start; 1 m/s */
-    char text[400];        /* its scene */
+    double at[3], rate[3]; /* position and rate at its start; 1 m/s */
+    char text[400];        /* text of its scene */
 } flight;
 
 static double dot(const double a[3], const double b[3]) {

@@ -66,7 +66,7 @@ TEST(hard_cases, a_motor_at_a_resonance) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, weak_reference, weak);
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, strong_reference, strong);
     TEST_ASSERT_DOUBLE_WITHIN(1e-2, weak_reference, in_float);
-    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* it does not pass */
+    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* the ball does not pass */
     TEST_ASSERT_TRUE(strong > 40.0);
 }
 
@@ -142,7 +142,7 @@ TEST(hard_cases, a_table_falls_away) {
         const double A = 0.02 + 0.01 * k;
         const double w = 30.0;
         const double leaves = acos(-9.81 / (A * w * w)) / w;
-        const double t = 0.02; /* of flight */
+        const double t = 0.02; /* s of flight */
         const double at = leaves + t;
         const double wanted =
             -A * cos(w * leaves) + A * w * sin(w * leaves) * t - 9.81 * t * t / 2.0;

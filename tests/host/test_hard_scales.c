@@ -27,7 +27,7 @@ static linkage in_units(const linkage *of, units u) {
     }
     for (int k = 0; k < s.bodies; k++) {
         linkage_body *b = &s.body[k];
-        const double way = b->slides ? u.length : 1.0; /* of its coordinate */
+        const double way = b->slides ? u.length : 1.0; /* distance in the unit of its coordinate */
         const double load = b->slides ? force : force * u.length;
         b->at_m *= u.length;
         b->centre_m *= u.length;
@@ -101,9 +101,9 @@ static bool warns(const char *text) {
 /* Range of the units, powers of two up to `most`, and the results of the runs with them. */
 typedef struct reach {
     const int most;
-    unsigned same; /* with identical bits */
+    unsigned same; /* number of runs with identical bits */
     unsigned none; /* refused or with a warning */
-    double worst;  /* of the others */
+    double worst;  /* largest error of the others */
 } reach;
 
 /* Runs a linkage in random units and compares it with the same linkage in SI units. */
@@ -226,7 +226,7 @@ typedef struct unequal {
     double worst; /* relative error, if elimination leaves at least a ten thousandth */
     /* Errors above those of a start with a hundred such relative errors at the end, and above a hundred of the largest. */
     unsigned beyond;
-    unsigned plain; /* of those in `worst` */
+    unsigned plain; /* number of plain runs among those in `worst` */
 } unequal;
 
 static unequal of_unequal(const engine_kind *kind, double decades, double last) {
@@ -242,7 +242,8 @@ static unequal of_unequal(const engine_kind *kind, double decades, double last) 
         const moved found = run_of(&of, (units){1.0, 1.0, 1.0}, kind, ANGLES_LOOKUP);
         const double largest = largest_of(&wanted);
         const double off = apart(&wanted, &found);
-        if (!(largest < GROWN)) { /* it diverges, too, and stops at the end of the number range */
+        if (!(largest < GROWN)) {
+            /* the run in the other units diverges, too, and stops at the end of the number range */
             grown++;
             TEST_ASSERT_TRUE(found.status != WH_OK || (isfinite(largest) && off < 0.5 * largest));
             continue;

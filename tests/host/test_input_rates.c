@@ -264,8 +264,8 @@ TEST(input_rates, a_pendulum_on_a_rope_of_changing_length) {
 
 /* --- refused steps and corrections ---------------------------------------------------------------------------- */
 
-/* Scenes with any step, with energy balance or without; x is free, at a wall that the input moves, or held by one or
- * several holds. */
+/* Scenes with any step, with energy balance or without; x is free, at a wall that the input moves, or constrained by
+ * one or several holds. */
 static void refused_text(dice *d, unsigned i, char text[static 900]) {
     static const char *const contact[] = {
         "",

@@ -38,7 +38,7 @@ static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     return point % 10 != 3;
 }
 
-/* One point of forty takes so long that the other workers reach their limit before its row is delivered. */
+/* One point of forty takes so long that the other workers reach their limit before the row of this point is written. */
 static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 30000000L};
     if (point % 40 == 7) {

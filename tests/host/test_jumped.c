@@ -34,7 +34,7 @@ static const char *const knees[] = {
     "equation s' = -rate*v*s/(k/(k/(s + k)))\n",
     "equation s' = -rate*v*s^2/(k + s)^2\n",
     "equation s' = -rate*v*s/(k + s)/(1 + 0.001*cos(s))\n",
-    "equation s' = -rate*v/(1 + k/s)\n", /* changes its sign twice */
+    "equation s' = -rate*v/(1 + k/s)\n", /* the denominator changes its sign twice */
     "equation (k + s)*s' = -rate*v*s\n", /* no division */
     /* even and no power: no change of sign */
     "equation s' = -rate*v*s^2/(s^2 + 2*k*s + k^2)\n",
@@ -137,7 +137,8 @@ TEST(jumped, when) {
     }
 }
 
-/* In bends this narrow, half steps jump too, and the two runs may agree. No result after the jump is trusted. */
+/* In bends as narrow as these, runs with half the step jump, too, and the two runs may agree. No result after the jump
+ * may be trusted. */
 TEST(jumped, trust) {
     for (unsigned c = 0; c < jumps_cases(KNEES, 8 * KNEES, 3); c++) {
         char text[JUMPS_TEXT];
@@ -215,7 +216,7 @@ TEST(jumped, angles) {
     }
 }
 
-/* The warning names the equation with the crossed divisor, among others of any order and place. */
+/* The warning names the equation whose denominator crosses zero, among other equations in any order. */
 TEST(jumped, which_equation_is_told) {
     static const char *const others[] = {"equation p'' = -p*9 [1/s^2]\n",
                                          "equation q' = (1 + p*p)*rate\n"};

@@ -1,6 +1,6 @@
-/* test_let_rates.c: x1' and x1'' of `let x1 = ...` compared with derivatives by hand. A drawn tree
- * of functions is written as a let. Its derivatives are written as text by the textbook rules.
- * Both files must give the same equations. */
+/* test_let_rates.c: x1' and x1'' of `let x1 = ...`, compared with derivatives by the textbook's rules. A random tree of
+ * functions is written as a let. The tree's derivatives are written as text. Both files must give the same
+ * equations. */
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"
@@ -123,7 +123,8 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
     }
 }
 
-/* Both give the same numbers, and nine of ten the same C, because powers of quotients have no unique normal form. */
+/* Both files give the same numbers, and in nine of ten cases the same C. In the others, powers of quotients have no
+ * unique normal form. */
 TEST(let_rates, derivatives_of_lets_are_those_by_hand) {
     dice d = dice_of("let_rates", 4601);
     const unsigned cases = dice_cases(usual_or(120, 20));

@@ -15,7 +15,8 @@ static const char system_swing[] =
     "mechanism m\nstate x [m]\nstate v [m/s]\nequation x' = v\nequation v' = -1 [1/s^2]*x\n"
     "scene s { start x = 1 [m]\nstep 1 [ms]\nuntil 1e6 [s] }\n";
 
-/* In a system of first order the matrix of a step is as normal as the system's, so the least growth shows. */
+/* Does the motion stay bounded? In a system of first order, the step's matrix is as normal as the system's, so even a
+ * small growth is visible. */
 static bool stays(const char *text, wh_method method, double step_s) {
     motion m;
     bool bounded = true;

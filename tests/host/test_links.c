@@ -12,7 +12,8 @@ typedef struct links {
     double torque[LINKS_MOST]; /* N m, on each link */
 } links;
 
-/* Angles are measured from hanging straight down. Each link adds its own speed and height to those of the link above. */
+/* Writes a chain of links. Angles are measured from hanging straight down. Each link adds its own speed and height to
+ * those of the link above. */
 static char *written(const links *of) {
     char *text;
     size_t size;

@@ -18,7 +18,7 @@ typedef struct drawn_map {
 } drawn_map;
 
 typedef struct map_asked {
-    const char *text; /* its scene is s */
+    const char *text; /* the text; its scene is s */
     const char *over[2];
     wh_method method;
     double tolerance;
@@ -195,9 +195,9 @@ TEST(map, no_limit) {
     }
 }
 
-/* From 90 degrees a long step makes a pendulum swing wider each time, until it goes over the top. That happens a little below
- * the limit of small swings, 2.83 root(l/g). No longer step, up to ten times the limit, may be called stable again, in a run
- * of nine to 35 steps. */
+/* With a long step, a pendulum that starts at 90 degrees swings wider each time, until it goes over the top. This
+ * happens at steps slightly below the stability limit of small oscillations, 2.83 root(l/g). No step between that and
+ * ten times the limit may be reported as stable, in a run of nine to 35 steps. */
 TEST(map, pendulums_from_a_right_angle) {
     static const char text[] = "mechanism pendulum\ncoordinate a [rad]\nparameter l = 0.19 [m]\n"
                                "T = 1 [kg]*(l*a')^2/2\nV = -9.81 [N]*l*cos(a)\n"
@@ -219,8 +219,8 @@ TEST(map, pendulums_from_a_right_angle) {
     close_map(&m);
 }
 
-/* A run that grows 20-fold is bounded, one that grows 1e4-fold is not. If half the step is too long as well, both runs grow
- * alike; then the finest run of the row decides. */
+/* A run that grows 20-fold is bounded, one that grows 1e4-fold is not. If half the step is too long, too, both runs
+ * grow in the same way; then the finest run of the row decides. */
 TEST(map, what_bounds_are) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {

@@ -54,7 +54,7 @@ static const axis axes_of[][2] = {
       .is_log = true}}};
 enum { MAPS = sizeof axes_of / sizeof axes_of[0], CELLS = 35 };
 
-/* Its pointers refer to itself: it must not be moved. */
+/* The struct has pointers into itself, so it must not be moved. */
 typedef struct shown {
     axis axes[2];
     grid grid;

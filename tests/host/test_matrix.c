@@ -229,8 +229,8 @@ static double run_error(const linear *of, const char *text, motion *m, int order
     return most;
 }
 
-/* 1000 steps in double or float, with or without compensated sums, by an exact or an RK4 matrix. The error is round-off: at
- * most `most` units. */
+/* Makes 1000 steps in double or float, with or without compensated sums, by an exact or an RK4 matrix. The error is
+ * round-off: at most `most` units. */
 TEST(matrix, motions_are_those_of_the_exponential) {
     static const struct {
         const engine_kind *kind;
@@ -632,8 +632,8 @@ static void expect_rotors(const engine_kind *kind, bool compensated, image_matri
 TEST(matrix_runs, turn_angles) {
     expect_rotors(&engine_double, false, MATRIX_EXACT, 1e-11, 1e-8);
     expect_rotors(&engine_double, true, MATRIX_EXACT, 1e-12, 1e-12);
-    /* A free rotor moves by the same 1.5e-9 rad in each of 1e5 steps, rounded once. A slow rate stops once a step
-     * changes it by less than half its last digit, with any stepper. */
+    /* A free rotor moves by the same 1.5e-9 rad in each of 1e5 steps, rounded once. A slow rate stays constant if a
+     * step changes it by less than half a unit in the last place, with any stepper. */
     expect_rotors(&engine_float, false, MATRIX_NONE, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, false, MATRIX_EXACT, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, true, MATRIX_NONE, 4e-3, 1.5e-4);

@@ -136,7 +136,7 @@ TEST(first_order, effects_are_told) {
 /* === method rows ============================================================================== */
 /* The rows of core/method.h are explicit and have unique words. Orders: test_method_order.c; stability: test_limits.c. */
 
-#define ROUNDING 1e-6 /* for sums of a few shares, here in float */
+#define ROUNDING 1e-6 /* round-off of sums of a few shares, here in float */
 
 typedef struct butcher {
     int stages;

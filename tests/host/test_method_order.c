@@ -5,7 +5,7 @@
 #include "core/step/ledger_step.h"
 #include "test.h"
 
-#define ROUNDING 4e-15L /* for sums of a few shares, here in double */
+#define ROUNDING 4e-15L /* round-off of sums of a few shares, here in double */
 enum { ORDER_MAX = 6, TREES = 320, STAGES = WH_STAGES_MAX };
 
 /* A row in long double: rates of stage i by a, positions by node and reach. */
@@ -24,7 +24,7 @@ typedef struct tree {
     bool by_rates;     /* a branch by rates */
     bool by_positions; /* a branch by positions */
     long double density;
-    long double at[STAGES]; /* its value at each stage */
+    long double at[STAGES]; /* value of the tree at each stage */
 } tree;
 
 typedef struct forest {

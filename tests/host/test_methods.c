@@ -174,14 +174,15 @@ TEST(methods, books_have_the_order_of_the_name) {
             snprintf(what, sizeof what, "%s, %s: %.3g J, %.3g J with half the step", forms[i].name,
                      wh_methods[m].word, left_J[0], left_J[1]);
             TEST_ASSERT_TRUE_MESSAGE(log2(left_J[0] / left_J[1]) > wanted - 0.2, what);
-            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* else it is round-off */
+            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* a smaller residual is round-off */
             measured++;
         }
     }
     printf("  %d books measured\n", measured);
 }
 
-/* Both Euler methods have order one. They differ in the rate that moves the position. */
+/* Both Euler methods have order one. They differ in the rate by which the position moves: the old one or the new
+ * one. */
 TEST(methods, semi_implicit_euler_moves_by_the_new_rates) {
     const double h = 1.0 / 256.0;
     for (int i = 0; i < FORMS; i++) {
@@ -259,7 +260,7 @@ TEST(methods, methods_are_refused_where_their_rows_say) {
 #define TEXT_MAX 2048
 
 typedef struct named_value {
-    char name[64]; /* with its primes */
+    char name[64]; /* name, with its primes */
     double value;
 } named_value;
 

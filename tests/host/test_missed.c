@@ -12,7 +12,7 @@ static char text[TEXT];
 
 /* A body of 1 kg; its path starts 1 m before a place, plus a random part of a step. */
 typedef struct flight {
-    double start_m; /* on x, relative to the place */
+    double start_m; /* start on the x axis, relative to the place */
     double v_m_s;
     double step_s;
     double until_s;
@@ -116,7 +116,7 @@ TEST(missed, posts) {
         /* Away from the origin the squares are expanded: the squared gap has the round-off of the squared place. */
         const double square_m2 = pow(hypot(f.place_m[0], f.place_m[1]), 2.0);
         const double turned = 16.0 * 0x1p-53 * square_m2 / (r_m * r_m * sqrt(edge));
-        if (edge > 1e-3) { /* a grazed post amplifies round-off of the place */
+        if (edge > 1e-3) { /* a grazed post amplifies the round-off of the position */
             TEST_ASSERT_TRUE_MESSAGE(off_m < 1e-7 + turned, text);
         }
         thin += hits && 2.0 * r_m < f.v_m_s * f.step_s;
@@ -298,12 +298,12 @@ TEST(missed, narrow_limits_and_crossings) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
-/* Two places on straight lines at constant speed, the second possibly on a turning disk. The least distance is found
- * by dense sampling. */
+/* Two points that move on straight lines at constant speed, or the second on a turning disk. The least distance is
+ * found by dense sampling. */
 typedef struct pass {
-    double aside_m;    /* of the first body, which flies along x */
+    double aside_m;    /* distance of the first body's path from the x axis */
     double u_m, w_m_s; /* the second body: its start on x, and its rate */
-    double disk_m;     /* its radius on a disk; 0: it moves along x, at y = 0 */
+    double disk_m;     /* radius of the second point on its disk; 0: it moves along x, at y = 0 */
     double turn_rad, turn_rad_s;
 } pass;
 
@@ -320,8 +320,8 @@ static double pass_least_m(const flight *f, const pass *p) {
     return least_m;
 }
 
-/* Posts on the other body or on a turning disk, pairs of them, and latches between two circles. All move. Each is hit as the
- * reference says, or there is a warning. */
+/* Posts on a second body or on a turning disk, pairs of posts, and latches between two circles, all in motion. Each
+ * post is hit if the reference is hit, or there is a warning. */
 TEST(missed, moving_ones) {
     dice d = dice_of("missed", 4);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 120));

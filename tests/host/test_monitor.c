@@ -25,8 +25,8 @@ typedef struct told {
     FILE *to_csv;
     FILE *to_ring;
     recording_counts counts;
-    int64_t time_us;     /* of the next sample */
-    int64_t last_us;     /* of the last frame of a run */
+    int64_t time_us;     /* time of the next sample */
+    int64_t last_us;     /* time of the last frame of a run */
     uint32_t ticks_of_0; /* the rig's clock at time 0 */
     bool begun;          /* a frame has arrived since the start */
     bool run_came;
@@ -44,8 +44,8 @@ typedef struct told {
     int64_t free_from_us[2]; /* end of the last pulse */
     int64_t trip_us;
     unsigned trip;
-    int64_t sample_us; /* of the last sample */
-    double sample;     /* its first field; NAN: no sample */
+    int64_t sample_us; /* time of the last sample */
+    double sample;     /* first field of the last sample; NAN: no sample */
 } told;
 
 static told t;
@@ -483,7 +483,7 @@ SUITE(recording) { die = dice_of("recording", 48); }
 
 enum { LINE = 600, PIECES = 5 };
 
-/* A channel, and its line in pieces. Each piece can be omitted or replaced. */
+/* A channel, and the parts of its line. Each part can be omitted or replaced. */
 typedef struct written {
     schema_channel channel;
     unsigned index;
@@ -602,7 +602,7 @@ TEST(schema, what_is_wrong_is_refused) {
         static char line[PIECES * LINE];
         draw_channel(&w);
         join(&w, -1, line);
-        TEST_ASSERT_TRUE_MESSAGE(schema_take(&s, line), line); /* later lines change nothing */
+        TEST_ASSERT_TRUE_MESSAGE(schema_take(&s, line), line); /* later lines have no effect */
         for (int k = 0; k < PIECES; k++) {
             char kept[LINE];
             join(&w, k, line);
@@ -670,7 +670,8 @@ TEST(schema, states) {
     expect_refused(&s, "ERR 0=a");
 }
 
-/* The rest of a frame that was cut off, and the line behind it, are torn; the next line and one between whole frames are not. */
+/* After a frame that was cut off, its remainder and the line after it are torn. The next line, and a line between
+ * complete frames, are not. */
 TEST(schema, torn_lines) {
     static wire w;
     static const char bytes[] = "D +\nxH\0ERR 100\r\nOK\r\n\0\x80\x81\0OK\r\n";

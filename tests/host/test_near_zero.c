@@ -71,7 +71,7 @@ TEST(near_zero, stiffening_springs_near_their_rest) {
     show_worst("springs");
 }
 
-/* As before, for a sine to the sixth; the argument is rounded twice and the sine once. */
+/* As the bound above, for the sixth power of a sine; the argument is rounded twice and the sine once. */
 #define WAVE_ROUNDINGS 48.0
 
 /* Two arms on one shaft; the inertia has a pole of order four or six when they lie along it. */
@@ -138,7 +138,7 @@ typedef struct tiny_case {
     const char *law;
     double length_m;
     double start_m;
-    double swing_radps; /* of the linearized motion */
+    double swing_radps; /* rate of the linearized motion */
     double damping;     /* relative to critical */
     double step_s;
     double end_s;

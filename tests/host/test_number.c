@@ -131,7 +131,7 @@ enum { NUMBERS = 40000 };
 static uint64_t seed = 20261123;
 
 #ifdef __SIZEOF_INT128__
-/* Of any length, with runs of zeros and ones. */
+/* A random number of any length, with runs of zeros and ones. */
 static uint128 any_wide(void) {
     uint128 n = {random_bits(&seed), random_bits(&seed)};
     if (random_bits(&seed) % 3 == 0) {
@@ -170,7 +170,7 @@ static void test_the_compilers_own(void) {
 /* Times as fractions (host/number/ratio.h): the fraction for a decimal, and how often one time fits into another. The
  * reference counts in integers, including halves. */
 static bool same_ratio(whole_ratio r, uint64_t of, uint64_t in) {
-    return r.numerator * in == of * r.denominator; /* both below 2^32 */
+    return r.numerator * in == of * r.denominator; /* both products are below 2^64 */
 }
 
 static void test_decimals_and_fractions_are_themselves(void) {

@@ -313,7 +313,7 @@ TEST(octave, both_forms_compute_the_same) {
 
 enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
 
-/* Beyond this tolerance a comparison says nothing, so the value does not count as compared. */
+/* With a larger tolerance a comparison shows nothing, so the value does not count as compared. */
 #define TELLING 1e-6
 
 /* errors of second order */
@@ -325,10 +325,10 @@ typedef struct comparison {
     const image *image;
     state_values s;
     double runs[UNKNOWNS]; /* highest derivatives of the list */
-    double off[UNKNOWNS];  /* and their error bounds */
+    double off[UNKNOWNS];  /* error bounds of the values */
     int asked;             /* highest derivatives at states */
-    int compared;          /* those with a useful tolerance */
-    int closed;            /* those of them printed in closed form */
+    int compared;          /* number of values with a useful tolerance */
+    int closed;            /* number of them that are printed in closed form */
     double nearest;        /* largest error relative to its bound */
 } comparison;
 
@@ -429,7 +429,7 @@ static bool hold_against(comparison *c, int i, double printed_value, double boun
     return true;
 }
 
-/* A x = b from n printed lines "LEFT &= RIGHT". Returns the rest of the text. */
+/* Compares A x = b with n printed lines "LEFT &= RIGHT". Returns the rest of the text. */
 static const char *check_equations(comparison *c, const char *line) {
     const int n = c->of->equations->count;
     long double a[UNKNOWNS][UNKNOWNS];

@@ -1,5 +1,6 @@
 /* test_order.c: reordering of operation lists for few live values. Operations and bits stay the same, operands come
- * first, and stores and loads decrease, to the minimum where it is known. WHIRL_CASES: number of random lists. */
+ * first, and the number of stores and loads decreases, to the minimum if that is known. WHIRL_CASES: number of random
+ * lists. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -75,7 +76,7 @@ static op_list *some_list(dice d) {
         t->result[i] = some_value(&d, value, values);
     }
     free(value);
-    if (dice_one_of(&d, 4) > 0) { /* else some operations are unused */
+    if (dice_one_of(&d, 4) > 0) { /* otherwise some operations are unused */
         op_list_prune(t);
     }
     return t;

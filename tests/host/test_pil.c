@@ -19,7 +19,7 @@ typedef struct rig {
     bool echoes;
     bool refuses_rate;
     int heard;     /* questions */
-    char half[16]; /* of a partly typed line */
+    char half[16]; /* a partly typed line */
     char junk[16]; /* the end of a frame that came before the rig's first answer */
 } rig;
 
@@ -121,12 +121,13 @@ static void one_case(dice *d) {
     leave(&r, d);
     converse(&link, &r, d);
     TEST_ASSERT_TRUE(link.done);
-    TEST_ASSERT_TRUE(link.was_off); /* by the rig's own list; stale answers disagree */
+    /* the motor is off, by the rig's own list; old answers have another state */
+    TEST_ASSERT_TRUE(link.was_off);
     TEST_ASSERT_EQUAL(r.refuses_rate, link.rate_refused);
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
                              link.refused);
     TEST_ASSERT_EQUAL(10, link.asked);
-    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* for another program */
+    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* the answer is for another program */
 }
 
 TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {
@@ -196,14 +197,14 @@ static const wh_signal signals[] = {
 static const wh_hello hello = {.program = "bench",
                                .board = "here",
                                .ticks_per_s = TICKS_PER_S,
-                               .start_ticks = 0xFFFFF000U, /* it wraps soon */
+                               .start_ticks = 0xFFFFF000U, /* the timer wraps soon */
                                .signal = signals,
                                .signals = sizeof signals / sizeof signals[0]};
 
 /* Pulses and samples within a second, and the plant's inputs at each reading. */
 typedef struct heard {
     wh_edge edge[EVENTS_MAX];
-    double edge_s[EVENTS_MAX]; /* as reported */
+    double edge_s[EVENTS_MAX]; /* times of the edges as reported */
     int edges;
     wh_sample sample[EVENTS_MAX];
     double sample_s[EVENTS_MAX];
@@ -433,7 +434,7 @@ TEST(fault, spikes) {
     TEST_ASSERT_INT_WITHIN(9, READS / 50, spikes);
 }
 
-/* Each input has its fault value during the fault, the healthy one before and after, and no other input moves. */
+/* During a fault, its input has the fault's value, and before and after it the healthy one. No other input changes. */
 TEST(fault, inputs) {
     static const struct {
         const char *words;

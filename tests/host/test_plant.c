@@ -33,7 +33,7 @@ static void open_bench(double a_rad, double a_radps, double step_s, const plant_
     hello.program = "bench";
     hello.board = "here";
     hello.ticks_per_s = TICKS_PER_S;
-    hello.start_ticks = 0xFFFFFF00U; /* it wraps soon */
+    hello.start_ticks = 0xFFFFFF00U; /* the timer wraps soon */
     hello.signal = signals;
     TEST_ASSERT_TRUE(bind_signals(&bound_to, &hello, bench.image, NULL));
     plant_start(&on, bench.image, &bound_to, &hello, wish);
@@ -92,7 +92,7 @@ TEST(plant, edges_of_an_angle) {
         close_bench();
         const double level = (double)(speed > 0.0 ? low : high) + wish.place[0] * TURN_RAD / 360.0;
         double turns = (level - start) / TURN_RAD * (speed > 0.0 ? 1.0 : -1.0);
-        turns -= floor(turns); /* of the way to the first */
+        turns -= floor(turns); /* the part of a turn to the first edge */
         const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* within the second */
         TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less in the last moments */
         for (int i = 0; i < count; i++) {
@@ -103,7 +103,7 @@ TEST(plant, edges_of_an_angle) {
     }
 }
 
-/* x = cos(10 t) enters a range twice a period. So does its double, an output without a rate. */
+/* x = cos(10 t) enters a range twice per period. So does an output that is twice x and has no rate. */
 TEST(plant, edges_of_a_length) {
     for (int output = 0; output < 2; output++) {
         const float low = 0.2F;
@@ -284,7 +284,7 @@ TEST(plant, late_orders) {
     }
 }
 
-/* A note is bound to no quantity and moves nothing; outputs keep their channels. */
+/* A note belongs to no quantity of the plant and changes nothing; the outputs keep their channels. */
 TEST(plant, notes) {
     const plant_wish wish = {.seed = 1};
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "state", .unit = "1"});
@@ -329,7 +329,7 @@ TEST(plant, watchdog) {
         TEST_ASSERT_TRUE(plant_advance(&on, (turn + 1) * 2000.0));
         plant_read(&on, &r);
         TEST_ASSERT_EQUAL_INT(turn < 5 ? 0 : WH_READING_CUT, r.flags);
-        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* too late */
+        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* the watchdog has already cut the drive */
     }
     TEST_ASSERT_TRUE(fabs(speed_of_y() - 10.05e-3) < 1e-12);
     TEST_ASSERT_TRUE(fabs(on.cut_ticks - 10050.0) < 1e-6);

@@ -8,7 +8,8 @@
 /* === envelope ================================================================================= */
 /* The envelope of a run for its picture: generated signals of every length, compared with all their values. */
 
-enum { COLUMNS = 4 }; /* the time, a swing with peaks of one step, a swing with gaps, noise */
+/* the time, an oscillation with peaks of one step, an oscillation with gaps, noise */
+enum { COLUMNS = 4 };
 
 static double *signal_of(dice *d, unsigned steps) {
     double *made = calloc((size_t)steps * COLUMNS, sizeof *made);

@@ -1,5 +1,5 @@
-/* test_price.c: cost of operation lists for expressions of known least cost: no one writes them shorter by hand.
- * Values are checked elsewhere. Also extrapolation and trials. */
+/* test_price.c: the cost of operation lists, for expressions whose least cost is known. Also extrapolation and trials.
+ * Other suites test the values. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -97,7 +97,7 @@ TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*x1 + x0*x2 + x0*x3"), 3, 0, "no coefficients");
 }
 
-/* Odd powers of a root share it. */
+/* Odd powers of a root are computed from one root. */
 TEST(price, what_is_the_same_is_computed_once) {
     static const char *const of[] = {"exp(x0)",    "sqrt(x0)",    "atan2(x0, x1)", "abs(x0)",
                                      "log(x0*x1)", "max(x0, x1)", "sin(x0*x1)"};
@@ -179,7 +179,7 @@ static int price_of_system(int n) {
 /* Up to three equations are solved by Cramer's rule. Each further one costs an elimination: divide a column, subtract its
  * row, substitute back. */
 TEST(price, equations_are_eliminated_one_by_one) {
-    int last = 0; /* of three: four determinants with shared parts */
+    int last = 0; /* three equations: four determinants with common parts */
     for (int n = 1; n <= 6; n++) {
         const int now = price_of_system(n);
         const int more = (n - 1) + 2 * (n - 1) * (n - 1) + 2 * (n - 1) + 2 * (n - 1) + 1;
@@ -189,7 +189,7 @@ TEST(price, equations_are_eliminated_one_by_one) {
     }
 }
 
-/* In two equations a numeric coefficient at any place is the pivot; no determinant is needed. */
+/* In two equations, a coefficient that is a number is the pivot, wherever it is; no determinant is needed. */
 TEST(price, a_number_is_the_pivot) {
     for (int at = 0; at < 4; at++) {
         char text[600] = "mechanism m\n";
@@ -245,9 +245,9 @@ TEST(price, decimals_cost_nothing) {
 }
 
 /* === price control ============================================================================ */
-/* y' = linear y + square y^2 over two spans: its solution, and the number of steps tried by `columns` rules. Steps grow by at
- * most 3 and shrink by at most 5. They aim at 0.9 of the tolerance and leave no remainder below half a step. At a pole no
- * step is small enough. */
+/* y' = linear y + square y^2 over two spans: its solution, and the number of steps tried by `columns` rules. A step is
+ * at most 3 times and at least a fifth of the previous one. It is chosen for 0.9 of the tolerance, and the last two
+ * steps share the remaining time. At a pole no step is small enough. */
 TEST(price_control, steps_of_one_equation) {
     static const struct {
         double linear, square, start;
@@ -410,7 +410,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
         TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
         TEST_ASSERT_EQUAL_INT(rows[i].own, own);
         if (own) {
-            /* cached for this step, asked again for another */
+            /* stored for this step, and asked for with another one */
             asked = p.asked;
             const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
             TEST_ASSERT_TRUE(r.ran);
@@ -422,7 +422,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
                             (deviation_pace){rows[i].at.steps * 2, rows[i].at.records});
             TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
         }
-        /* no other setting asks */
+        /* no other setting asks for an image */
         const setting rk4 = priced_setting(WH_RK4, &engine_float);
         longest_s = 1e-9;
         asked = p.asked;

@@ -116,7 +116,7 @@ TEST(price_measured, what_is_missing_is_told) {
     static const struct {
         const char *says;
         const char *status;
-        const char *answer; /* NULL: nothing */
+        const char *answer; /* NULL: no answer */
     } rows[] = {
         {"", "0\n", NULL},
         {"a 'tool' is missing\n", "0\n", NULL},
@@ -212,7 +212,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             double v[PLACES][COLUMNS] = {{0}};
             double most[COLUMNS] = {0};
             double steps = 0.0;
-            const int unbounded = i < 4 ? i - 1 : -1; /* a place */
+            const int unbounded = i < 4 ? i - 1 : -1; /* index of a place */
             for (int k = 0; k < PLACES; k++) {
                 for (int c = 2; c < COLUMNS; c++) {
                     v[k][c] = c == 5 && k == unbounded ? 0.0 : 1 + dice_one_of(&d, 5000);
@@ -247,7 +247,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             TEST_ASSERT_NOT_NULL(strstr(asked, "place=0"));
             TEST_ASSERT_NOT_NULL(strstr(asked, "place=2"));
         }
-        /* a row too short, too long, of another board; one place that fails */
+        /* a row that is too short, too long, or of another board; one place fails */
         static const char *const bad[] = {"%s,f,1,1,1,1,1,1,1,e,1,1\n",
                                           "%s,f,1,1,1,1,1,1,1,e,1,1,1,1\n",
                                           "x%s,f,1,1,1,1,1,1,1,e,1,1,1\n"};
@@ -297,7 +297,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
             row[i].price.value = 100.0 * (i % 4 + 1) * (i == 4 ? 25.0 : 50.0);
             row[i].price.basis = COST_ESTIMATED;
         }
-        row[3].result.error = 0.5; /* not on the front, and never counted */
+        row[3].result.error = 0.5; /* no setting of the front, and never counted */
         table made = {.row = row, .count = 5, .why = ""};
         table_sort(&made);
         int told = 0;

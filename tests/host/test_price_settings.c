@@ -45,7 +45,7 @@ TEST(price_settings, there_are_all_and_each_once) {
     TEST_ASSERT_EQUAL_INT(3 * WH_METHODS, looked_up);
 }
 
-/* As on a command line of `whirl run`. */
+/* Reads a setting as the command line of `whirl run` does. */
 static setting read_back(const char *text, int *count) {
     char copy[SETTING_TEXT];
     char *words[16];
@@ -280,7 +280,7 @@ static const kind_row kind_rows[] = {
     /* a pole at 0.52 s */
     {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8,
      REFERENCE_EXTRAPOLATED, 10, 10, NULL, "after 0.5 s no step is small enough"},
-    /* all is zero; at rest at another place */
+    /* everything is zero; at rest at another position */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8,
      REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8,
@@ -383,7 +383,7 @@ TEST(price_states, references_are_stopped) {
 
 typedef unsigned __int128 wide;
 
-/* By subtraction, independent of the product's remainders. */
+/* By subtraction, independently of the product's algorithm by remainders. */
 static bool have_no_divisor(uint64_t a, uint64_t b) {
     while (a != b && a != 0 && b != 0) {
         while (a > b && b != 0) {
@@ -439,7 +439,7 @@ TEST(price_trials, steps_are_exact) {
     TEST_ASSERT_TRUE(exact > 300 && rounded > 30);
 }
 
-/* No shorter decimal must be the same fraction. */
+/* No decimal with fewer digits is the same fraction. */
 TEST(price_trials, times_have_as_few_digits_as_they_can) {
     dice d = dice_of("price_trials times", 12);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {
@@ -575,7 +575,7 @@ TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
     }
 }
 
-/* If nothing moves at any place, the report says so. */
+/* If no quantity moves at any point of the grid, the report says so. */
 TEST(price_trials, places_where_nothing_moves_are_left_out) {
     static const char *const texts[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
                                         "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",

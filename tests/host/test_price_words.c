@@ -231,7 +231,7 @@ TEST(price_words, fields_come_back) {
     }
 }
 
-/* The text after `what`, which occurs once. */
+/* Returns the text after `what`, which must occur once. */
 static const char *behind(const char *text, const char *what) {
     const char *at = strstr(text, what);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what);

@@ -470,7 +470,7 @@ static char path_beside[PATH + 20];
 typedef struct drawn_sheet {
     resumable_csv_settings settings;
     char whole[TEXT];
-    size_t end[ROWS_MOST + 1]; /* of the header, then of each row */
+    size_t end[ROWS_MOST + 1]; /* end of the header, then of each row */
     bool failed[ROWS_MOST];
 } drawn_sheet;
 
@@ -550,7 +550,7 @@ static void expect_gone_on(unsigned rows) {
     expect_file(path_beside, fingerprint, strlen(fingerprint));
     fputs(d.whole + d.end[rows], sh.out);
     TEST_ASSERT_TRUE(resumable_csv_close(&sh));
-    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* again: no effect */
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* a second close has no effect */
     expect_file(path, d.whole, strlen(d.whole));
 }
 
@@ -569,7 +569,8 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
              path, why);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
-    TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told); /* once */
+    /* the error is printed once */
+    TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);
     TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
     TEST_ASSERT_NULL(sh.out);
     TEST_ASSERT_TRUE(resumable_csv_close(&sh));

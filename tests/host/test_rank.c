@@ -51,7 +51,7 @@ static int exact_rank(const double *m, int n) {
     return rank;
 }
 
-/* m = left right, n by inner by n. */
+/* Computes m = left * right; left is n by inner, right is inner by n. */
 static void product(double *m, const double *left, const double *right, int n, int inner) {
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
@@ -270,7 +270,7 @@ static char *written_system(int n, uint64_t *seed) {
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(to);
-    const unsigned variety = 2 + draw(seed, 6); /* from numbers only to all kinds */
+    const unsigned variety = 2 + draw(seed, 6); /* from numbers only to all kinds of symbols */
     fputs("mechanism m\n", to);
     for (int i = 0; i < n; i++) {
         fprintf(to, "state x%d\n", i);

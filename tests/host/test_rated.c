@@ -93,7 +93,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
         }
     }
     fclose(in);
-    double worst = whole ? 0.0 : (double)INFINITY; /* it diverged */
+    double worst = whole ? 0.0 : (double)INFINITY; /* infinite, because the run diverged */
     for (int i = 0; i < r->states; i++) {
         const double unit = state >= 0 ? 1.0 : largest[i];
         if (unit > 0.0 && (state < 0 || state == i)) {
@@ -197,7 +197,7 @@ static void check_rows(const rated *r, measure *m) {
         return;
     }
     const double spacing_s = 2.0 * r->step_s;
-    const double rounded = 1e-5 * r->until_s; /* of the printed times */
+    const double rounded = 1e-5 * r->until_s; /* round-off of the printed times */
     TEST_ASSERT_TRUE_MESSAGE(
         t.until_s <= until_s + rounded && t.until_s > until_s - spacing_s - rounded, what.out);
     const int records = (int)nearbyint(t.until_s / spacing_s);

@@ -59,14 +59,15 @@ static void draw_error(error kind) {
 typedef struct tally {
     unsigned off;  /* error above an uncalibrated bench's interval plus 1 % */
     unsigned lies; /* marked good although the error is visible */
-    /* such an error that no run can show (docs/rig.md, errors that a good result can hide) */
+    /* errors that no run can show (docs/rig.md, errors that a good result can hide) */
     unsigned hidden;
     /* with almost no noise, the error is above 1.5 times the limit that holds with noise */
     unsigned seen;
     unsigned missed;
 } tally;
 
-/* Errors are measured from the orbit's truth. A torque turns the rotor itself, so the truth contains its effect. */
+/* Errors are relative to the true turn of rig_orbit.c. A torque moves the rotor itself, so the true turn includes its
+ * effect. */
 static void judge(const wh_measured *measured, tally *found) {
     const double amplitude_N = fabs((double)measured->amplitude_N - orbit.amplitude_N);
     const double phase_rad = fabs((double)measured->phase_rad - orbit.phase_rad);

@@ -23,12 +23,12 @@ static const wh_signal signals[] = {
 static const wh_hello hello = {.program = "bench",
                                .board = "here",
                                .ticks_per_s = TICKS_PER_S,
-                               .start_ticks = 0xFFFFF000U, /* it wraps soon */
+                               .start_ticks = 0xFFFFF000U, /* the timer wraps soon */
                                .signal = signals,
                                .signals = sizeof signals / sizeof signals[0]};
 
 typedef struct heard {
-    double edge_s[EDGES_MAX]; /* as reported */
+    double edge_s[EDGES_MAX]; /* times of the edges as reported */
     /* its time stamp, from a timer that starts at 0 with the processor */
     double stamp_s[EDGES_MAX];
     int edges;
@@ -36,7 +36,7 @@ typedef struct heard {
     double again_s[RESETS_MAX];
     bool starved[RESETS_MAX];
     int resets;
-    double push[READS + 1]; /* in effect at each reading */
+    double push[READS + 1]; /* input of the plant at each reading */
 } heard;
 
 static heard h;
@@ -147,9 +147,9 @@ TEST(resets, watchdog) {
     TEST_ASSERT_TRUE(h.resets == 1 && h.starved[0]);
     TEST_ASSERT_TRUE(h.reset_s[0] > 0.503 && h.reset_s[0] < 0.506);
     TEST_ASSERT_TRUE(fabs(h.again_s[0] - h.reset_s[0] - 3e-3) < 1e-9);
-    TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* not cut for good */
-    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* it cuts again */
+    TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* the drive is not cut permanently */
+    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* the watchdog cuts again */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == 0.0);
-    run_with("watchdog-resets=0,unkicked@0.5"); /* and again, and again */
+    run_with("watchdog-resets=0,unkicked@0.5"); /* and resets again and again */
     TEST_ASSERT_TRUE(h.resets > 50);
 }

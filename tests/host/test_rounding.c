@@ -191,7 +191,7 @@ TEST(rounding, angle_steps_are_rounded_not_cut) {
     }
 }
 
-/* A gear that starts a million turns on moves like one from zero, to the bit. */
+/* A gear that starts a million turns from zero moves with the same bits as one that starts at zero. */
 TEST(rounding, motion_after_a_million_turns_is_the_same) {
     static const char *const others[] = {"X", "theta'", "X'"};
     stepping how = IN_FLOAT;
@@ -316,9 +316,9 @@ static double gained(const swinging *s, const char *text, stepping how) {
     return sum / LOOKS;
 }
 
-/* Stages that go 4.8e-8 too far, as in steps of a millisecond, would give a bias of (h w)^2 times half of that per
- * step. Scatter is h w times a float's last place over the square root of the steps. Dissipative methods take less
- * themselves if h w is small. */
+/* Stages that are too far by 4.8e-8, as in steps of a millisecond, would change the energy by half of (h w)^2 times
+ * that in each step. The random part is h w times a float's last place over the square root of the steps. Dissipative
+ * methods lose less energy by themselves if h w is small. */
 TEST(energy_kept, energy_does_not_leak_by_rounding) {
     static const struct {
         wh_method method;

@@ -122,7 +122,8 @@ static void define(const drawn_list *l, double least, double part, double *error
             error[i] = (double)(float)o->value == o->value ? 0.0 : fabs(o->value);
         } else if (o->code == OP_PHASE) {
             error[i] = phase_error(l, o, error);
-        } else if (o->code == OP_SIN || o->code == OP_COS) { /* as from a table: relative to 1 */
+        } else if (o->code == OP_SIN || o->code == OP_COS) {
+            /* as from a table: the error is relative to 1 */
             error[i] += 1.0;
         } else if (!is_exact(o->code)) {
             error[i] += fmax(fabs(l->value[i]), least);
@@ -240,11 +241,11 @@ TEST(running_error, nothing_is_off_by_nothing) {
     const rounding_values small = {value, value, value, NULL, NULL, 1e-38};
     rounding_of(t, &small, error);
     TEST_ASSERT_EQUAL_DOUBLE(1e-38, error[1]);
-    TEST_ASSERT_TRUE(error[0] > 1e-38); /* its root has no slope there */
+    TEST_ASSERT_TRUE(error[0] > 1e-38); /* the root has no slope there */
     op_list_free(t);
 }
 
-/* In z/(x*y) a product above float's largest number destroys the quotient. Double holds the product. */
+/* In z/(x*y) the product exceeds float's largest number, so the quotient is lost. In double it is not. */
 TEST(running_error, what_is_beyond_float) {
     dice d = dice_of("running_error", 2316);
     op_list *t = op_list_new(0, 1);

@@ -175,7 +175,7 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     const double top = k == 0 ? f[0] * m[3] - m[1] * f[1] : m[0] * f[1] - f[0] * m[2];
     *size = (fabs(m[0] * m[3]) + fabs(m[1] * m[2])) * fabs(top / bottom / bottom) +
             (fabs(f[0]) + fabs(f[1])) * (fabs(m[k == 0 ? 3 : 0]) + fabs(m[1 + k])) / fabs(bottom);
-    return good ? top / bottom : (double)NAN; /* it has products of these */
+    return good ? top / bottom : (double)NAN; /* the form has products of these */
 }
 
 static void check_align(const derived *d) {
@@ -197,7 +197,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
     TEST_ASSERT_NOT_NULL(source_text);
     expression_mechanism(depth, seed, source_text, TEXT_SIZE);
     derived d = derived_text(source_text);
-    if (d.equations == NULL) { /* for example never finite */
+    if (d.equations == NULL) { /* for example because the mass matrix is never finite */
         TEST_ASSERT_TRUE_MESSAGE(strstr(d.errors, "finite") != NULL ||
                                      strstr(d.errors, "grow beyond") != NULL,
                                  d.errors);

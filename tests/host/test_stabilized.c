@@ -283,8 +283,8 @@ TEST(stabilized, coarse_steps_are_told) {
     }
 }
 
-/* Two masses with a slow common swing and a fast relative swing, too fast for the step. Stabilization gives the fast swing's
- * loss to both, so the warning must be the same as without it. */
+/* Two masses have a slow common oscillation and a fast relative one, which is too fast for the step. Stabilization
+ * returns the energy that the fast oscillation loses to both. The warning must be the same as without stabilization. */
 TEST(stabilized, what_others_lost_is_told) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
@@ -328,8 +328,9 @@ static double apart(const char *text, const char *name, stepping plain, double e
     return fabs(end[0] - end[1]);
 }
 
-/* First, a hidden swing, too fast even for half the step, loses energy, which another swing gets; its period depends on
- * energy. Second, a light pendulum beside one so heavy that the last digits of its energy matter to the light one. */
+/* First, an oscillation too fast even for half the step loses energy, which another oscillation gets; its period
+ * depends on energy. Second, a light pendulum next to one so heavy that the last digits of its energy matter to the
+ * light one. */
 TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
@@ -375,14 +376,14 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
 SUITE(stabilized) { UnitySetTestFile(__FILE__); }
 
 /* === stabilized beside ======================================================================== */
-/* Effect of --stabilized on a slow motion next to a swing: a free wheel or cart with little energy. The swing loses
- * (h w)^6/72 of its energy a step with Runge-Kutta 4. All rates must get the same part. If more were restored at the
- * swing's turning points, the slow motion would get most of it. */
+/* Effect of --stabilized on a slow motion next to a swing: a free wheel or cart with little energy. With Runge-Kutta 4
+ * the swing loses (h w)^6/72 of its energy in each step. All rates must get the same relative correction. If the
+ * correction were larger at the swing's turning points, the slow motion would get most of the energy. */
 
 typedef struct beside {
     double step_s;
-    double angular_radps; /* of the swing */
-    double slow;          /* its rate relative to the swing's fastest */
+    double angular_radps; /* rate of the swing */
+    double slow;          /* its rate relative to the largest rate of the swing */
     double start_m;
     double start_mps;
     bool is_angle; /* the slow one */
@@ -437,7 +438,7 @@ TEST(stabilized_beside, what_is_slow_gets_its_part) {
         const beside b = drawn(&d);
         const bool is_float = i % 3 == 2;
         const double lost =
-            (double)steps * pow(b.angular_radps * b.step_s, 6.0) / 72.0; /* of the swing's */
+            (double)steps * pow(b.angular_radps * b.step_s, 6.0) / 72.0; /* of the swing's energy */
         const stepping how = {.kind = is_float ? &engine_float : &engine_double,
                               .method = WH_RK4,
                               .compensated = is_float};

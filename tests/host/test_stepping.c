@@ -128,7 +128,8 @@ TEST(stepping, given_up) {
     interrupted = 1;
     measured_point p = measure_stepping(&w, longest.image);
     interrupted = 0;
-    TEST_ASSERT_TRUE(p.good && p.value[0] == 3.0 && isnan(p.value[1])); /* it has no energies */
+    /* the list has no energies */
+    TEST_ASSERT_TRUE(p.good && p.value[0] == 3.0 && isnan(p.value[1]));
     drop(&p);
     derived_free(&longest);
 }
@@ -340,9 +341,10 @@ static void run_points(void) {
     } points[] = {
         {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused at the start */
         {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* undefined: stored samples */
-        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* not a number */
-        {settings_text, "m=1..2:2", "max(x)", true},        /* derived again */
-        {settings_text, "m=0..2:2", "max(x)", false},       /* which fails */
+        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* no number */
+        /* the scene is derived again for each point */
+        {settings_text, "m=1..2:2", "max(x)", true},
+        {settings_text, "m=0..2:2", "max(x)", false}, /* which fails */
         {"mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\nscene s { step 1 [ms]; until 2 [s] }\n",
          "x=4..1:2", "x", false}, /* diverges */
         {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J]*sqrt(x/(1 [m]))\n"

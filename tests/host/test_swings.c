@@ -17,7 +17,7 @@
 typedef struct prey {
     double a; /* 1/s */
     double b;
-    double u; /* at the start; v starts at 1 */
+    double u; /* u at the start; v starts at 1 */
     double step_ms;
     wh_method method;
     const engine_kind *kind;
@@ -124,10 +124,11 @@ TEST(swings, predator_and_prey) {
 enum { RECORDS = 20 }; /* divides the steps */
 
 typedef struct forced_case {
-    bool summed; /* the clock is a sum and may turn by more than half a turn a step */
+    /* the clock is a sum, and its angle may advance by more than half a turn per step */
+    bool summed;
     double swing_radps;
     double damping; /* relative to critical */
-    double force_N; /* on 1 kg */
+    double force_N; /* amplitude of the force on 1 kg */
     double clock_radps;
     double step_s;
     int steps;

@@ -41,7 +41,7 @@ typedef struct particles {
     double mass[BODIES];
     double spring[BODIES]; /* between body i and i + 1 */
     double length[BODIES];
-    double strength; /* of the hidden force: down to a millionth */
+    double strength; /* strength of the hidden force: as small as a millionth */
 } particles;
 
 /* Sums begin with a zero, so that every part can be added. */

@@ -158,12 +158,12 @@ static derived drawn_mechanism(unsigned number, char **text) {
     return d;
 }
 
-/* Both lists at a random state, and the bound of their difference. It is each table's error times the sensitivity of
- * the accelerations, found by shifting the table. */
+/* Both lists at a random state, and the bound on their difference: each table's error times the sensitivity of the
+ * accelerations, found by shifting the table. */
 typedef struct comparison {
     evaluator *exact;
     evaluator *tables;
-    evaluator *moved[128]; /* by table */
+    evaluator *moved[128]; /* [table] list with this table shifted */
     int count;
 } comparison;
 

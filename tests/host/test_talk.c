@@ -71,7 +71,7 @@ TEST(talk, heard_and_kept) {
     }
 }
 
-/* After a good hello and the first turn the firmware sends `line`: the second turn ends with this error. */
+/* After a good hello and the first exchange the firmware sends `line`: the second exchange ends with this error. */
 static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     static talk t;
     static stream heard;
@@ -427,7 +427,8 @@ static void test_rows(void) {
                                       "1.997,2.000,sample,1,load,-1.5,N,good\n"
                                       "1.999,2.000,edge,1,push,,,\n"
                                       "2.000,2.000,sample,1,load,2.5,N,disconnected\n";
-    static const unsigned firsts[] = {0, 2, 3}; /* in the hello's order: the output, the note */
+    /* channels in the order of the hello: the output, the note */
+    static const unsigned firsts[] = {0, 2, 3};
     for (unsigned i = 0; i < sizeof firsts / sizeof firsts[0]; i++) {
         first = firsts[i];
         write_tape("push", &heard, 2, 3);

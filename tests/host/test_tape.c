@@ -55,7 +55,8 @@ static int entered_wave(int radians, double value, double *wave) {
     phase += radians >= 0 ? value : 0.0;
     const int entered = op_list_phase(list, multiple, offset, radians);
     const op *o = &list->ops[entered];
-    for (int k = 0; k < ANGLES; k++) { /* integers are turns, others parts */
+    for (int k = 0; k < ANGLES; k++) {
+        /* integers are multiples of the angle, others are parts of it */
         const bool whole = multiple[k] == floor(multiple[k]);
         TEST_ASSERT_TRUE((o->turns != NULL ? o->turns[k] : 0) == (whole ? multiple[k] : 0.0));
         TEST_ASSERT_TRUE((o->parts != NULL ? o->parts[k] : 0.0) == (whole ? 0.0 : multiple[k]));
@@ -534,7 +535,7 @@ TEST(tape_freed, multiplied_lists_compute_the_same) {
         expect_free(t, &f, false);
         op_list_freedoms_free(&f);
         free(times);
-        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* or NaN, if unknown */
+        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* negative or NaN, if the bias is unknown */
         op_list_free(t);
     }
     TEST_ASSERT_TRUE(blocks_in_use() == blocks);
@@ -644,7 +645,7 @@ static bool is_held(double unit) {
     return held;
 }
 
-/* Integers over powers of five, three and seven, and times such powers, within the search. */
+/* Integers, divided by powers of five, three and seven or multiplied by them, within the range of the search. */
 TEST(tape_gauged, decimals_and_thirds_become_whole) {
     const long blocks = blocks_in_use();
     const unsigned few = few_or_all(usual_or(4, 12), 1);
@@ -658,7 +659,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
                     if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        op_list_free(t); /* by chance */
+                        op_list_free(t); /* found by chance */
                     }
                 }
             }

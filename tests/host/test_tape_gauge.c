@@ -113,7 +113,7 @@ static double bias_of(op_list *t, const op_list *like, const derived *d, uint64_
     return sum;
 }
 
-/* Equal up to round-off in double: each constant may change by 1e-15 of itself, nine units. */
+/* Equal up to round-off in double: each constant may change by a relative 1e-15, nine units in the last place. */
 static void expect_equal(const op_list *t, const op_list *other, const derived *d, uint64_t seed,
                          const char *what) {
     double x[RESULTS];
@@ -139,7 +139,7 @@ static void expect_equal(const op_list *t, const op_list *other, const derived *
 typedef struct tally {
     int lists;
     int changed;
-    int worse;     /* at these states */
+    int worse;     /* number of worse results at these states */
     int more;      /* operations */
     double before; /* sums of biases of changed lists */
     double after;
@@ -230,7 +230,7 @@ TEST(tape_gauge, a_quotient_gets_whole_numbers) {
     const int operations = op_list_operations(t);
     TEST_ASSERT_TRUE(op_list_bias(t, t) > 1e-8);
     op_list_scale(&t, 0);
-    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* no free operation here */
+    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* no operation is free here */
     op_list_scale(&t, 1);
     TEST_ASSERT_EQUAL_INT(operations + 1, op_list_operations(t));
     TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-14);
@@ -243,7 +243,8 @@ TEST(tape_gauge, a_quotient_gets_whole_numbers) {
 
 TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
-    static const double left[] = {0.1, 0.5}; /* of the bias; op_list_scale() promises the second */
+    /* remaining part of the bias; op_list_scale() promises the second */
+    static const double left[] = {0.1, 0.5};
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);
         program *p = before_gauge(&d, names[k]);

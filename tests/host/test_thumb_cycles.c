@@ -8,7 +8,7 @@ typedef struct timed {
     const char *text;
     unsigned first;
     unsigned second;
-    unsigned cycles[3]; /* on M0, M3 and M4; 0: not an instruction of that core */
+    unsigned cycles[3]; /* cycles on M0, M3 and M4; 0: the core has no such instruction */
 } timed;
 
 static const timed instructions[] = {
@@ -106,7 +106,7 @@ TEST(thumb_cycles, pairs_overlap_or_wait) {
     static const struct {
         const char *last;
         const char *now;
-        unsigned cycles; /* of `now` on an M4 */
+        unsigned cycles; /* cycles of `now` on an M4 */
     } pairs[] = {
         {"ldr r1, [r2, #4]", "ldr r8, [r2, #400]", 1},
         {"ldr r1, [r2, #4]", "str r1, [r2, r3]", 1},

@@ -198,7 +198,8 @@ TEST(trust_scenes, rounding_and_tables) {
     TEST_ASSERT_TRUE(ended >= 4);
 }
 
-/* The estimate is near the true time; a tolerance near float's resolution may end it earlier. 1: it ended before the run. */
+/* The estimate is near the true time; a tolerance near float's resolution may end the estimate earlier. Returns 1 if
+ * the estimate ended before the run. */
 static unsigned expect_contacts(const char *name, horizons_setting how, double tolerance) {
     horizons h = built_in(strncmp(name, "thomson", 7) == 0    ? "thomson.whirl"
                           : strncmp(name, "carriage", 8) == 0 ? "eccentric.whirl"

@@ -232,7 +232,7 @@ TEST(trust_drawn, drawn_mechanisms) {
         if (h.known >= 0.05) { /* the references differ earlier: not accurate enough */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
-            regular++; /* both accurate to the end */
+            regular++; /* both are accurate to the end */
         } else {
             ratio[count] = horizons_ratio(&h);
             near += ratio[count] >= 0.8 && ratio[count] <= 1.2;

@@ -32,7 +32,7 @@ TEST(turned, settings_and_lists_choose) {
         TEST_ASSERT_TRUE(turns("", "a = 1", turned) == wh_method_turns((wh_method)m));
         TEST_ASSERT_FALSE(turns("", "a = 1", lookup));
         TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned) ==
-                         wh_method_turns((wh_method)m)); /* at any speed */
+                         wh_method_turns((wh_method)m)); /* whatever the speed */
     }
     /* a sine of an angle and a length is not of a sum of angles, and is looked up */
     TEST_ASSERT_TRUE(turns(" + 0.01 [N/m]*x^2", "a = 1", plainly));
@@ -150,7 +150,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
     fclose(out);
 }
 
-/* The share of mechanisms in which both forms differ by more than `within` of the error. */
+/* The share of mechanisms in which the two forms differ by more than `within` times the error. */
 static double share_apart(double within, double drive, double speed) {
     const unsigned cases = dice_cases(few_or_all(60, 200));
     uint64_t seed = 20261122;
@@ -187,8 +187,8 @@ TEST(turned, generated_mechanisms_that_become_fast_go_on) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 
-/* First-order systems with rates that depend strongly on the angles, near the stability limit. Stages are far from
- * the initial slope, and half a turn soon leads to another equilibrium. */
+/* First-order systems with rates that depend strongly on the angles, near the stability limit. The slopes at the stages
+ * differ much from that at the begin, and after half a turn the system moves to another equilibrium. */
 TEST(turned, stiff_angles_of_first_order_move_alike) {
     const unsigned cases = dice_cases(few_or_all(100, 300));
     uint64_t seed = 20261122;

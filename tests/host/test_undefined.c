@@ -36,7 +36,7 @@ typedef struct trial {
     victim victim;
     char text[2048];
     char statement[160]; /* quoted by the message */
-    int line;            /* of the statement */
+    int line;            /* line of the statement */
     double end_s;        /* time of the end */
     double step_s;
     bool is_float;
@@ -148,7 +148,7 @@ static void check(const trial *t, const char *file) {
     const double most = t->ends_later                           ? 5.0
                         : t->victim == OUTPUT || t->is_infinite ? 1.01 * t->step_s
                                                                 : 1e-3 * t->step_s;
-    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* of x, summed in float */
+    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* round-off of x, a sum in float */
     TEST_ASSERT_TRUE_MESSAGE(
         late_s <= most + rounding_s && late_s >= -1.01 * t->step_s - rounding_s, note);
 }

@@ -30,7 +30,7 @@ static derived scene_of(const char *text) {
     return d;
 }
 
-/* '@' stands for the undefined part. Each form is undefined if that part is, and otherwise defined. */
+/* '@' is replaced by the undefined part. Each form is undefined if and only if that part is. */
 static const char *const around[] = {
     "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
     "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
@@ -146,7 +146,7 @@ TEST(undefined_where, angles_that_it_is_made_of) {
         TEST_ASSERT_EQUAL_INT(2, im->angles);
         double angle_rad[2];
         double real[4];
-        double of[3][2]; /* of a, b and x: position and rate */
+        double of[3][2]; /* position and rate of a, b and x */
         for (int i = 0; i < 6; i++) {
             const component at = image_component(im, i);
             const char name = im->unknown[at.unknown].name[0];

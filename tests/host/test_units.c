@@ -10,12 +10,12 @@
 #define GRAVITY_M_S2 9.80665
 #define TURN_RAD 6.283185307179586476925
 
-/* One such unit is `si` of the SI unit with these exponents. */
+/* One of these units is `si` times the SI unit with these exponents. */
 typedef struct definition {
     const char *name;
     double si;
     int m, kg, s, A, K;
-    bool prefixed; /* takes SI prefixes */
+    bool prefixed; /* the unit takes SI prefixes */
 } definition;
 
 static const definition definitions[] = {
@@ -39,7 +39,7 @@ static const definition definitions[] = {
     {"Wb", 1, 2, 1, -2, -1, 0, true},
     {"T", 1, 0, 1, -2, -1, 0, true},
     {"H", 1, 2, 1, -2, -2, 0, true},
-    /* beside SI */
+    /* units outside SI */
     {"min", 60, 0, 0, 1, 0, 0, false},
     {"h", 3600, 0, 0, 1, 0, 0, false},
     {"deg", TURN_RAD / 360, 0, 0, 0, 0, 0, false},
@@ -167,7 +167,8 @@ TEST(units, decimal_exponents) {
     }
     unit_scale result;
     unit_error error;
-    TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error)); /* not a twelfth */
+    /* the exponent is no multiple of a twelfth */
+    TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error));
 }
 
 TEST(units, names_are_apart) {
@@ -175,7 +176,7 @@ TEST(units, names_are_apart) {
         for (int k = 0; k < i; k++) {
             TEST_ASSERT_TRUE_MESSAGE(strcmp(unit_name(i), unit_name(k)) != 0, unit_name(i));
         }
-        const char *name = unit_name(i); /* as units.h lists them */
+        const char *name = unit_name(i); /* in the order of units.h */
         const bool angle =
             strcmp(name, "rad") == 0 || strcmp(name, "deg") == 0 || strcmp(name, "rev") == 0;
         TEST_ASSERT_TRUE_MESSAGE(unit_is_angle(name, strlen(name)) == angle, name);

@@ -23,7 +23,7 @@ static const char *const harmless[] = {
     "abs(s - a)^(-0.8)",
     "1/tanh(s - a) - 1/(s - a)",
     "1/tanh((s - a)/0.1) - 0.1/(s - a)",
-    "1/(exp(s - a) - 1) - 1/(s - a)", /* round-off grows */
+    "1/(exp(s - a) - 1) - 1/(s - a)", /* the round-off grows near the pole */
     "(exp(s - a) - 1 - (s - a))/(s - a)^2",
     "1/(s - a + 1e-9/(s - a))", /* grows up to its end */
     /* its divisor touches zero, or nearly */
@@ -84,7 +84,7 @@ TEST(unjumped, losses) {
 /* An impact turns a rate past a zero of its divisor without reaching it. */
 TEST(unjumped, impacts) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
-                                       "tan(x'/v0 + 1)"}; /* of about 2 and of 0 */
+                                       "tan(x'/v0 + 1)"}; /* sine of about 2, then of 0 */
     for (unsigned c = 0; c < jumps_cases(3, 12, 3); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 1.0, 2.0);
@@ -107,7 +107,7 @@ TEST(unjumped, impacts) {
 TEST(unjumped, places_at_events) {
     static const char *const laws[] = {
         "Q(x) = 1e-6 [N*m]/(x - %.17g [m])\n",
-        "Q(x) = max(1e-6 [N*m]/(x - %.17g [m]), 0)\n", /* on one side only */
+        "Q(x) = max(1e-6 [N*m]/(x - %.17g [m]), 0)\n", /* a pole on one side only */
         "friction x static 0.1 kinetic 0.1 normal 1e-6 [N*m]/abs(x - %.17g [m])\n",
         "friction x static 0.1 kinetic 1e-6 [m]/abs(x - %.17g [m]) normal 0.1 [N]\n"};
     for (unsigned c = 0; c < jumps_cases(8, 48, 8); c++) {

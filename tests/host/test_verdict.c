@@ -43,7 +43,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  "scene s { start a = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
                  coarse, until);
         break;
-    case 3: { /* in the plane past the origin, in polar coordinates */
+    case 3: { /* a straight motion in the plane past the origin, in polar coordinates */
         const double past = pow(10.0, dice_between(d, -4.0, -0.5));
         const double r = sqrt(1.0 + past * past);
         snprintf(text, TEXT,
@@ -75,7 +75,8 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  "scene s { start x = 0.5 [mm], x' = %.12g [m/s]\nstep 1 [ms]\nuntil 50 [ms] }\n",
                  pow(10.0, dice_between(d, 0.0, 1.7)));
         break;
-    case 7: { /* a pendulum on a rod of right or wrong length, along it or across */
+    case 7: {
+        /* a pendulum on a rod of right or wrong length, with an impulse along the rod or across it */
         const double rod_m = dice_between(d, 0.2, 3.0);
         const double angle_rad = dice_between(d, -3.0, 3.0);
         const double at_m = rod_m * (dice_one_of(d, 2) == 0 ? 1.0 : dice_between(d, 0.8, 1.2));
@@ -429,7 +430,7 @@ TEST(verdict, a_point_is_judged_as_its_run) {
                                "--jobs",   "1",       NULL};
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
-        if (shape == 7) { /* does not ask for the other findings */
+        if (shape == 7) { /* other findings are not tested here */
             const char *trust[] = {file, "--quiet", "--number", number, NULL};
             command_say(command_trust, trust, &trusted);
         }
@@ -610,13 +611,14 @@ TEST(verdict, looks_take_what_they_may) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);
     expect_cost("tests/reference/stack.whirl", 1.0);
-    TEST_ASSERT_TRUE(total > 0.5); /* these balls use a good part */
+    TEST_ASSERT_TRUE(total > 0.5); /* the balls use more than half of the allowance */
     TEST_ASSERT_TRUE(each_builtin_scene(built_in) > 60);
     TEST_ASSERT_TRUE(of_files("docs/*/*.whirl") + of_files("tests/mechanisms/*.whirl") > 35);
     printf("  looks: at most %.2f of what they may take\n", total);
 }
 
-/* A run of many steps leaves no time for the finer run, or for the third one. Then `run`, `sweep` and `trust` say so. */
+/* A run of many steps leaves no time for the finer run, or for the third one. `run`, `sweep` and `trust` must then
+ * report that the run was not checked. */
 TEST(verdict, what_was_not_looked_at) {
     static const struct {
         const char *until;

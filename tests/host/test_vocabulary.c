@@ -133,7 +133,8 @@ static void expect_word_hint(const char *form, const char *word) {
     expect_report(line, wanted);
 }
 
-/* Words of other languages, and words that users try first, in any place. Each gets its own hint, never a guess by spelling. */
+/* Words of other languages, and words that users try first, anywhere in a file. Each has its own hint, never the hint
+ * of the nearest spelling. */
 TEST(vocabulary, first_words_get_a_hint) {
     static const char *const words[] = {
         "t",          "time",       "if",      "floor", "heaviside",  "table",
@@ -246,7 +247,7 @@ TEST(vocabulary, other_notations_are_mended) {
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(report, made[1]), report);
         const char *first = strstr(report, ": error: ");
         TEST_ASSERT_NOT_NULL_MESSAGE(first, text);
-        const bool bars = strchr(made[0], '|') != NULL; /* the hint names both */
+        const bool bars = strchr(made[0], '|') != NULL; /* the hint names both words */
         TEST_ASSERT_TRUE_MESSAGE(bars || strstr(first + 1, ": error: ") == NULL, report);
         snprintf(text, sizeof text, form, name, name, made[2]);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", report_of_text(text), text);

@@ -21,7 +21,7 @@ typedef struct made_up {
     double stiffness
         /* stiffness of the spring to the previous mass or, for the first, to the wall; of a pendulum, m g l */
         [MASSES];
-    double damping; /* of the first, to the wall, N s/m */
+    double damping; /* damping of the first body to the wall, N s/m */
     double start[MASSES];
     double rate;
     double fastest; /* 1/s, about */
@@ -257,7 +257,7 @@ TEST(warnings, passing_a_pole_is_told) {
     for (unsigned i = 0; i < cases; i++) {
         const double past_m = pow(10.0, dice_between(&d, -3.7, -0.7));
         const double speed = dice_between(&d, 3.0, 9.0);
-        const double away = dice_between(&d, 0.35, 0.65) * speed; /* from the axis, m */
+        const double away = dice_between(&d, 0.35, 0.65) * speed; /* distance from the axis, m */
         const double height = dice_between(&d, 3.0, 6.0);
         const double rise = dice_between(&d, 1.0, 5.0);
         const bool is_float = i % 3 == 2;
@@ -323,7 +323,8 @@ static void expect_ball_between(said *what, const char **words) {
     command_say(command_run, again, what);
 }
 
-/* All built-in scenes run to their ends, in both number formats or alternately. Only one scene, made for it, has a warning. */
+/* All built-in scenes run to their ends, in both number formats or alternately. Only the one scene that demonstrates a
+ * warning has one. */
 TEST(warnings, built_in_scenes_say_nothing) {
     said list;
     said what;

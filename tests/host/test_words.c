@@ -66,7 +66,7 @@ TEST(words, a_misspelt_statement_is_offered_its_word) {
             const bool body = (word->stands & (IN_FILE | IN_MECHANISM)) != 0;
             const char *text = body ? in_mechanism(line, "until 1 [s]") : in_mechanism("", line);
             const char *report = report_of_text(text);
-            if (strcmp(wrong, "setp") != 0) { /* as near to `set` */
+            if (strcmp(wrong, "setp") != 0) { /* its spelling is as near to `set` */
                 expect_in(report, wanted, text);
             }
         }

@@ -149,7 +149,8 @@ TEST(zonotope, mapped) {
                     for (int l = 1; l < before.count; l++) {
                         least = length[l] < length[least] ? l : least;
                     }
-                    shorter += length[least] * sqrtl((long double)n); /* by equal 1-norms */
+                    /* the vectors have equal 1-norms */
+                    shorter += length[least] * sqrtl((long double)n);
                     length[least] = (long double)INFINITY;
                 }
             }

@@ -22,7 +22,7 @@ static int any(uint64_t *seed, int count) { return (int)(random_bits(seed) % (un
 static wave_argument make_argument(uint64_t *seed) {
     wave_argument made = {.pieces = 1 + any(seed, WAVE_PIECES)};
     const int first = any(seed, WAVE_SYMBOLS);
-    for (int i = 0; i < made.pieces; i++) { /* each symbol once */
+    for (int i = 0; i < made.pieces; i++) { /* each symbol appears once */
         wave_piece *p = &made.piece[i];
         p->symbol = (first + i) % WAVE_SYMBOLS;
         p->form = any(seed, FORMS);
@@ -133,13 +133,13 @@ typedef struct arithmetic {
 static const arithmetic in_float = {0x1p-24L, 6.3e-8L, 1.463e-9L};
 static const arithmetic in_double = {0x1p-53L, 1.4e-16L, 0.0L};
 
-/* An argument, its error bound, and how far it depends on sines derived from others. */
+/* An argument, its error bound, and how far it depends on sines that are computed from other sines. */
 typedef struct reckoned {
     long double value;
     long double error;
     long double size;
     long double beside; /* error of the angles whose sines may yield this one's */
-    /* contains a fraction of a turn angle, so its sine is not derived from others */
+    /* the argument contains a fraction of a turn angle, so its sine is not computed from others */
     bool evaluated;
 } reckoned;
 
@@ -179,7 +179,7 @@ static long double sine_error(const reckoned *r, const arithmetic *in, bool mult
 
 typedef struct share {
     long double value;
-    long double most; /* of its size, in any form */
+    long double most; /* the largest size, in any form */
     long double error;
 } share;
 
@@ -191,7 +191,7 @@ static share factor_share(const wave_factor *f, const long double *state, const 
         r.value += 0.3L * sinl(inner.value);
         r.error += 0.3L * sine_error(&inner, in, false) + in->phase_rad + in->unit;
     }
-    if (f->product >= 0) { /* in radians: round-off of its own size */
+    if (f->product >= 0) { /* in radians the round-off is relative to its size */
         const long double product = state[WAVE_ANGLES] * state[f->product] / 100.0L;
         r.value += product;
         r.error += 6.0L * in->unit * fabsl(product) + in->phase_rad;

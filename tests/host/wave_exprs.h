@@ -50,8 +50,8 @@ typedef struct wave_expr {
 
 typedef struct wave_value {
     long double value;
-    long double bound; /* of the difference due to round-off */
-    long double scale; /* of the summed terms */
+    long double bound; /* bound on the difference due to round-off */
+    long double scale; /* sum of the sizes of the terms */
 } wave_value;
 
 wave_expr wave_expr_make(uint64_t *seed);
