@@ -52,7 +52,7 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
     case SYM_COORDINATE:
     case SYM_STATE:
         return enter(k, (diagnostics_node){.code = DIAGNOSTICS_STATE, .a = s->index, .b = primes});
-    case SYM_LET: /* below */
+    case SYM_LET: /* handled below */
     case SYM_OUTPUT:
     case SYM_RECORD: break; /* not in equations of motion */
     }
@@ -63,7 +63,7 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
 
 static int of_expr(maker *k, const expr *tree);
 
-/* A let may occur at many places; it is entered once. */
+/* A let may be used at many places; its nodes are entered once. */
 static int of_let(maker *k, const symbol *let) {
     if (k->let[let->index] < 0) {
         k->let[let->index] = of_expr(k, let->value);
@@ -145,7 +145,7 @@ static int of_atom(maker *k, const atom *x) {
     case ATOM_GROUP: return remember(k, x, a);
     case ATOM_POWER: return remember(k, x, enter_op(k, DIAGNOSTICS_POW, 0, a, b));
     case ATOM_CALL: return remember(k, x, enter_op(k, DIAGNOSTICS_CALL, x->function, a, b));
-    case ATOM_SYMBOL: break; /* above */
+    case ATOM_SYMBOL: break; /* handled above */
     }
     return a;
 }

@@ -310,7 +310,7 @@ struct wave {
     int cosine;
 };
 
-/* Only this many of the smallest known angles are tried as parts of another angle. */
+/* Only this many of the smallest known angles are tried as summands of another angle. */
 #define PARTS_MAX 96
 #define BETWEEN_MAX 32
 
@@ -775,7 +775,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
     return sum;
 }
 
-/* The node that most products share, or -1. Rates are preferred, so that sums of sines stay whole. */
+/* The node that most products share, or -1. Rates are preferred, so that sums of sines are not split. */
 static int most_shared(lowering *l, const product *products, int count) {
     int best = -1;
     int best_uses = 1;
@@ -829,7 +829,7 @@ static int sum_of(lowering *l, product *products, int count) {
     }
     product *with = alloc_more(NULL, count, sizeof *with); /* large: not cleared */
     int in = 0;
-    int out = 0; /* those without the node move to the front */
+    int out = 0; /* products without the node are moved to the front */
     for (int i = 0; i < count; i++) {
         product *p = &products[i];
         int k = 0;

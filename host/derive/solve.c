@@ -174,8 +174,8 @@ static void exchange(int *a, int *b) {
     *b = kept;
 }
 
-/* Move the best pivot among the equations and unknowns from `at` on to position `at`. It is a constant one if there is
- * any, else the largest at the sample state. Returns true if it is constant. */
+/* Move the best pivot among the equations and unknowns from `at` on to position `at`. The best is a constant one or, if
+ * there is none, the largest at the sample state. Returns true if it is constant. */
 static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int *columns, int at) {
     double *v = sample(t);
     double best = -1.0;
@@ -330,13 +330,13 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
     return g;
 }
 
-/* Eliminate the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. True if the
- * diagonal entry of row k is a number, *own, and its other entries are waves of the angle with one frequency. Then
+/* Eliminate the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. Returns true if
+ * the diagonal entry of row k is a number, *own, and its other entries are waves of the angle with one frequency. Then
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
  * replace the entries of the other equations; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns.
- * False otherwise, with nothing changed. */
+ * Otherwise returns false and changes nothing. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -497,7 +497,8 @@ static const poly *scale_simply(algebra *a, const poly *p, double scale) {
 
 /* --- symbolic elimination ------------------------------------------------------------------------*/
 
-/* Eliminate unknown k from the others symbolically. False, with nothing changed, if an entry would grow too much. */
+/* Eliminates unknown k from the others symbolically. Returns false, and changes nothing, if an entry would grow too
+ * much. */
 static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone, int k) {
     double diagonal;
@@ -623,7 +624,7 @@ static void put_away(arranged *w, int k) {
     w->order[w->eliminated++] = k;
 }
 
-/* Does unknown k depend on none of the hinges so far? */
+/* Does unknown k occur in none of the hinges that were found so far? */
 static bool off_hinges(const arranged *w, int k) {
     bool off = true;
     for (int h = 0; h < w->hinges; h++) {
@@ -691,7 +692,7 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     }
 }
 
-/* False if this arrangement is impossible. Free it either way. */
+/* Builds one arrangement of the system. Returns false if it is impossible; free it in both cases. */
 static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
     *w = arranged_room(n);

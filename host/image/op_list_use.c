@@ -249,13 +249,14 @@ int op_list_carried(const op_list *t) {
 }
 
 /* === order of a list ========================================================================== */
-/* A reordering of a finished list's operations with few live values. A list starts in order of entry: a whole matrix
- * before its first row is eliminated. In a large list more values wait than a processor has registers, and a third of
- * the instructions move them to memory and back. Here the next operation is always one that ends the most lives. Ties
- * go to the first in order of entry, or to the operation with the earliest last use: two orders. Given values (the
- * state, the pairs of sine and cosine) are read at their first use. This looks one operation ahead. So both orders are
- * compared with the order of entry by loads and stores, and the best is taken. A list whose values fit into registers
- * keeps its order. */
+/* A reordering of a finished list's operations with few live values. In the order in which operations were entered, a
+ * whole matrix is computed before its first row is eliminated. In a large list more values are then live than a
+ * processor has registers, and a third of the instructions move them to memory and back. The new order always takes
+ * next the operation that is the last use of the most values. Ties go to the first in order of entry, or to the
+ * operation with the earliest last use: two orders. Given values (the state, the pairs of sine and cosine) are read at
+ * their first use. This rule considers only one operation at a time. So both orders are compared with the order of
+ * entry by their numbers of loads and stores, and the best is taken. A list whose values fit into registers keeps its
+ * order. */
 
 typedef struct schedule {
     const op_list_needs *needs;
@@ -530,7 +531,7 @@ int op_list_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-/* The same, for modification. */
+/* As above, for a list that may be changed. */
 static void renumber(op *o, const int *number) {
     const bool values = op_rows[o->code].values > 0;
     o->a = values && o->a >= 0 ? number[o->a] : o->a;

@@ -28,7 +28,7 @@ typedef struct symbol {
     const char *unit;    /* the declared unit, without blanks, or ""; for a parameter or input, the
                        * unit after the only number of its value */
     unit_scale declared; /* the scale of that unit; divisor 0 without a unit */
-    dimension dim;       /* of the symbol without primes */
+    dimension dim;       /* dimension of the symbol without primes */
     bool is_angle;       /* declared [rad] (or [deg], [rev]): coordinate or state */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
     place at;            /* place of its declaration */
@@ -78,7 +78,7 @@ struct expr {
     place at; /* the operator's or the operand's place, for messages */
     dimension dim;
     int height;          /* 1 for a leaf; a let or output counts with its expression */
-    int order;           /* most primes on any coordinate or state, through lets too */
+    int order;           /* most primes on any coordinate or state, also within lets */
     unsigned uses;       /* USES_ bits of its dependencies, through lets too */
     const symbol *angle; /* a symbol in it that is an angle not declared in SI, or NULL */
 };
@@ -109,7 +109,7 @@ typedef struct term {
 typedef struct effect {
     const char *name;
     const char *text;
-    place at;      /* of its name */
+    place at;      /* place of the name */
     int last_line; /* end of its block */
 } effect;
 
@@ -133,7 +133,7 @@ typedef struct contact_statement {
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
     const expr *normal;     /* friction: normal force [N]; below zero counts as zero */
-    const expr *condition;  /* hold: true while above zero; `and` is min, `or` is max */
+    const expr *condition;  /* hold: true while this is above zero; `and` is min, `or` is max */
     int direction;          /* when: +1 rising, -1 falling, 0 both */
     const assignment *sets; /* when: coordinates and rates, all evaluated before any is set */
     int set_count;
@@ -197,7 +197,7 @@ enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX
 typedef struct scene {
     const char *name;
     const char *title;
-    place at;      /* of its name */
+    place at;      /* place of the name */
     int last_line; /* end of its block */
     const mechanism *mechanism;
     const bool *with; /* [mechanism->effect_count] active effects */
@@ -247,13 +247,13 @@ typedef struct overrides {
     int without_count; /* effect names removed; "all" comes first; "conserve": removes the scene's
                         * conserve */
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
-    const char *until; /* or NULL */
+    const char *until; /* the end of the scene, or NULL */
     const char
         *name;    /* replaces the scene's or mechanism's name, or NULL; must outlive the instance */
     bool balance; /* balance contacts inside the run even without `with ledger` */
 } overrides;
 
-/* The same in SI numbers: low < high. */
+/* The range in SI numbers: low < high. */
 typedef struct range_value {
     const symbol *symbol;
     int primes;

@@ -21,7 +21,7 @@ void contact_on_system(parser *in, const contact_statement *each);
 /* Are statements of these effects active together whenever one of them is? -1: of no effect. */
 static inline bool always_meet(int one, int other) { return one == other || one < 0 || other < 0; }
 
-/* Read the whole text except the scenes. These are noted and read last: they may name later effects. */
+/* Read the whole text except the scenes. Scenes are read last, because they may name effects that come after them. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_inputs(parser *in, mechanism *made);                 /* derivative.c */
 void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */
