@@ -1,5 +1,5 @@
-/* test_contact_flat.c: states in which holds lose rank (core/contact/contact_rank.h): at which states rows are
- * evaluated, the row of a contact that is no hold, and the state in which rank is lost. */
+/* test_contact_flat.c: the state in which holds lose rank (core/contact/contact_rank.h). test_contact_rank.c tests
+ * the rows. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -24,54 +24,6 @@ static void draw(uint64_t *seed, unsigned angles, wh_contact_work *w) {
 
 static bool holds(const wh_contact_work *w, unsigned k) {
     return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
-}
-
-/* A contact that is no active hold has a row of zeros. A hold's row is its part that is independent of the other
- * rows. */
-TEST(contact_flat, rows_are_those_of_the_place) {
-    uint64_t seed = 241;
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
-        wh_contact_rows rows;
-        wh_contact_state s;
-        wh_contact_point at;
-        const wh_real input = WH_R(0.0);
-        draw(&seed, draw_one_of(&seed, BENCH_COORDS), &w);
-        bench_state(&seed, &s);
-        wh_contact_point_of(&bench_now.system, &s, &at);
-        const wh_contact_point asked = at;
-        bench_now.at = &asked;
-        bench_now.input = &input;
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-            rows.size[k] = BENCH_SENTINEL;
-            for (unsigned i = 0; i < WH_COORDS; i++) {
-                rows.row[k][i] = BENCH_SENTINEL;
-                rows.way[k][i] = BENCH_SENTINEL;
-            }
-        }
-        w.law[0] = BENCH_SENTINEL;
-        wh_contact_rows_of(&bench_now.system, &w, &at, &input, &rows);
-        TEST_ASSERT_TRUE(!bench_now.astray && bench_now.laws == 2U &&
-                         w.law[0] == bench_now.first[0]);
-        unsigned count = 0;
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-            const bool used = k < bench_now.system.forced;
-            count += used && holds(&w, k);
-            for (unsigned i = 0; i < WH_COORDS; i++) {
-                const bool inside = used && i < bench_now.system.coordinates;
-                TEST_ASSERT_TRUE(inside || (rows.row[k][i] == BENCH_SENTINEL &&
-                                            rows.way[k][i] == BENCH_SENTINEL));
-                TEST_ASSERT_TRUE(!inside || holds(&w, k) ||
-                                 (rows.row[k][i] == WH_R(0.0) && rows.way[k][i] == WH_R(0.0)));
-                TEST_ASSERT_TRUE(!inside ||
-                                 bench_near(rows.way[k][i], bench_along(k, bench_now.inverse[i])) ||
-                                 k > 0 || !holds(&w, k));
-            }
-            TEST_ASSERT_TRUE(used ? rows.size[k] >= WH_R(0.0) : rows.size[k] == BENCH_SENTINEL);
-            TEST_ASSERT_TRUE(!used || holds(&w, k) || rows.size[k] == WH_R(0.0));
-        }
-        TEST_ASSERT_EQUAL_UINT(count, rows.holds);
-    }
 }
 
 /* The rows change with the position of the first coordinate. A step is tested at its end and at the state reached by

@@ -1,5 +1,5 @@
-/* test_contact_forces.c: the forces and impulses of core/contact/contact_forces.h and their elimination, compared with
- * dense solves. For redundant contacts the reference is wh_contact_lcp(), which test_contact_pivot.c tests. */
+/* test_contact_forces.c: the forces of redundant contacts (core/contact/contact_forces.h). The reference is
+ * wh_contact_lcp(), which test_contact_pivot.c tests. test_contact_exact.c compares forces and impulses of whole runs. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -10,47 +10,6 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_draw(seed, true);
     bench_work(seed, some, w);
 }
-
-/* The load of a contact includes the effect of the other contacts' forces. A contact that is redundant or at a limit
- * gets no force here. */
-TEST(contact_forces, a_load_is_what_a_dense_solve_says) {
-    uint64_t seed = 101;
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
-        uint8_t member[BENCH_CONTACTS] = {0};
-        int8_t at[BENCH_CONTACTS] = {0};
-        wh_real wanted[BENCH_CONTACTS];
-        wh_real lambda[BENCH_CONTACTS];
-        wh_real right[BENCH_CONTACTS];
-        unsigned out;
-        draw(&seed, false, &w);
-        const unsigned count = bench_members(&seed, member);
-        const bool some = count > 1 && draw_one_in(&seed, 2);
-        for (unsigned i = 0; i < count; i++) {
-            wanted[i] = draw_whole(&seed, -4, 4);
-        }
-        for (unsigned i = 0; i < count && some; i++) {
-            at[i] = (int8_t)(draw_one_in(&seed, 3) ? (draw_one_in(&seed, 2) ? 1 : -1) : 0);
-        }
-        out = bench_repeats(member, count, at);
-        TEST_ASSERT_EQUAL_UINT(out, wh_delassus_solve(&bench_now.system, &w, member, count,
-                                                      some ? at : NULL, wanted, lambda));
-        for (unsigned i = 0; i < count; i++) {
-            out |= at[i] != 0 ? 1U << i : 0U;
-        }
-        bench_solve(member, count, out, wanted, right);
-        for (unsigned i = 0; i < count; i++) {
-            TEST_ASSERT_TRUE(bench_near(lambda[i], right[i]));
-            TEST_ASSERT_TRUE((out >> i & 1U) == 0 || lambda[i] == WH_R(0.0));
-        }
-    }
-    wh_real none = BENCH_SENTINEL;
-    TEST_ASSERT_EQUAL_UINT(0,
-                           wh_delassus_solve(&bench_now.system, NULL, NULL, 0, NULL, NULL, &none));
-    TEST_ASSERT_TRUE(none == WH_R(0.0));
-}
-
-/* --- forces -------------------------------------------------------------------------------------------------- */
 
 /* A sliding contact pushes against its motion; the others keep J q'' + J' q' at zero. Writes the targets and returns the
  * number of members. */
@@ -83,65 +42,6 @@ static bool is_pinned(const uint8_t *member, unsigned count, unsigned c) {
         pinned = pinned || bench_now.contact[member[i]].pin == (int)c;
     }
     return pinned;
-}
-
-TEST(contact_forces, forces_keep_what_is_kept) {
-    uint64_t seed = 221;
-    unsigned regular = 0;
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
-        wh_contact_state s;
-        uint8_t member[BENCH_CONTACTS] = {0};
-        wh_real force[BENCH_CONTACTS];
-        wh_real wanted[BENCH_CONTACTS];
-        wh_real lambda[BENCH_CONTACTS];
-        wh_real right[WH_COORDS] = {WH_R(0.0)};
-        wh_real accel[WH_COORDS] = {WH_R(0.0)};
-        wh_real signal[2 * BENCH_CONTACTS];
-        wh_contact_point at;
-        const wh_real input = WH_R(0.0);
-        draw(&seed, true, &w);
-        bench_state(&seed, &s);
-        const wh_contact_work was = w;
-        const wh_contact_system *of = &bench_now.system;
-        const unsigned count = draw_wanted(&w, right, member, wanted, force);
-        bool acts = count > 0;
-        for (unsigned k = 0; k < of->forced; k++) {
-            acts = acts || bench_now.contact[k].kind == WH_FRICTION;
-        }
-        if (bench_repeats(member, count, NULL) != 0) {
-            continue;
-        }
-        bench_solve(member, count, 0, wanted, lambda);
-        for (unsigned i = 0; i < count; i++) {
-            force[member[i]] = lambda[i];
-            for (unsigned c = 0; c < of->coordinates; c++) {
-                right[c] += bench_way(member[i], c) * lambda[i];
-            }
-        }
-        bench_now.looks = 0;
-        bench_now.laws = 0;
-        w.law[0] = BENCH_SENTINEL;
-        wh_contact_point_of(of, &s, &at);
-        bench_now.at = &at;
-        bench_now.input = &input;
-        wh_contact_look(of, &w, &s, &input, accel, signal);
-        TEST_ASSERT_TRUE(!bench_now.astray);
-        TEST_ASSERT_TRUE(bench_now.looks == 1U && bench_now.laws == 1U && w.law[0] == was.law[0]);
-        for (unsigned c = 0; c < of->coordinates; c++) {
-            TEST_ASSERT_TRUE(bench_near(accel[c], right[c]));
-            TEST_ASSERT_TRUE(!is_pinned(member, count, c) || accel[c] == WH_R(0.0));
-        }
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-            const bool its = acts && k < of->forced;
-            TEST_ASSERT_TRUE(bench_near(w.force[k], its ? force[k] : was.force[k]));
-        }
-        for (unsigned i = 0; i < count; i++) {
-            TEST_ASSERT_TRUE(bench_near(w.wanted[i], wanted[i]));
-        }
-        regular += count > 1;
-    }
-    TEST_ASSERT_TRUE(regular > ROUNDS / 32);
 }
 
 /* Do the redundant contacts reach their targets by the forces of the others? */
@@ -280,95 +180,4 @@ TEST(contact_forces, no_number_stays_none_where_it_is_pinned) {
         const bool any = accel[0] != accel[0] || accel[1] != accel[1];
         TEST_ASSERT_TRUE(none ? any : zeros);
     }
-}
-
-/* --- impulses ------------------------------------------------------------------------------------------------- */
-
-/* Each contact in the set reaches its target rate; active holds, and the stops in `beside`, reach zero; stops only
- * push. A pinned contact whose target is zero gets exactly zero. Impulses are added to the earlier ones; the ledger
- * gets the work at the mean speed. */
-TEST(contact_forces, impulses_lead_to_their_targets) {
-    uint64_t seed = 224;
-    unsigned given = 0;
-    for (unsigned round = 0; round < 2U * ROUNDS; round++) {
-        wh_contact_work w;
-        wh_ledger_work books = {.span = WH_R(0.0)};
-        uint8_t member[BENCH_CONTACTS] = {0};
-        wh_real target[BENCH_CONTACTS];
-        wh_real wanted[BENCH_CONTACTS];
-        wh_real lambda[BENCH_CONTACTS];
-        wh_real left[BENCH_CONTACTS];
-        wh_real impulse[BENCH_CONTACTS];
-        wh_real total[BENCH_CONTACTS];
-        wh_real entry[WH_LEDGER_MAX] = {WH_R(0.0)};
-        wh_real rate[WH_COORDS];
-        wh_real right[WH_COORDS];
-        unsigned count = 0;
-        unsigned stops = 0;
-        draw(&seed, true, &w);
-        const wh_contact_system *of = &bench_now.system;
-        w.books = draw_one_in(&seed, 2) ? &books : NULL;
-        bench_vector(&seed, rate);
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-            stops |= k < of->forced && bench_now.contact[k].kind != WH_FRICTION ? 1U << k : 0U;
-            target[k] = draw_one_in(&seed, 2) ? WH_R(0.0) : draw_whole(&seed, -4, 4);
-            impulse[k] = draw_whole(&seed, 0, 4);
-            total[k] = impulse[k];
-        }
-        const unsigned set = stops & (unsigned)draw_bits(&seed);
-        const unsigned beside = stops & (unsigned)draw_bits(&seed) & (unsigned)draw_bits(&seed);
-        for (unsigned c = 0; c < WH_COORDS; c++) {
-            right[c] = rate[c];
-        }
-        for (unsigned k = 0; k < of->forced; k++) {
-            const bool holds = bench_now.contact[k].kind != WH_FRICTION && bench_keeps(&w, k);
-            if (holds || ((set | beside) >> k & 1U) != 0) {
-                wanted[count] =
-                    ((set >> k & 1U) != 0 ? target[k] : WH_R(0.0)) - bench_along(k, rate);
-                member[count++] = (uint8_t)k;
-            }
-        }
-        if (count == 0) {
-            continue;
-        }
-        const wh_contact_work was = w;
-        const unsigned giving = wh_contact_lcp(of, &w, member, count, wanted, false, lambda, left);
-        for (unsigned i = 0; i < count; i++) {
-            total[member[i]] += lambda[i];
-            for (unsigned c = 0; c < of->coordinates; c++) {
-                right[c] += bench_way(member[i], c) * lambda[i];
-            }
-        }
-        bool exact[WH_COORDS] = {false};
-        for (unsigned i = 0; i < count; i++) {
-            const unsigned k = member[i];
-            const unsigned first = wh_ledger_of_contact(of->ledger, k);
-            const int pin = bench_now.contact[k].pin;
-            const bool goes = (set >> k & 1U) != 0 && target[k] != WH_R(0.0);
-            if (pin >= 0 && (giving >> k & 1U) == 0 && !goes) {
-                right[pin] = WH_R(0.0);
-                exact[pin] = true;
-            }
-            const wh_real mean = (bench_along(k, rate) + bench_along(k, right)) / 2;
-            entry[first] = w.books != NULL ? lambda[i] * mean : WH_R(0.0);
-            for (unsigned c = 0; c < of->coordinates && w.books != NULL; c++) {
-                entry[first + 1U + c] = lambda[i] * bench_now.row[k][c];
-            }
-        }
-        w = was;
-        TEST_ASSERT_EQUAL_UINT(giving,
-                               wh_contact_impulses(of, &w, set, beside, target, rate, impulse));
-        for (unsigned c = 0; c < WH_COORDS; c++) {
-            TEST_ASSERT_TRUE(bench_near(rate[c], right[c]));
-            TEST_ASSERT_TRUE(!exact[c] || rate[c] == WH_R(0.0));
-        }
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
-            TEST_ASSERT_TRUE(bench_near(impulse[k], total[k]));
-        }
-        for (unsigned e = 0; e < of->ledger->entries; e++) {
-            TEST_ASSERT_TRUE(bench_near(books.step[e], entry[e]));
-        }
-        given += giving != 0;
-    }
-    TEST_ASSERT_TRUE(given > ROUNDS / 8);
 }

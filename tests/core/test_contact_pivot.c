@@ -74,39 +74,6 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
     TEST_ASSERT_TRUE(gave > ROUNDS / 8);
 }
 
-/* A contact that stays at a limit keeps its index. One that leaves a limit becomes the last, and is tested again for a
- * contradiction. */
-TEST(contact_pivot, who_leaves_a_limit_is_eliminated_last) {
-    uint64_t seed = 122;
-    for (unsigned round = 0; round < ROUNDS / 4; round++) {
-        wh_contact_pivot p = {.contradicted = draw_one_of(&seed, 16U)};
-        wh_contact_pivot was;
-        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
-        const unsigned i = draw_one_of(&seed, count);
-        const int8_t to = (int8_t)draw_whole(&seed, -1, 1);
-        for (unsigned j = 0; j < BENCH_CONTACTS; j++) {
-            const unsigned l = (unsigned)draw_bits(&seed) % (j + 1U);
-            p.member[j] = p.member[l];
-            p.member[l] = (uint8_t)j;
-        }
-        for (unsigned j = 0; j < BENCH_CONTACTS; j++) {
-            p.at[j] = (int8_t)draw_whole(&seed, -1, 1);
-            p.wanted[j] = draw_whole(&seed, -8, 8);
-        }
-        was = p;
-        wh_contact_pivot_move(&p, count, i, to);
-        for (unsigned j = 0; j < BENCH_CONTACTS; j++) {
-            const bool moved = to == 0 && j >= i && j < count;
-            const unsigned from = !moved ? j : j + 1U < count ? j + 1U : i;
-            TEST_ASSERT_EQUAL_UINT(was.member[from], p.member[j]);
-            TEST_ASSERT_EQUAL_INT(from == i ? to : was.at[from], p.at[j]);
-            TEST_ASSERT_TRUE(p.wanted[j] == was.wanted[from]);
-        }
-        TEST_ASSERT_EQUAL_UINT(
-            to == 0 ? was.contradicted & ~(1U << was.member[i]) : was.contradicted, p.contradicted);
-    }
-}
-
 /* Of the contacts beyond a limit, and those at a limit that should leave it, the one with the lowest number is chosen,
  * whatever its index. */
 TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {

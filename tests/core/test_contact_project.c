@@ -1,5 +1,5 @@
-/* test_contact_project.c: projection of positions onto the constraints, and of rates to zero
- * (core/contact/contact_project.h). The reference is a dense solve in the mass metric. The ledger gets the energy. */
+/* test_contact_project.c: projection of positions onto the constraints (core/contact/contact_project.h). The
+ * reference is a dense solve in the mass metric. The ledger gets the energy. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -211,59 +211,6 @@ TEST(contact_project, a_place_that_is_no_number_is_told) {
         told += undefined >= 0;
     }
     TEST_ASSERT_TRUE(told > ROUNDS / 8);
-}
-
-/* Rates along constraints become zero, and exactly zero for pinned contacts. The ledger gets the impulses and their
- * work at the mean speed. */
-TEST(contact_project, rates_are_taken_away_by_the_least) {
-    uint64_t seed = 163;
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
-        wh_ledger_work books;
-        uint8_t member[BENCH_CONTACTS] = {0};
-        wh_real wanted[BENCH_CONTACTS];
-        wh_real lambda[BENCH_CONTACTS];
-        wh_real rate[WH_COORDS];
-        wh_real right[WH_COORDS];
-        wh_real entry[WH_LEDGER_MAX] = {WH_R(0.0)};
-        draw(&seed, true, &w, &books);
-        const wh_contact_system *of = &bench_now.system;
-        const bool booked = draw_one_in(&seed, 2);
-        const unsigned but = draw_one_in(&seed, 2) ? 0U : draw_one_of(&seed, 16U);
-        const unsigned count = members_of(&w, but, member);
-        bench_vector(&seed, rate);
-        for (unsigned c = 0; c < WH_COORDS; c++) {
-            right[c] = rate[c];
-        }
-        for (unsigned i = 0; i < count; i++) {
-            wanted[i] = -bench_along(member[i], rate);
-        }
-        add_least(member, count, wanted, lambda, right);
-        for (unsigned i = 0; i < count; i++) {
-            const int pin = bench_now.contact[member[i]].pin;
-            right[pin >= 0 ? (unsigned)pin : WH_COORDS - 1U] =
-                pin >= 0 ? WH_R(0.0) : BENCH_SENTINEL;
-        }
-        for (unsigned i = 0; i < count && booked && w.books != NULL; i++) {
-            const unsigned first = wh_ledger_of_contact(of->ledger, member[i]);
-            const wh_real mean = (bench_along(member[i], right) - wanted[i]) / 2;
-            entry[first] = lambda[i] * mean;
-            for (unsigned c = 0; c < of->coordinates; c++) {
-                entry[first + 1U + c] = lambda[i] * bench_now.row[member[i]][c];
-            }
-        }
-        wh_contact_project_rates(of, &w, but, booked, rate);
-        for (unsigned c = 0; c < WH_COORDS; c++) {
-            TEST_ASSERT_TRUE(bench_near(rate[c], right[c]));
-        }
-        for (unsigned i = 0; i < count; i++) {
-            const int pin = bench_now.contact[member[i]].pin;
-            TEST_ASSERT_TRUE(pin < 0 || rate[pin] == WH_R(0.0));
-        }
-        for (unsigned e = 0; e < of->ledger->entries; e++) {
-            TEST_ASSERT_TRUE(bench_near(books.step[e], entry[e]));
-        }
-    }
 }
 
 /* A stop and a friction act on two coupled bodies. One body is slightly or far beyond the stop; if far, the friction

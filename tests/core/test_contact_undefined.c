@@ -149,25 +149,3 @@ TEST(contact_undefined, a_restitution_counts_at_an_impact) {
         }
     }
 }
-
-/* If a crossing assigns an invalid value, the step is refused with that component as the fault. */
-TEST(contact_undefined, what_is_assigned_must_be_a_number) {
-    for (unsigned way = 0; way < 3; way++) {
-        for (unsigned others = 0; others < COUNT; others++) {
-            hand_build(1, WH_R(2.0), WH_R(0.0), WH_R(1.0));
-            hand_now.start[1] = WH_R(1.0);
-            for (unsigned l = 0; l < others; l++) {
-                hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(-1.0), WH_R(0.5), WH_R(0.0));
-            }
-            hand_add(WH_WHEN, -1, WH_R(1.0), WH_R(0.0), WH_R(0.0025), WH_R(0.0), WH_R(0.0));
-            hand_now.places = true;
-            hand_now.place = none(way);
-            hand_start(true);
-            hand_steps(2);
-            const uint64_t hash = wh_scene_hash(&hand_now.scene, &hand_state);
-            TEST_ASSERT_TRUE(wh_scene_step(&hand_now.scene, &hand_state) != WH_OK);
-            TEST_ASSERT_TRUE(wh_scene_hash(&hand_now.scene, &hand_state) == hash);
-            TEST_ASSERT_TRUE(hand_state.fault >= 0);
-        }
-    }
-}
