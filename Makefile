@@ -161,8 +161,8 @@ faults: ##- the rig's controller against faults of plant and links: RUNS (20,000
 	@CC="$(CC)" mk/setup/deps.sh host $(if $(ASKED_BOARD),firmware boards)
 	@$(MAKE) $(PARALLEL) faults-now
 
-sine-exhaustive: $(B)/tools/sine_exhaustive ##- the sine's worst error, over all 2^32 angles (minutes)
-	$(Q)$<
+sine-exhaustive: $(B)/tools/functions_exhaustive ##- the sine's worst error, over all 2^32 angles (minutes)
+	$(Q)$< 1 sine && $< 1 cosine
 
 functions-exhaustive: $(B)/tools/functions_exhaustive ##- the float functions' worst errors, over all 2^32 floats (half an hour at most)
 	$(Q)$<

@@ -187,7 +187,7 @@ $(B)/tools/$(1): $(call objects,host,tests/tools/$(1).c $(3)) $(2)
 	$$(link)
 endef
 LIBS_ALL := $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
-$(foreach t,sine functions,$(eval $(call tool,$(t)_exhaustive,$(LIB_FLOAT))))
+$(eval $(call tool,functions_exhaustive,$(LIB_FLOAT)))
 $(eval $(call tool,tables_exhaustive,$(LIBS_ALL),tests/host/table_check.c))
 $(eval $(call tool,long_runs,$(LIBS_ALL),tests/host/motion.c $(UNITY_DIR)/unity.c))
 $(eval $(call tool,tel_check))

@@ -1,13 +1,15 @@
 /* functions_exhaustive.c: the float functions of core/function.h and the square root, against the library's in
- * double, in float ulps. Functions of one argument run over all 2^32 floats, those of two over 2^32 scattered pairs. The root
- * in integers and the one that scenes use are always the nearest float. Double has more than twice a float's bits plus two
- * (Figueroa, When is double rounding innocuous?, SIGNUM Newsletter 30 (1995) 3).
+ * double, in float ulps. Functions of one argument run over all 2^32 floats, those of two over 2^32 scattered pairs. Sine and
+ * cosine run over all 2^32 phases, and their errors are absolute. The root in integers and the one that scenes use are always
+ * the nearest float. Double has more than twice a float's bits plus two (Figueroa, When is double rounding innocuous?, SIGNUM
+ * Newsletter 30 (1995) 3).
  *
  *     functions_exhaustive [STRIDE [FUNCTION]]
  *
  * STRIDE > 1 takes one argument out of every STRIDE, at a scattered place in each. Prints each function's worst error, its
- * argument, and the number of results that are not the nearest float. The exit status is 1 if an error exceeds the bound of
- * core/function.h, or if infinities, NaNs or signs of zero differ. The library's own error, some 2^-29 ulp, does not show. */
+ * argument, and the number of results that are not the nearest float (of the sine and cosine: the RMS error). The exit status
+ * is 1 if an error exceeds the bound of core/function.h, or if infinities, NaNs or signs of zero differ. The library's own error, some 2^-29 ulp, does not show. */
+#include "core/angle.h"
 #include "core/function.h"
 #include "core/root.h"
 
@@ -28,27 +30,52 @@ typedef struct subject {
     double (*reference)(double);
     float (*two)(float, float);
     double (*reference_of_two)(double, double);
+    float (*of_phase)(wh_phase); /* `allowed` is absolute, of `reference` in rad */
 } subject;
 
 static float used_sqrt(float x) { return WH_SQRT(x); }
 
+static float sine_of(wh_phase phase) {
+    float sine;
+    float cosine;
+    wh_sincos(phase, &sine, &cosine);
+    return sine;
+}
+
+static float cosine_of(wh_phase phase) {
+    float sine;
+    float cosine;
+    wh_sincos(phase, &sine, &cosine);
+    return cosine;
+}
+
 static const subject subjects[] = {
-    {"sqrt", 0.5, wh_sqrt, sqrt, NULL, NULL},    {"WH_SQRT", 0.5, used_sqrt, sqrt, NULL, NULL},
-    {"exp", 1.0, wh_exp, exp, NULL, NULL},       {"log", 1.0, wh_log, log, NULL, NULL},
-    {"tan", 2.0, wh_tan, tan, NULL, NULL},       {"asin", 1.0, wh_asin, asin, NULL, NULL},
-    {"acos", 1.0, wh_acos, acos, NULL, NULL},    {"atan", 1.0, wh_atan, atan, NULL, NULL},
-    {"atan2", 2.0, NULL, NULL, wh_atan2, atan2}, {"pow", 2.0, NULL, NULL, wh_pow, pow},
-    {"sinh", 1.0, wh_sinh, sinh, NULL, NULL},    {"cosh", 1.0, wh_cosh, cosh, NULL, NULL},
-    {"tanh", 1.0, wh_tanh, tanh, NULL, NULL},
+    {"sine", 1e-7, .of_phase = sine_of, .reference = sin},
+    {"cosine", 1e-7, .of_phase = cosine_of, .reference = cos},
+    {"sqrt", 0.5, .one = wh_sqrt, .reference = sqrt},
+    {"WH_SQRT", 0.5, .one = used_sqrt, .reference = sqrt},
+    {"exp", 1.0, .one = wh_exp, .reference = exp},
+    {"log", 1.0, .one = wh_log, .reference = log},
+    {"tan", 2.0, .one = wh_tan, .reference = tan},
+    {"asin", 1.0, .one = wh_asin, .reference = asin},
+    {"acos", 1.0, .one = wh_acos, .reference = acos},
+    {"atan", 1.0, .one = wh_atan, .reference = atan},
+    {"atan2", 2.0, .two = wh_atan2, .reference_of_two = atan2},
+    {"pow", 2.0, .two = wh_pow, .reference_of_two = pow},
+    {"sinh", 1.0, .one = wh_sinh, .reference = sinh},
+    {"cosh", 1.0, .one = wh_cosh, .reference = cosh},
+    {"tanh", 1.0, .one = wh_tanh, .reference = tanh},
 };
 #define ONE_MORE(name) +1
-_Static_assert(sizeof subjects / sizeof subjects[0] == 2 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
+_Static_assert(sizeof subjects / sizeof subjects[0] == 4 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
                "every function of core/function.h is tried");
 
 typedef struct tally {
     uint64_t taken;
     double worst;
     float worst_at[2];
+    uint32_t worst_phase;
+    double squares; /* of the errors at phases */
     uint64_t not_nearest;
     uint64_t wrong; /* infinity, NaN or the wrong sign, unlike the reference */
     float wrong_at[2];
@@ -104,6 +131,17 @@ static void judge(tally *t, float got, double wanted, float x, float y) {
     }
 }
 
+static void judge_at_phase(tally *t, float got, double wanted, uint32_t phase) {
+    const double error = fabs((double)got - wanted);
+    t->taken++;
+    t->squares += error * error;
+    t->wrong += !(fabsf(got) <= 1.0f);
+    if (error > t->worst) {
+        t->worst = error;
+        t->worst_phase = phase;
+    }
+}
+
 /* Five kinds of pairs in turn: any floats; similar sizes; a power without overflow; a base near one; small integers. */
 static void pair_of(uint64_t k, float *x, float *y) {
     const uint64_t s = scatter(k);
@@ -132,7 +170,10 @@ static void pair_of(uint64_t k, float *x, float *y) {
 static void measure(const subject *s, uint64_t first, uint64_t last, uint64_t stride, tally *t) {
     for (uint64_t k = first; k < last; k++) {
         const uint64_t at = k * stride + (stride > 1 ? scatter(k) % stride : 0U);
-        if (s->one != NULL) {
+        if (s->of_phase != NULL) {
+            const double rad = (double)at * (6.283185307179586 / 4294967296.0);
+            judge_at_phase(t, s->of_phase((wh_phase)at), s->reference(rad), (uint32_t)at);
+        } else if (s->one != NULL) {
             const float x = float_of((uint32_t)at);
             judge(t, s->one(x), s->reference((double)x), x, 0.0f);
         } else {
@@ -150,7 +191,9 @@ static void merge(tally *into, const tally *from) {
     if (from->worst > into->worst) {
         into->worst = from->worst;
         memcpy(into->worst_at, from->worst_at, sizeof from->worst_at);
+        into->worst_phase = from->worst_phase;
     }
+    into->squares += from->squares;
     if (into->wrong == 0) {
         memcpy(into->wrong_at, from->wrong_at, sizeof from->wrong_at);
     }
@@ -196,6 +239,12 @@ static int measure_on_all_cores(const subject *s, uint64_t stride, tally *all) {
 
 static int show(const subject *s, const tally *t) {
     const int good = t->worst <= s->allowed && t->wrong == 0;
+    if (s->of_phase != NULL) {
+        printf("%-6s %11llu  worst %.3e at phase 0x%08x  rms %.3e  %s\n", s->name,
+               (unsigned long long)t->taken, t->worst, (unsigned)t->worst_phase,
+               sqrt(t->squares / (double)t->taken), good ? "ok" : "TOO MUCH");
+        return good;
+    }
     printf("%-6s %11llu  worst %.4f units at %a", s->name, (unsigned long long)t->taken, t->worst,
            (double)t->worst_at[0]);
     if (s->two != NULL) {
