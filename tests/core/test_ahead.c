@@ -5,9 +5,7 @@
 #include "core/step.h"
 #include "core/step/matrix_step.h"
 
-#include "unity.h"
-
-void suite_ahead(void);
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
@@ -84,7 +82,7 @@ static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_rea
     return end;
 }
 
-static void test_steps_ahead_are_steps(void) {
+TEST(ahead, steps_ahead_are_steps) {
     /* inputs: a normal one; one that accelerates the shaft until it makes half a turn per step; not a number */
     const wh_real inputs[] = {WH_R(2.0), WH_R(300.0), (wh_real)__builtin_nan("")};
     length[0] = WH_R(0.0625);
@@ -187,7 +185,7 @@ static void speed_up(const void *model, const wh_phase *phase, const wh_real *re
     given[2] = WH_R(0.0);
 }
 
-static void test_a_matrix_moves_angles(void) {
+TEST(ahead, a_matrix_moves_angles) {
     for (unsigned k = 0; k < 2; k++) {
         wh_angle angle[1] = {wh_angle_from_rad(WH_R(0.0))};
         wh_real real[1] = {WH_R(1.0)};
@@ -218,7 +216,7 @@ static void spoil(const void *model, const wh_phase *phase, const wh_real *real,
     wh_copy(spoilt, 6, given);
 }
 
-static void test_what_a_matrix_spoils_is_refused(void) {
+TEST(ahead, what_a_matrix_spoils_is_refused) {
     const wh_real bad[] = {WH_R(2e15), WH_R(-1e30), (wh_real)__builtin_nan(""),
                            (wh_real)__builtin_inf()};
     for (unsigned k = 0; k < 4 * 3 * 3; k++) {
@@ -290,12 +288,9 @@ static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
 
 #endif
 
-void suite_ahead(void) {
-    RUN_TEST(test_steps_ahead_are_steps);
+SUITE(ahead) {
 #if HAS_REFERENCE
     RUN_TEST(test_a_matrix_turns_as_far_as_its_power);
     RUN_TEST(test_a_length_in_two_parts_lasts_as_long_as_it_should);
 #endif
-    RUN_TEST(test_a_matrix_moves_angles);
-    RUN_TEST(test_what_a_matrix_spoils_is_refused);
 }

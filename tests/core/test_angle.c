@@ -2,7 +2,7 @@
 #include "core/angle.h"
 
 #include "tests/scattered.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 #if __STDC_HOSTED__
 #include <math.h>
@@ -11,8 +11,6 @@
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
 #endif
-
-void suite_angle(void);
 
 #if WH_DOUBLE
 
@@ -39,7 +37,7 @@ static void test_phase_moves(void) {
     }
 }
 
-void suite_angle(void) {
+SUITE(angle) {
     RUN_TEST(test_phase_moves);
     RUN_TEST(test_radians_are_kept);
     RUN_TEST(test_parts_of_angles);
@@ -252,7 +250,7 @@ static void test_to_rad_is_nearest(void) {
 }
 #endif
 
-void suite_angle(void) {
+SUITE(angle) {
     RUN_TEST(test_phase_moves);
     RUN_TEST(test_phase_moves_to_the_nearest);
     RUN_TEST(test_phase_of_angle);

@@ -4,9 +4,7 @@
 #include "core/number/arithmetic.h"
 #include "core/scene.h"
 
-#include "unity.h"
-
-void suite_arithmetic(void);
+#include "tests/suites.h"
 
 static wh_state state;
 static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
@@ -38,13 +36,13 @@ static const wh_scene scene = {.name = "still",
 
 static wh_status start(void) { return wh_scene_start(&scene, &state, memory, sizeof memory); }
 
-static void test_this_build_is_sound(void) {
+TEST(arithmetic, this_build_is_sound) {
     TEST_ASSERT_TRUE(wh_arithmetic_wrong(wh_arithmetic) == WH_PROBED_COUNT);
     spoilt = WH_PROBED_COUNT;
     TEST_ASSERT_TRUE(start() == WH_OK);
 }
 
-static void test_a_scene_of_other_arithmetic_is_refused(void) {
+TEST(arithmetic, a_scene_of_other_arithmetic_is_refused) {
     /* the probes under contraction, reordering, truncation, flushing, reciprocals and lost signs */
 #if WH_DOUBLE
     static const wh_real made[WH_PROBED_COUNT] = {0x1p-54,
@@ -111,9 +109,7 @@ static void test_other_roundings_are_refused(void) {
 }
 #endif
 
-void suite_arithmetic(void) {
-    RUN_TEST(test_this_build_is_sound);
-    RUN_TEST(test_a_scene_of_other_arithmetic_is_refused);
+SUITE(arithmetic) {
 #ifdef MODES
     RUN_TEST(test_flush_to_zero_is_refused);
     RUN_TEST(test_other_roundings_are_refused);

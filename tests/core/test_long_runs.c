@@ -4,9 +4,7 @@
 #include "core/rig/speed.h"
 #include "hand.h"
 
-#include "unity.h"
-
-void suite_long_runs(void);
+#include "tests/suites.h"
 
 /* --- integers of 128 bits, because boards have none ------------------------------------------- */
 
@@ -96,7 +94,7 @@ static bool time_is_right(wh_fraction step, uint64_t steps) {
            (step.denominator >> 30 != 0 || is_nearest(time.fraction_s, rest, step.denominator));
 }
 
-static void test_times_are_right_to_one_rounding(void) {
+TEST(long_runs, times_are_right_to_one_rounding) {
     static const wh_fraction known[] = {
         {1, 1000},      {1, 1000000},  {1, 1000000000},     {1, 3},         {11, 10000},
         {1, 44100},     {1001, 30000}, {3600, 1},           {1, 1U << 10U}, {999, 1000},
@@ -130,7 +128,7 @@ static void test_times_are_right_to_one_rounding(void) {
 }
 
 /* A fraction that rounds to one becomes the next second; all others stay below one. */
-static void test_a_fraction_stays_below_one(void) {
+TEST(long_runs, a_fraction_stays_below_one) {
     const uint64_t in = UINT64_C(1) << 60;
     wh_scene scene = {.step_s = WH_R(1.0), .step = {1, in}};
     wh_state state = {.steps = in - 1};
@@ -146,7 +144,7 @@ static void test_a_fraction_stays_below_one(void) {
 
 /* A scene without an exact step has the time of its real step. With steps of 2^k s the product is exact: whole seconds and
  * fraction are its bits above and below the point, below 2^56 s. (Beyond that there are no further bits.) */
-static void test_time_without_a_fraction(void) {
+TEST(long_runs, time_without_a_fraction) {
     random_state = UINT64_C(0x20261123);
     for (int k = -20; k <= 33; k++) {
         wh_scene scene = {.step_s = WH_R(1.0)};
@@ -168,7 +166,7 @@ static void test_time_without_a_fraction(void) {
     TEST_ASSERT_TRUE(wh_scene_time(&scene, &state).whole_s >= (uint64_t)UINT32_MAX << 24);
 }
 
-static void test_steps_do_not_wrap(void) {
+TEST(long_runs, steps_do_not_wrap) {
     hand_build_ball(WH_R(0.5));
     hand_start(false);
     hand_now.scene.step = (wh_fraction){1, 1000};
@@ -183,7 +181,7 @@ static void test_steps_do_not_wrap(void) {
 }
 
 /* Two stops one micrometre apart and a fast body: every step overruns. */
-static void test_events_and_overruns_do_not_wrap(void) {
+TEST(long_runs, events_and_overruns_do_not_wrap) {
     hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
     hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
     hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1e-6), WH_R(1.0), WH_R(0.0));
@@ -213,7 +211,7 @@ static void test_turns_wrap_and_the_phase_goes_on(void) {
 
 /* Sums of the ledger after 50 years of 1 ms steps (1.6e12 entries of one size): another hundred thousand entries still
  * change the sum. */
-static void test_sums_of_years_do_not_stall(void) {
+TEST(long_runs, sums_of_years_do_not_stall) {
     static const wh_real each[] = {WH_R(1.0), WH_R(-3e-7), WH_R(0.0123), WH_R(7.7e9), WH_R(-1e-20)};
     const wh_real years = WH_R(1.57788e12);
     for (unsigned i = 0; i < sizeof each / sizeof each[0]; i++) {
@@ -230,7 +228,7 @@ static void test_sums_of_years_do_not_stall(void) {
 
 /* Quarter turns and pulses wrap after 2^32, six years at 330 rpm, and capture ticks after 71.6 minutes. After the wraps
  * the speed is right, no pulse counts as lost, and positions are right. */
-static void test_the_count_of_quarters_wraps(void) {
+TEST(long_runs, the_count_of_quarters_wraps) {
     static wh_speed speed;
     const uint32_t quarter_ticks = 45454U;
     uint32_t ticks = UINT32_MAX - 20U * quarter_ticks;
@@ -258,14 +256,7 @@ static void test_the_count_of_quarters_wraps(void) {
     TEST_ASSERT_TRUE(speed.quarter < 100U && speed.taken < 100U); /* both counts have wrapped */
 }
 
-void suite_long_runs(void) {
-    RUN_TEST(test_sums_of_years_do_not_stall);
-    RUN_TEST(test_the_count_of_quarters_wraps);
-    RUN_TEST(test_times_are_right_to_one_rounding);
-    RUN_TEST(test_a_fraction_stays_below_one);
-    RUN_TEST(test_time_without_a_fraction);
-    RUN_TEST(test_steps_do_not_wrap);
-    RUN_TEST(test_events_and_overruns_do_not_wrap);
+SUITE(long_runs) {
 #if !WH_DOUBLE
     RUN_TEST(test_turns_wrap_and_the_phase_goes_on);
 #endif

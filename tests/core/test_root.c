@@ -3,13 +3,11 @@
  * table alone. */
 #include "core/root.h"
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
 #endif
-
-void suite_root(void);
 
 #if WH_DOUBLE
 typedef uint64_t word;
@@ -165,7 +163,7 @@ static void test_special(void) {
     }
 }
 
-void suite_root(void) {
+SUITE(root) {
     RUN_TEST(test_special);
 #if !WH_DOUBLE || defined(__SIZEOF_INT128__)
     RUN_TEST(test_all_exponents);

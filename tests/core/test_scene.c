@@ -3,9 +3,7 @@
 #define WH_COORDS 2
 #include "core/step.h"
 
-#include "unity.h"
-
-void suite_scene(void);
+#include "tests/suites.h"
 
 /* x'' = -x + u: from x = 1 at rest and u = 0, x = cos t. */
 static void oscillator_accel(const void *model, const wh_phase *phase, const wh_real *linear,
@@ -92,7 +90,7 @@ static bool steps(const wh_scene *scene, unsigned count) {
 /* --- starting ------------------------------------------------------------------------------------- */
 
 /* Many steps in one call give the same state as single steps, up to the last good one. */
-static void test_many_steps_are_steps(void) {
+TEST(scene, many_steps_are_steps) {
     const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.25));
     TEST_ASSERT_TRUE(start(&scene));
     for (unsigned i = 0; i < 17; i++) {
@@ -127,7 +125,7 @@ static wh_status first_order_advance(const wh_scene *scene, wh_state *of) {
                            of);
 }
 
-static void test_a_method_that_the_form_does_not_have_is_refused(void) {
+TEST(scene, a_method_that_the_form_does_not_have_is_refused) {
     for (unsigned i = 0; i < WH_METHODS; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
         scene.form = WH_FIRST_ORDER;
@@ -149,7 +147,7 @@ static void test_a_method_that_the_form_does_not_have_is_refused(void) {
 }
 
 /* A number that is no method, as in corrupted memory, is refused. */
-static void test_what_is_no_method_is_refused(void) {
+TEST(scene, what_is_no_method_is_refused) {
     for (unsigned i = 0; i < 3; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
         scene.method = (wh_method)(i == 0 ? (unsigned)WH_METHODS : 77U + 99U * i);
@@ -160,7 +158,7 @@ static void test_what_is_no_method_is_refused(void) {
     }
 }
 
-static void test_start_takes_over_the_start_values_again(void) {
+TEST(scene, start_takes_over_the_start_values_again) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
     const uint64_t fresh = wh_scene_hash(&scene, &state);
@@ -175,7 +173,7 @@ static void test_start_takes_over_the_start_values_again(void) {
 
 /* --- stepping ------------------------------------------------------------------------------------- */
 
-static void test_time_is_steps_times_step(void) {
+TEST(scene, time_is_steps_times_step) {
     const wh_scene scene = oscillator(WH_RK4, false, WH_R(0.001));
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 5000));
@@ -183,7 +181,7 @@ static void test_time_is_steps_times_step(void) {
     TEST_ASSERT_TRUE(wh_scene_time_s(&scene, &state) == WH_R(5000.0) * WH_R(0.001));
 }
 
-static void test_inputs_act_from_the_next_step_on(void) {
+TEST(scene, inputs_act_from_the_next_step_on) {
     const wh_scene scene = shaft(WH_SEMI_IMPLICIT_EULER);
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 1));
@@ -193,7 +191,7 @@ static void test_inputs_act_from_the_next_step_on(void) {
     TEST_ASSERT_TRUE(state.real[2] == WH_R(0.5) + WH_R(0.001) * WH_R(2.0));
 }
 
-static void test_angle_keeps_its_precision_over_many_turns(void) {
+TEST(scene, angle_keeps_its_precision_over_many_turns) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 10000));
@@ -241,7 +239,7 @@ static void expect_refused(const wh_scene *scene, int fault) {
     }
 }
 
-static void test_absurd_rate_keeps_the_last_good_state(void) {
+TEST(scene, absurd_rate_keeps_the_last_good_state) {
     const wh_scene scene = shaft(WH_EULER);
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 3));
@@ -253,7 +251,7 @@ static void test_absurd_rate_keeps_the_last_good_state(void) {
     TEST_ASSERT_TRUE(state.steps == 4);
 }
 
-static void test_not_a_number_is_refused(void) {
+TEST(scene, not_a_number_is_refused) {
     const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.001));
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 3));
@@ -267,7 +265,7 @@ static void test_not_a_number_is_refused(void) {
 
 /* --- comparison ----------------------------------------------------------------------------------- */
 
-static void test_hash_sees_every_part_of_the_state(void) {
+TEST(scene, hash_sees_every_part_of_the_state) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
     state.real[0] = WH_R(0.0);
@@ -284,7 +282,7 @@ static void test_hash_sees_every_part_of_the_state(void) {
     TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == before);
 }
 
-static void test_every_status_has_its_own_words(void) {
+TEST(scene, every_status_has_its_own_words) {
 #define NAME(name, value, words) name,
     static const wh_status all[] = {WH_STATUS_ROWS(NAME)};
     for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
@@ -297,19 +295,8 @@ static void test_every_status_has_its_own_words(void) {
     }
 }
 
-void suite_scene(void) {
-    RUN_TEST(test_many_steps_are_steps);
-    RUN_TEST(test_a_method_that_the_form_does_not_have_is_refused);
-    RUN_TEST(test_what_is_no_method_is_refused);
-    RUN_TEST(test_start_takes_over_the_start_values_again);
-    RUN_TEST(test_time_is_steps_times_step);
-    RUN_TEST(test_inputs_act_from_the_next_step_on);
-    RUN_TEST(test_angle_keeps_its_precision_over_many_turns);
+SUITE(scene) {
 #if !WH_DOUBLE
     RUN_TEST(test_compensated_sums_beat_plain_ones);
 #endif
-    RUN_TEST(test_absurd_rate_keeps_the_last_good_state);
-    RUN_TEST(test_not_a_number_is_refused);
-    RUN_TEST(test_hash_sees_every_part_of_the_state);
-    RUN_TEST(test_every_status_has_its_own_words);
 }

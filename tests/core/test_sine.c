@@ -1,11 +1,11 @@
 /* test_sine.c: sine and cosine together.
  *
- * The float build is compared with a reference in integers, which every board can compute. If there is a C library,
- * both builds are also compared with its sine. WH_TEST_SMALL takes fewer angles. */
+ * The float build is compared with a reference in integers, which every board can compute. The double build
+ * is compared with the sine of the C library, if there is one. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 #if __STDC_HOSTED__
 #include <math.h>
@@ -17,8 +17,6 @@
 
 #define QUARTER (UINT32_C(1) << 30)
 #define SECTOR (UINT32_C(1) << 25) /* a sector of the sine table */
-
-void suite_sine(void);
 
 static wh_real sine_of(wh_phase phase) {
     wh_real s;
@@ -33,6 +31,16 @@ static wh_real cosine_of(wh_phase phase) {
     wh_sincos(phase, &s, &c);
     return c;
 }
+
+#if __STDC_HOSTED__
+static void test_table_is_nearest(void) {
+    for (unsigned i = 0; i < 160; i++) {
+        const long double exact = sinl(i * (6.283185307179586476925286766559L / 128.0L));
+        const wh_real wanted = i % 64 == 0 ? WH_R(0.0) : (wh_real)exact;
+        TEST_ASSERT_TRUE_MESSAGE(wh_sine_table[i] == wanted, "sine table");
+    }
+}
+#endif
 
 #if WH_DOUBLE
 
@@ -112,17 +120,9 @@ static void test_against_libm(void) {
     }
     TEST_ASSERT_DOUBLE_WITHIN(1.4e-16, 0.0, worst);
 }
-
-static void test_table_is_nearest(void) {
-    for (unsigned i = 0; i < 160; i++) {
-        const long double exact = sinl(i * (6.283185307179586476925286766559L / 128.0L));
-        const double wanted = i % 64 == 0 ? 0.0 : (double)exact;
-        TEST_ASSERT_TRUE_MESSAGE(wh_sine_table[i] == wanted, "sine table");
-    }
-}
 #endif
 
-void suite_sine(void) {
+SUITE(sine) {
     RUN_TEST(test_known_values);
     RUN_TEST(test_small_angles_keep_their_digits);
     RUN_TEST(test_unit_circle_and_symmetry);
@@ -232,7 +232,7 @@ static void test_about_quarters_and_sectors(void) {
 }
 
 static void test_worst_found(void) {
-    /* The phases with the largest errors, from tests/tools/sine_exhaustive.c. */
+    /* The phases with the largest errors, from tests/tools/functions_exhaustive.c. */
     expect_good(UINT32_C(0x48ffebe7), 1, 1);
     expect_good(UINT32_C(0x08ffebe7), 1, 1);
     TEST_ASSERT_GREATER_THAN_INT64(125, error_at(UINT32_C(0x48ffebe7)));
@@ -257,31 +257,7 @@ static void test_unit_circle_and_symmetry(void) {
     }
 }
 
-#if __STDC_HOSTED__
-static void test_against_libm(void) {
-    scattered_state = 6;
-    double worst = 0.0;
-    for (unsigned i = 0; i < 400000; i++) {
-        const uint32_t phase = (uint32_t)(scattered() >> 16);
-        float s;
-        float c;
-        wh_sincos(phase, &s, &c);
-        const double angle = (double)phase * (6.283185307179586 / 4294967296.0);
-        worst = fmax(worst, fmax(fabs((double)s - sin(angle)), fabs((double)c - cos(angle))));
-    }
-    TEST_ASSERT_DOUBLE_WITHIN(6.29e-8, 0.0, worst);
-}
-
-static void test_table_is_nearest(void) {
-    for (unsigned i = 0; i < 160; i++) {
-        const long double exact = sinl(i * (6.283185307179586476925286766559L / 128.0L));
-        const float wanted = i % 64 == 0 ? 0.0f : (float)exact;
-        TEST_ASSERT_TRUE_MESSAGE(wh_sine_table[i] == wanted, "sine table");
-    }
-}
-#endif
-
-void suite_sine(void) {
+SUITE(sine) {
     RUN_TEST(test_known_values);
     RUN_TEST(test_smallest_angles);
     RUN_TEST(test_round_the_turn);
@@ -289,7 +265,6 @@ void suite_sine(void) {
     RUN_TEST(test_worst_found);
     RUN_TEST(test_unit_circle_and_symmetry);
 #if __STDC_HOSTED__
-    RUN_TEST(test_against_libm);
     RUN_TEST(test_table_is_nearest);
 #endif
 }

@@ -7,9 +7,7 @@
 #include "core/step/table.h"
 
 #include "tests/core/draw.h"
-#include "unity.h"
-
-void suite_table(void);
+#include "tests/suites.h"
 
 #ifndef WH_TEST_SMALL
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
@@ -76,7 +74,7 @@ static void check_at(unsigned bits, uint32_t units) {
     TEST_ASSERT_TRUE(odd != WH_R(0.0) || !__builtin_signbit((double)odd));
 }
 
-static void test_tables_hold_what_they_were_made_of(void) {
+TEST(table, tables_hold_what_they_were_made_of) {
     uint64_t seed = 20261123;
     for (unsigned bits = WH_TABLE_BITS_LEAST; bits <= BITS_MOST; bits++) {
         fill(bits);
@@ -97,7 +95,7 @@ static void test_tables_hold_what_they_were_made_of(void) {
 }
 
 /* Cells by wh_table_cell() for numbers of cells other than 128: the cell's number and the distance from its middle. */
-static void test_finer_cells_are_parts_of_coarse_ones(void) {
+TEST(table, finer_cells_are_parts_of_coarse_ones) {
     static const wh_real none[1] = {WH_R(0.0)};
     uint64_t seed = 7;
     for (unsigned bits = 7; bits <= WH_TABLE_BITS_MOST; bits++) {
@@ -132,9 +130,7 @@ static void test_phases_too_large_have_none(void) {
 }
 #endif
 
-void suite_table(void) {
-    RUN_TEST(test_tables_hold_what_they_were_made_of);
-    RUN_TEST(test_finer_cells_are_parts_of_coarse_ones);
+SUITE(table) {
 #if WH_DOUBLE
     RUN_TEST(test_phases_too_large_have_none);
 #endif

@@ -1,7 +1,7 @@
 /* test_text.c: numbers as text: exact characters, rounding, bounds. */
 #include "core/text.h"
 
-#include "unity.h"
+#include "tests/suites.h"
 
 #if __STDC_HOSTED__
 #include <stdio.h>
@@ -10,8 +10,6 @@
 
 static char buffer[80];
 static wh_text text;
-
-void suite_text(void);
 
 static void start(void) { wh_text_start(&text, buffer, sizeof buffer); }
 
@@ -26,7 +24,7 @@ static void expect_fixed(const char *wanted, wh_real value, unsigned decimals) {
     expect(wanted);
 }
 
-static void test_integers(void) {
+TEST(text, integers) {
     start();
     wh_text_add_unsigned(&text, 0);
     wh_text_add_char(&text, ' ');
@@ -42,7 +40,7 @@ static void test_integers(void) {
     expect("0 18446744073709551615 -9223372036854775808 -1 0 1 1000");
 }
 
-static void test_hex(void) {
+TEST(text, hex) {
     start();
     wh_text_add(&text, "0x");
     wh_text_add_hex(&text, UINT64_C(0x0123456789abcdef), 16);
@@ -53,7 +51,7 @@ static void test_hex(void) {
     expect("0x0123456789abcdef 34 000a");
 }
 
-static void test_fixed(void) {
+TEST(text, fixed) {
     expect_fixed("0.00", WH_R(0.0), 2);
     expect_fixed("0.0", -WH_R(0.0), 1);
     expect_fixed("3.14159", WH_R(3.14159274101257324), 5);
@@ -62,7 +60,7 @@ static void test_fixed(void) {
     expect_fixed("16777216", WH_R(16777216.0), 0);
 }
 
-static void test_fixed_rounding(void) {
+TEST(text, fixed_rounding) {
     expect_fixed("0", WH_R(0.5), 0); /* ties go to the even digit */
     expect_fixed("2", WH_R(1.5), 0);
     expect_fixed("2", WH_R(2.5), 0);
@@ -72,7 +70,7 @@ static void test_fixed_rounding(void) {
     expect_fixed("0.00", WH_R(-0.001), 2);
 }
 
-static void test_fixed_extremes(void) {
+TEST(text, fixed_extremes) {
 #if !WH_DOUBLE
     expect_fixed("340282346638528859811704183484516925440", 3.40282347e+38f, 0);
     expect_fixed("0.000000000000000000", 1.4e-45f, 18);
@@ -92,7 +90,7 @@ static void test_fixed_extremes(void) {
 
 /* More decimals than possible are limited to the possible number. Slightly more than a half is no tie. Values below
  * 2^-160 count as zero. */
-static void test_fixed_beyond_its_room(void) {
+TEST(text, fixed_beyond_its_room) {
     expect_fixed("0.500000000000000000", WH_R(0.5), WH_TEXT_DECIMALS_MAX + 1U);
     expect_fixed("-3.250000000000000000", WH_R(-3.25), 1000);
     expect_fixed("0", WH_R(0.5), 0);
@@ -107,7 +105,7 @@ static void test_fixed_beyond_its_room(void) {
 
 /* A minus sign appears only if a digit is not zero. The values are half of the last digit times 2^-30 to 2^4, each with
  * a tie and its neighbours. */
-static void test_fixed_sign(void) {
+TEST(text, fixed_sign) {
     uint32_t random = 1;
     unsigned bare = 0;
     unsigned signs = 0;
@@ -141,7 +139,7 @@ static void test_fixed_sign(void) {
     TEST_ASSERT_TRUE(bare > 300 && signs > 300);
 }
 
-static void test_full_buffer_keeps_its_bounds(void) {
+TEST(text, full_buffer_keeps_its_bounds) {
     for (unsigned i = 0; i < sizeof buffer; i++) {
         buffer[i] = '#';
     }
@@ -189,15 +187,7 @@ static void test_fixed_agrees_with_printf(void) {
 }
 #endif
 
-void suite_text(void) {
-    RUN_TEST(test_integers);
-    RUN_TEST(test_hex);
-    RUN_TEST(test_fixed);
-    RUN_TEST(test_fixed_rounding);
-    RUN_TEST(test_fixed_extremes);
-    RUN_TEST(test_fixed_beyond_its_room);
-    RUN_TEST(test_fixed_sign);
-    RUN_TEST(test_full_buffer_keeps_its_bounds);
+SUITE(text) {
 #if __STDC_HOSTED__
     RUN_TEST(test_fixed_agrees_with_printf);
 #endif

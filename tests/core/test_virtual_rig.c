@@ -2,9 +2,7 @@
  * The virtual rig computes in single precision only, so the double build tests only the formula. */
 #include "on_plant.h"
 
-#include "unity.h"
-
-void suite_virtual_rig(void);
+#include "tests/suites.h"
 
 /* The formula of I.3.2.1 in its own units (weights divided by g, inches): 9.44 lbf at 330 rpm. */
 static void test_unbalance_gives_the_dissertations_force(void) {
@@ -190,7 +188,7 @@ static void test_a_foreign_scene_is_refused(void) {
 
 #endif
 
-void suite_virtual_rig(void) {
+SUITE(virtual_rig) {
     RUN_TEST(test_unbalance_gives_the_dissertations_force);
 #if !WH_DOUBLE
     RUN_TEST(test_measurement_of_the_force);

@@ -3,12 +3,10 @@
 
 #include "draw.h"
 #include "on_plant.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 /* === virtual rig faults ====================================================================== */
 /* The whole rig on its model, with faults. */
-
-void suite_virtual_rig_faults(void);
 
 #define RUNAWAY_RPM 470.0f /* highest speed, whether settled or in the record */
 
@@ -446,7 +444,7 @@ static void test_a_record_is_latched_from_its_bytes(void) {
     }
 }
 
-void suite_virtual_rig_faults(void) {
+SUITE(virtual_rig_faults) {
     RUN_TEST(test_a_record_is_latched_from_its_bytes);
 #if !WH_DOUBLE
     RUN_TEST(test_slower_set_points_end_at_the_top);
