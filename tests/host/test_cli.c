@@ -323,26 +323,6 @@ TEST(firstlight, sealed_nonsense) {
     }
 }
 
-TEST(firstlight, any_bytes) {
-    static const char begin_line[] = WH_LIGHT_BEGIN "\n";
-    static char bytes[1024];
-    for (unsigned i = 0; i < dice_cases(usual_or(3000, 600)); i++) {
-        size_t count = 0;
-        for (unsigned pieces = dice_one_of(&drawn, 12); pieces > 0; pieces--) {
-            static const char *const piece[] = {
-                WH_LIGHT_BEGIN, begin_line, "\r", "\n", "end 0x", "end 0x00000000\n", "board x\n"};
-            const unsigned which = dice_one_of(&drawn, 9);
-            if (which < 7) {
-                memcpy(bytes + count, piece[which], strlen(piece[which]));
-                count += strlen(piece[which]);
-            } else {
-                bytes[count++] = (char)dice_one_of(&drawn, 256);
-            }
-        }
-        TEST_ASSERT_NOT_NULL(wrong(bytes, count));
-    }
-}
-
 /* --- the command ---------------------------------------------------------------------------------------------------- */
 
 static char files[2][64];

@@ -50,37 +50,6 @@ static void test_overrides(void) {
     expect_exactly(60.0, made->until_s);
 }
 
-static void test_effects_added_and_taken_away(void) {
-    static const char *const with[] = {"slope"};
-    static const char *const without[] = {"rail_drag"};
-    parse(sample);
-    instantiate(
-        &(overrides){.with = with, .with_count = 1, .without = without, .without_count = 1});
-    TEST_ASSERT_FALSE(made->with[0]);
-    TEST_ASSERT_TRUE(made->with[1]);
-    expect_exactly(0.5, parameter("b")); /* declared but unused */
-}
-
-static void test_step_in_all_its_spellings(void) {
-    static const char *const spellings[] = {"1ms",    "1 ms",   "1 [ms]", "0.001",
-                                            "1e-3 s", "1/1000", "1000us"};
-    parse(sample);
-    for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
-        instantiate(&(overrides){.step = spellings[i]});
-        expect_exactly(0.001, made->step_s);
-    }
-}
-
-static void test_values_of_either_kind(void) {
-    static const char *const values[] = {"theta=0.3", "theta'=1.2", "m=5", "M=7"};
-    parse(sample);
-    instantiate(&(overrides){.values = values, .value_count = 4});
-    expect_exactly(0.3, made->start[0][0]);
-    expect_exactly(1.2, made->start[0][1]);
-    expect_exactly(5.0, parameter("m"));
-    expect_exactly(7.0, made->input[0]);
-}
-
 static void expect_refused(const overrides *changes, const char *wanted) {
     parse(sample);
     TEST_ASSERT_NULL(instance_make(parsed->mechanisms[0], parsed->scenes[0], changes, said));
@@ -184,9 +153,6 @@ static void test_the_same_error_again_is_refused_again(void) {
 
 SUITE(override) {
     RUN_TEST(test_overrides);
-    RUN_TEST(test_effects_added_and_taken_away);
-    RUN_TEST(test_step_in_all_its_spellings);
-    RUN_TEST(test_values_of_either_kind);
     RUN_TEST(test_wrong_overrides);
     RUN_TEST(test_until_holds_a_step);
     RUN_TEST(test_durations_beside_the_run);

@@ -427,33 +427,6 @@ static const char *const spring =
 
 /* --- fine steps ------------------------------------------------------------------------------------------*/
 
-/* The fine step is a sixteenth of the scene's, rounded to an even count, unless that needs too many operations. */
-TEST(price_motion, fine_steps_are_as_fine_as_they_may) {
-    dice d = dice_of("price_motion steps", 92);
-    derived of = derived_scene(spring, "s");
-    derived_expect(&of, spring);
-    const int contacts = of.image->contacts;
-    for (int n = 0; n < 500; n++) {
-        const double spacing_s =
-            (3 + 10 * dice_one_of(&d, 40)) / 1000.0; /* not a whole number of steps */
-        of.image->contacts = n % 2;
-        const reference_wish w = {.image = of.image,
-                                  .spacing = ratio_of(spacing_s),
-                                  .records = 1 + (int)dice_one_of(&d, 90),
-                                  .operations = pow(10.0, dice_between(&d, 1.0, 7.0))};
-        const uint64_t have = fine_steps_of(&w);
-        const double each = (n % 2 ? 12.0 : 4.0) * of.image->list[IMAGE_STEP]->count;
-        uint64_t want = 2;
-        while ((double)want * of.image->step_s < 16.0 * spacing_s * (1 - 1e-12) &&
-               (double)(want + 2) * w.records * each <= w.operations) {
-            want += 2;
-        }
-        TEST_ASSERT_EQUAL_UINT64(want, have);
-    }
-    of.image->contacts = contacts;
-    derived_free(&of);
-}
-
 /* --- the reference, and runs against it ------------------------------------------------------------------*/
 
 static reference *reference_of(const image *im, int count) {

@@ -66,29 +66,12 @@ static setting read_back(const char *text, int *count) {
     return s;
 }
 
-TEST(price_settings, words_and_options_say_the_setting_and_no_more) {
-    static const char *const headings[] = {"method", "number", "angles", "matrix", "tables"};
-    static const char *const numbers[] = {"float", "float compensated", "double", "fixed"};
-    for (int i = 0; i < AXES; i++) {
-        TEST_ASSERT_EQUAL_STRING(headings[i], setting_heading((setting_axis)i));
-    }
+TEST(price_settings, options_say_the_setting_and_no_more) {
     for (int i = 0; i < setting_count(); i++) {
         const setting s = setting_at(i);
         const image_settings *m = &s.image;
         char text[SETTING_TEXT];
         int words;
-        const int number = s.number == &engine_fixed    ? 3
-                           : s.number == &engine_double ? 2
-                                                        : m->compensated;
-        TEST_ASSERT_EQUAL_STRING(wh_methods[m->method].word, setting_word(&s, AXIS_METHOD));
-        TEST_ASSERT_EQUAL_STRING(numbers[number], setting_word(&s, AXIS_NUMBER));
-        TEST_ASSERT_EQUAL_INT(number, setting_number(&s));
-        TEST_ASSERT_EQUAL_STRING(m->angles == ANGLES_TURNED ? "turned" : "lookup",
-                                 setting_word(&s, AXIS_ANGLES));
-        TEST_ASSERT_EQUAL_STRING(image_matrix_words[m->matrix], setting_word(&s, AXIS_MATRIX));
-        snprintf(text, sizeof text, m->cells > 0 ? "%s %d" : "%s", image_tables_words[m->tables],
-                 m->cells);
-        TEST_ASSERT_EQUAL_STRING(text, setting_word(&s, AXIS_TABLES));
         /* with a number, and for `whirl derive` without */
         const int least = 2 + (m->compensated ? 1 : 0) + 2 * (m->angles != ANGLES_TURNED) +
                           2 * (m->tables != TABLES_NONE) + 2 * (m->cells > 0);
@@ -571,48 +554,6 @@ TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
         for (int k = 0; k < 3; k++) {
             TEST_ASSERT_EQUAL_INT(p.trial.records, p.trial.reference[k]->records);
         }
-        priced_close(&p);
-    }
-}
-
-/* If no quantity moves at any point of the grid, the report says so. */
-TEST(price_trials, places_where_nothing_moves_are_left_out) {
-    static const char *const texts[] = {"mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
-                                        "scene s { start y = 1; step 1 [ms]; until 1 [s] }\n",
-                                        "mechanism m\nstate y\nequation y' + 1 [1/s]*y = 0 [1/s]\n"
-                                        "scene s { start y = 0; step 1 [ms]; until 1 [s] }\n"};
-    for (unsigned still = 0; still < 8; still++) {
-        const char *chosen[3];
-        char left_out[80] = "";
-        int moving = 0;
-        int moved[3];
-        for (int k = 0; k < 3; k++) {
-            const unsigned rests = still >> (unsigned)k & 1U;
-            chosen[k] = texts[rests];
-            moved[moving] = k;
-            moving += rests == 0;
-            if (rests != 0) {
-                snprintf(left_out + strlen(left_out), sizeof left_out - strlen(left_out),
-                         " --set place=%d,", k);
-            }
-        }
-        priced p;
-        priced_open(&p, chosen, 3);
-        TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
-        TEST_ASSERT_EQUAL_INT(moving == 0 ? 3 : moving, p.trial.points);
-        TEST_ASSERT_TRUE(p.trial.reliable == (moving > 0));
-        for (int k = 0; k < moving; k++) {
-            char name[20];
-            snprintf(name, sizeof name, " --set place=%d", moved[k]);
-            TEST_ASSERT_EQUAL_STRING(name, trial_place(&p.trial, k));
-        }
-        if (moving == 0 || moving == 3) {
-            TEST_ASSERT_NULL(p.trial.still);
-        } else {
-            TEST_ASSERT_EQUAL_STRING(left_out, p.trial.still);
-        }
-        const setting rk4 = priced_setting(WH_RK4, &engine_double);
-        TEST_ASSERT_TRUE(moving == 0 || trial_run(&p.trial, &rk4, (deviation_pace){1, 1}).usable);
         priced_close(&p);
     }
 }

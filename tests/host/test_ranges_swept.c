@@ -3,8 +3,6 @@
  * the CSV file of a resumed sweep. */
 #include "test.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -200,15 +198,6 @@ static void test_values(void) {
     }
 }
 
-static void test_states(void) {
-    open_sample();
-    TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[1], "x=1..3:3", heard));
-    TEST_ASSERT_TRUE(grid_add(&g, parsed->mechanisms[1], "k=1..3:3", heard));
-    TEST_ASSERT_EQUAL_STRING("start(x)", g.axes[0].column);
-    TEST_ASSERT_EQUAL_STRING("k", g.axes[1].column);
-    close_sample();
-}
-
 /* Shards of any grid are exact fractions of the points, without gaps. */
 static void test_shards(void) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
@@ -401,42 +390,11 @@ static void test_given_twice(void) {
     }
 }
 
-static void test_effects_that_take_no_part(void) {
-    for (unsigned c = 0; c < 8U; c++) {
-        static const char *const with[] = {"tug"};
-        const overrides changes = {.with = with, .with_count = c % 2U == 0 ? 1 : 0};
-        char wanted[200] = "";
-        open_sample();
-        const mechanism *of = parsed->mechanisms[0];
-        TEST_ASSERT_TRUE(grid_add(&g, of, "m=1..2:2", heard));
-        TEST_ASSERT_TRUE(grid_add(&g, of, "step=1..2:2", heard));
-        TEST_ASSERT_TRUE(c % 4U > 1 || grid_add(&g, of, "pull=1..2:2", heard));
-        g.command = c > 3U ? "map" : NULL;
-        instance *inst = instance_make(of, NULL, &changes, heard);
-        const bool lacks = c % 4U == 1;
-        if (lacks) {
-            snprintf(
-                wanted, sizeof wanted,
-                "whirl %s: error: 'pull' belongs to the effect 'tug', which is not selected here\n"
-                "hint: add --with tug\n",
-                c > 3U ? "map" : "sweep");
-        }
-        TEST_ASSERT_NOT_NULL(inst);
-        errors_catch();
-        const bool taken = changes_take_part(&g, inst);
-        TEST_ASSERT_EQUAL_STRING(wanted, errors_caught());
-        TEST_ASSERT_EQUAL(!lacks, taken);
-        instance_free(inst);
-        close_sample();
-    }
-}
-
 /* --- given back -------------------------------------------------------------------------------------------------*/
 
 static void test_given_back(void) {
-    static void (*const rounds[])(void) = {test_values,      test_states,
-                                           test_mistakes,    test_bare_numbers,
-                                           test_given_twice, test_effects_that_take_no_part};
+    static void (*const rounds[])(void) = {test_values, test_mistakes, test_bare_numbers,
+                                           test_given_twice};
     for (size_t i = 0; i < sizeof rounds / sizeof rounds[0]; i++) {
         const long before = blocks_in_use();
         rounds[i]();
@@ -447,12 +405,10 @@ static void test_given_back(void) {
 SUITE(ranges_swept) {
     die = dice_of("ranges_swept", 61);
     RUN_TEST(test_values);
-    RUN_TEST(test_states);
     RUN_TEST(test_shards);
     RUN_TEST(test_mistakes);
     RUN_TEST(test_bare_numbers);
     RUN_TEST(test_given_twice);
-    RUN_TEST(test_effects_that_take_no_part);
     RUN_TEST(test_given_back);
 }
 
@@ -650,44 +606,6 @@ TEST(sheet, rows_of_others) {
     close_folder();
 }
 
-TEST(sheet, settings_of_others) {
-    static const char *const others[] = {"scene: t\nover: m=1..3:7\nmeasure: X\n",
-                                         "scene: s\nover: m=1..3:8\nmeasure: X\n",
-                                         "scene: s\nover: m=1..3:7\n",
-                                         "scene: s\nover: m=1..3:7\nmeasure: X\nmore\n",
-                                         "scene: s\nover: m=1..3:7\nmeasure: XY\n",
-                                         ""};
-    static const char *const there[] = {"scene: t", "over: m=1..3:8", "",
-                                        "more",     "measure: XY",    ""};
-    static const char *const here[] = {"scene: s", "over: m=1..3:7", "measure: X",
-                                       "",         "measure: X",     "scene: s"};
-    open_folder();
-    for (int i = 0; i < 6; i++) {
-        char wanted[200];
-        resumable_csv sh;
-        draw_sheet();
-        expect_refused(d.whole, strlen(d.whole), others[i], "the file belongs to another sweep");
-        errors_catch();
-        (void)resumable_csv_open(&sh, &d.settings);
-        snprintf(wanted, sizeof wanted, "  there: %s\n  here:  %s\n", there[i], here[i]);
-        const char *told = errors_caught();
-        TEST_ASSERT_EQUAL_STRING(wanted, strstr(told, "  there:"));
-    }
-    draw_sheet();
-    expect_refused(d.whole, strlen(d.whole), NULL,
-                   "the file is not from a sweep: there is no FILE.sweep beside it");
-    for (unsigned c = 0; c < 6U; c++) { /* alone, with its own rows, with other rows */
-        draw_sheet();
-        d.settings.header = "m,r,X,Z\r\n";
-        char other[sizeof d.whole + 40] = "m,r,X,Y\r\n";
-        const size_t rows = d.end[d.settings.rows] - d.end[0];
-        memcpy(other + strlen(other), d.whole + d.end[0], c % 3U == 1U ? rows : 0);
-        strcat(other, c % 3U == 2U ? "9,9,9,9,9\r\n" : "");
-        expect_refused(other, strlen(other), fingerprint, "the header is that of another sweep");
-    }
-    close_folder();
-}
-
 TEST(sheet, locked) {
     resumable_csv sh;
     open_folder();
@@ -710,66 +628,6 @@ TEST(sheet, locked) {
     TEST_ASSERT_EQUAL_INT(0, status);
     TEST_ASSERT_TRUE(resumable_csv_close(&sh));
     close_folder();
-}
-
-/* The file cannot be written: its folder is missing, or a device is full at the start or at the end. */
-TEST(sheet, not_written) {
-    resumable_csv sh;
-    open_folder();
-    draw_sheet();
-    d.settings.path = "/nowhere/at all/s.csv";
-    errors_catch();
-    int code = resumable_csv_open(&sh, &d.settings);
-    const char *told = errors_caught();
-    TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
-    TEST_ASSERT_TRUE(sh.out == NULL && strstr(told, "/nowhere/at all/s.csv") != NULL);
-    d.settings.path = folder; /* the path is a folder */
-    errors_catch();
-    code = resumable_csv_open(&sh, &d.settings);
-    told = errors_caught();
-    TEST_ASSERT_TRUE(code == EXIT_RUN_FAILED && sh.out == NULL && strstr(told, folder) != NULL);
-    if (exists("/dev/full")) {
-        d.settings.path = "/dev/full";
-        errors_catch();
-        code = resumable_csv_open(&sh, &d.settings);
-        const bool opened = code == EXIT_DONE && sh.out != NULL && !sh.is_file;
-        const bool put = opened && fputs("1,2,3\r\n", sh.out) >= 0;
-        const bool closed = resumable_csv_close(&sh);
-        told = errors_caught();
-        TEST_ASSERT_TRUE(opened && put && !closed && strstr(told, "/dev/full") != NULL);
-    }
-    /* the companion's path is a folder */
-    d.settings.path = path;
-    TEST_ASSERT_EQUAL_INT(0, mkdir(path_beside, 0777));
-    errors_catch();
-    code = resumable_csv_open(&sh, &d.settings);
-    told = errors_caught();
-    TEST_ASSERT_TRUE(code == EXIT_RUN_FAILED && sh.out == NULL &&
-                     strstr(told, path_beside) != NULL);
-    char fresh[PATH + 40];
-    snprintf(fresh, sizeof fresh, "%s.new", path_beside);
-    (void)remove(fresh);
-    TEST_ASSERT_EQUAL_INT(0, rmdir(path_beside));
-    close_folder();
-}
-
-/* A device cannot be resumed and is written directly. */
-TEST(sheet, no_file) {
-    resumable_csv sh;
-    draw_sheet();
-    d.settings.path = "/dev/null";
-    TEST_ASSERT_EQUAL_INT(EXIT_DONE, resumable_csv_open(&sh, &d.settings));
-    TEST_ASSERT_TRUE(!sh.is_file && sh.out != NULL && sh.out != stdout && sh.rows == 0);
-    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
-    TEST_ASSERT_NULL(sh.out);
-    TEST_ASSERT_FALSE(exists("/dev/null.sweep"));
-    d.settings.path = "-";
-    d.settings.header = "";
-    TEST_ASSERT_EQUAL_INT(EXIT_DONE, resumable_csv_open(&sh, &d.settings));
-    TEST_ASSERT_TRUE(!sh.is_file && sh.out == stdout);
-    TEST_ASSERT_TRUE(resumable_csv_close(&sh));
-    TEST_ASSERT_TRUE(sh.out == NULL && fileno(stdout) >= 0);
-    TEST_ASSERT_FALSE(exists("-.sweep"));
 }
 
 SUITE(sheet) { die = dice_of("sheet", 47); }

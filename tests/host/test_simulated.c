@@ -1,5 +1,5 @@
 /* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. Rows have closed forms. The
- * report covers runs that diverge, have an output that ends, or are not trusted. Also write errors and leaks. */
+ * report covers runs that diverge, have an output that ends, or are not trusted. Also leaks. */
 #include "test.h"
 
 #include <unistd.h>
@@ -135,38 +135,6 @@ TEST(simulated, rows) {
     end();
 }
 
-static uint64_t held;
-static uint64_t held_values(const void *run) {
-    (void)run;
-    return held;
-}
-
-TEST(simulated, held_values) {
-    char text[500];
-    begin();
-    snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
-    derived d = scene_of(text);
-    engine_kind ranged = engine_double;
-    ranged.saturated = held_values;
-    for (held = 0; held < 4; held++) {
-        const simulation_settings s = {.kind = &ranged, .every = 1, .quiet = true};
-        simulation_trust trust;
-        char wanted[200] = "";
-        if (held > 0) {
-            snprintf(
-                wanted, sizeof wanted,
-                "whirl run: warning: %u value%s saturated at an end of the range\nhint: widen it: range NAME = A .. B\n",
-                (unsigned)held, held > 1 ? "s" : "");
-        }
-        errors_catch();
-        TEST_ASSERT_EQUAL_INT(SIMULATION_DONE, simulate(d.image, &s, &trust));
-        TEST_ASSERT_EQUAL_STRING(wanted, errors_caught());
-        TEST_ASSERT_EQUAL_UINT(0, trust.fails);
-    }
-    derived_free(&d);
-    end();
-}
-
 /* sqrt(c - x) of x = t is undefined from the first step after c on. The report has the count and first time of such
  * records; without records it checks the end. */
 TEST(simulated, outputs_that_end) {
@@ -259,41 +227,6 @@ TEST(simulated, diverged) {
         TEST_ASSERT_EQUAL_INT(2 + (int)lround(1e3 * when_s), lines_in(rows));
         derived_free(&d);
     }
-    end();
-}
-
-TEST(simulated, files_that_cannot_be_written) {
-    begin();
-    char text[500];
-    snprintf(text, sizeof text, steady, 0.1, 0.2, 0.3);
-    derived d = scene_of(text);
-    static const char *const bad[] = {"/nowhere/at all/r.svg", "/dev/full", "/nowhere/at all/r"};
-    for (int where = 0; where < 4; where++) {
-        for (int which = 0; which < 3; which++) {
-            simulation_settings s = {.kind = &engine_double, .every = 1, .quiet = true};
-            const char **const places[] = {&s.csv, &s.columns, &s.vcd, &s.plot};
-            *places[where] = bad[which];
-            if (where == 3 && which == 1) {
-                continue;
-            }
-            const char *told = simulated(d.image, &s, SIMULATION_BAD_FILE);
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, bad[which]), told);
-            if (where == 3 && which == 2) {
-                TEST_ASSERT_EQUAL_STRING(
-                    "whirl run: error: --plot draws .svg, .pdf and .png files, "
-                    "not '/nowhere/at all/r'\n"
-                    "hint: --plot picture.svg\n",
-                    told);
-            }
-        }
-    }
-    d.image->step = (whole_ratio){1, 9000000000000000}; /* s */
-    const simulation_settings s = {
-        .kind = &engine_double, .every = 1, .quiet = true, .vcd = "/dev/null"};
-    TEST_ASSERT_EQUAL_STRING(
-        "whirl run: error: these records are too close for --vcd: its finest unit is a femtosecond, and a time has at most 2^52 units\nhint: use a larger --every, or --csv, which has no such limit\n",
-        simulated(d.image, &s, SIMULATION_BAD_FILE));
-    derived_free(&d);
     end();
 }
 

@@ -246,17 +246,3 @@ TEST(sweep, a_list_of_measures_is_told) {
         close_sample();
     }
 }
-
-TEST(sweep, default_measures_are_the_columns_of_run) {
-    static const char *const wanted[] = {"theta", "der(theta)", "height"};
-    open_sample();
-    measures *m = measures_new(parsed->mechanisms[0], NULL, 0, heard);
-    TEST_ASSERT_NOT_NULL(m);
-    TEST_ASSERT_EQUAL_INT(3, m->count);
-    for (int i = 0; i < 3; i++) {
-        TEST_ASSERT_EQUAL_STRING(wanted[i], m->list[i].name);
-        TEST_ASSERT_EQUAL_INT(MEASURE_FINAL, (int)m->list[i].kind);
-    }
-    measures_free(m);
-    close_sample();
-}

@@ -245,27 +245,6 @@ TEST(talk, interrupted) {
     }
 }
 
-/* The firmware is a program: one that is missing, and one that is silent. */
-TEST(talk, programs) {
-    static const char *const programs[] = {"/nowhere/at all", "/bin/true"};
-    static const char *const words[] = {
-        "/nowhere/at all: error: ",
-        "/bin/true: error: it ended without a hello\nhint: use an image made"};
-    for (int i = 0; i < 2; i++) {
-        static talk t;
-        talk_wish =
-            (lockstep_wish){.guest = {.image = programs[i], .board = "", .patience_s = 20.0}};
-        talk_report = (lockstep_report){.end = LOCKSTEP_DONE};
-        errors_catch();
-        const bool good = talk_start(&t, &talk_wish, &talk_report, NULL);
-        talk_end(&t);
-        const char *told = errors_caught();
-        TEST_ASSERT_FALSE(good);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words[i]), told);
-        TEST_ASSERT_EQUAL_INT(LOCKSTEP_BAD, talk_report.end);
-    }
-}
-
 TEST(talk, no_reset) {
     static talk t;
     static stream heard;

@@ -302,19 +302,4 @@ TEST(tape_used, sums_share_their_halves) {
     }
 }
 
-/* If nothing can be shared, the list stays as it is, including unused operations. */
-TEST(tape_used, other_lists_are_left_alone) {
-    for (unsigned way = 3; way < 7; way++) {
-        op_list *t = op_list_new(0, 3);
-        op_list_leaf(t, OP_TIME, 0);
-        TEST_ASSERT_FALSE(enter_pair(t, 0, way));
-        const int count = t->count;
-        const uint64_t hash = op_list_hash(t);
-        op_list_share_sums(t);
-        TEST_ASSERT_EQUAL_INT(count, t->count);
-        TEST_ASSERT_TRUE(hash == op_list_hash(t));
-        op_list_free(t);
-    }
-}
-
 SUITE(tape_used) { die = dice_of("tape_used", 4180); }

@@ -285,28 +285,10 @@ TEST(verdict, json_of_price_and_choose) {
     }
 }
 
-/* Every built-in scene, and a title with all characters that need escapes. */
-TEST(verdict, json_of_all_scenes) {
-    said list;
+/* A title with all characters that need escapes. */
+TEST(verdict, json_of_a_title) {
     said what;
     char why[100];
-    unsigned scenes = 0;
-    const char *none[] = {NULL};
-    command_say(command_list, none, &list);
-    char *rest = NULL;
-    for (char *line = strtok_r(list.out, "\n", &rest); line != NULL;
-         line = strtok_r(NULL, "\n", &rest)) {
-        char name[80];
-        if (sscanf(line, "scene %79s", name) == 1) {
-            const char *words[] = {name, "--json", "--until", "10ms", NULL};
-            command_say(command_run, words, &what);
-            TEST_ASSERT_TRUE_MESSAGE(json_is_valid(what.out, why), why);
-            TEST_ASSERT_EQUAL_STRING(name, value_at(&what, "scene"));
-            TEST_ASSERT_EQUAL_INT(what.status, (int)strtol(value_at(&what, "exit"), NULL, 10));
-            scenes++;
-        }
-    }
-    TEST_ASSERT_TRUE(scenes > 40);
     const char *titled[] = {
         model_keep("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                    "output none = sqrt(x/1 [m] - 1)\n"
