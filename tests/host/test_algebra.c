@@ -368,7 +368,7 @@ TEST(algebra, random_expressions_their_derivatives_and_substitutions) {
 
 /* === algebra limits =========================================================================== */
 /* Limits of host/algebra: sizes up to which powers and products are expanded, cancellation, non-numbers, magnitudes,
- * powers of expressions and determinants. */
+ * and powers of expressions. */
 
 /* --- values -------------------------------------------------------------------------------------------- */
 
@@ -660,76 +660,6 @@ TEST(algebra_limits, what_cancels_to_a_rounding_error_is_zero) {
     TEST_ASSERT_TRUE(isinf(coefficient_sum((double)INFINITY, 1.0)));
     TEST_ASSERT_TRUE(isnan(coefficient_sum((double)INFINITY, -(double)INFINITY)));
     algebra_free(a);
-}
-
-/* --- determinants --------------------------------------------------------------------------------------- */
-
-/* Leibniz formula: permutations with the sign of their inversions. */
-static double leibniz(const double *m, int n, const int *rows, const int *columns, int size) {
-    int order[6] = {0, 1, 2, 3, 4, 5};
-    double sum = 0.0;
-    int total = 1;
-    for (int i = 2; i <= size; i++) {
-        total *= i;
-    }
-    for (int number = 0; number < total; number++) {
-        int rest = number;
-        bool used[6] = {false};
-        for (int i = 0; i < size; i++) { /* Lehmer's code */
-            int skip = rest % (size - i);
-            rest /= size - i;
-            int k = 0;
-            while (used[k] || skip-- > 0) {
-                k++;
-            }
-            used[k] = true;
-            order[i] = k;
-        }
-        double product = 1.0;
-        for (int i = 0; i < size; i++) {
-            product *= m[rows[i] * n + columns[order[i]]];
-            for (int j = 0; j < i; j++) {
-                product = order[j] > order[i] ? -product : product;
-            }
-        }
-        sum += product;
-    }
-    return sum;
-}
-
-TEST(algebra_limits, determinants_of_any_rows_and_columns) {
-    uint64_t seed = 3;
-    for (int i = 0; i < 120; i++) {
-        const int n = 1 + i % 5;
-        algebra *a = algebra_new();
-        double numbers[25];
-        const poly *m[25];
-        for (int k = 0; k < n * n; k++) {
-            numbers[k] = (double)(random_bits(&seed) % 9) - 4.0;
-            m[k] = poly_number(a, numbers[k]);
-        }
-        unsigned rows = 0;
-        unsigned columns = 0;
-        int row[6];
-        int column[6];
-        const int size = 1 + (int)(random_bits(&seed) % (unsigned)n);
-        for (int k = 0, r = 0, c = 0; k < n; k++) { /* the last rows, the first columns but one */
-            if (k >= n - size) {
-                rows |= 1U << k;
-                row[r++] = k;
-            }
-            if (size == n || k != i % (size + 1)) {
-                if (c < size) {
-                    columns |= 1U << k;
-                    column[c++] = k;
-                }
-            }
-        }
-        double value = 1e300;
-        TEST_ASSERT_TRUE(poly_is_number(poly_determinant(a, m, n, rows, columns), &value));
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, leibniz(numbers, n, row, column, size), value);
-        algebra_free(a);
-    }
 }
 
 /* === normal form ============================================================================== */

