@@ -78,69 +78,6 @@ static void test_dimensions_of_expressions(void) {
     TEST_ASSERT_EQUAL_INT(5, of->term_count);
 }
 
-static const char sample[] =
-    "mechanism epicyclic \"Epicyclic gear on a carriage\"\n"
-    "coordinate theta [rad] \"arm AB, from the rail\"\n"
-    "coordinate X     [m]   \"carriage along the rail\"\n"
-    "parameter m = 2 [kg]         \"each gear\"\n"
-    "parameter r = 0.3 [m]\n"
-    "parameter I = m*r^2/2\n"
-    "input     M = 2 [N*m]        \"motor torque on the arm\"   # may change while running\n"
-    "let vx = X' - 2*r*theta'*sin(theta)\n"
-    "let vy =      2*r*theta'*cos(theta)\n"
-    "T = m*X'^2/2 + m*(vx^2 + vy^2)/2 + I*(2*theta')^2/2      # V and F left out are zero\n"
-    "Q(theta) = M\n"
-    "output x_cm [m] = X + r*cos(theta)\n"
-    "scene from_rest \"Example 3\" {\n"
-    "  with rail_drag                # none unless named\n"
-    "  set   m = 3 [kg], M = 2*m*r*9.81 [m/s^2]\n"
-    "  start theta = 30 [deg], X = r,\n    theta' = -8.5 [rad/s]\n"
-    "  step  1 [ms]; conserve X\n"
-    "  until 9 [s]\n"
-    "}\n"
-    "effect rail_drag \"viscous drag on the rail\" {\n"
-    "  parameter b = 0.5 [N*s/m]\n"
-    "  F += b*X'^2/2\n"
-    "}\n"
-    "effect slope { input g = 1 [m/s^2]; V += m*g*X; Q(X) += 0 }\n";
-
-static void test_the_sample(void) {
-    parse(sample);
-    const mechanism *of = parsed->mechanisms[0];
-    TEST_ASSERT_EQUAL_STRING("Epicyclic gear on a carriage", of->title);
-    TEST_ASSERT_EQUAL_INT(2, of->coordinate_count);
-    TEST_ASSERT_EQUAL_INT(4, of->parameter_count);
-    TEST_ASSERT_EQUAL_INT(2, of->input_count);
-    TEST_ASSERT_EQUAL_INT(2, of->effect_count);
-    TEST_ASSERT_EQUAL_INT(5, of->term_count);
-    TEST_ASSERT_EQUAL_STRING("arm AB, from the rail", of->coordinates[0]->text);
-    TEST_ASSERT_EQUAL_STRING("rad", of->coordinates[0]->unit);
-    TEST_ASSERT_EQUAL_INT(0, of->parameters[3]->effect);
-    TEST_ASSERT_EQUAL_INT(1, of->inputs[1]->effect);
-    TEST_ASSERT_FALSE(of->is_system);
-    TEST_ASSERT_FALSE(parsed->scenes[0]->conserve[0]);
-    TEST_ASSERT_TRUE(parsed->scenes[0]->conserve[1]);
-    instantiate(NULL);
-    TEST_ASSERT_EQUAL_STRING("from_rest", made->name);
-    expect_exactly(3.0, parameter("m"));
-    expect_exactly(3.0 * (0.3 * 0.3) / 2.0, parameter("I"));
-    expect_nearly(2.0 * 3.0 * 0.3 * 9.81, made->input[0]);
-    expect_nearly(PI / 6.0, made->start[0][0]);
-    expect_exactly(-8.5, made->start[0][1]);
-    expect_exactly(0.3, made->start[1][0]);
-    expect_exactly(0.0, made->start[1][1]);
-    expect_exactly(1e-3, made->step_s);
-    expect_exactly(9.0, made->until_s);
-    TEST_ASSERT_EQUAL_INT(2, made->start_count[0]);
-    TEST_ASSERT_TRUE(made->with[0]);
-    TEST_ASSERT_FALSE(made->with[1]);
-    int taking_part = 0;
-    for (int i = 0; i < of->term_count; i++) {
-        taking_part += instance_has(made, of->terms[i].effect);
-    }
-    TEST_ASSERT_EQUAL_INT(3, taking_part);
-}
-
 static void test_a_bare_mechanism_is_at_rest(void) {
     parse("mechanism m; coordinate X [m]; T = 1 [kg]*X'^2; effect a { F += X'^2*2 [N*s/m] }");
     instantiate(NULL);
@@ -176,26 +113,6 @@ static void test_lets_are_evaluated_once(void) {
     parse(text);
     instantiate(NULL);
     expect_exactly(1.0, parameter("p"));
-}
-
-static void test_systems_given_outright(void) {
-    parse("mechanism jerk\nstate x [m]\nstate y [rad]\nlet j = x'''\n"
-          "equation j + 2 [1/s]*x'' = 3 [m/s^3]*y\nequation y' = -1 [1/s]*y\n"
-          "output a [m/s^2] = x''\noutput b = a*2\n"
-          "scene s { start x'' = 4 [m/s^2], x = 1 [m] }\n");
-    const mechanism *of = parsed->mechanisms[0];
-    TEST_ASSERT_TRUE(of->is_system);
-    TEST_ASSERT_EQUAL_INT(3, of->coordinates[0]->order);
-    TEST_ASSERT_EQUAL_INT(1, of->coordinates[1]->order);
-    TEST_ASSERT_TRUE(of->coordinates[1]->is_angle);
-    TEST_ASSERT_EQUAL_INT(TERM_EQUATION, of->terms[0].kind);
-    TEST_ASSERT_NOT_NULL(of->terms[0].right);
-    instantiate(NULL);
-    TEST_ASSERT_EQUAL_INT(3, made->start_count[0]);
-    TEST_ASSERT_EQUAL_INT(1, made->start_count[1]);
-    expect_exactly(1.0, made->start[0][0]);
-    expect_exactly(0.0, made->start[0][1]);
-    expect_exactly(4.0, made->start[0][2]);
 }
 
 static void test_several_mechanisms_and_uses(void) {
@@ -396,11 +313,9 @@ SUITE(lang) {
     RUN_TEST(test_a_divided_unit_goes_from_left_to_right);
     RUN_TEST(test_arithmetic);
     RUN_TEST(test_dimensions_of_expressions);
-    RUN_TEST(test_the_sample);
     RUN_TEST(test_a_bare_mechanism_is_at_rest);
     RUN_TEST(test_sets_may_name_later_parameters);
     RUN_TEST(test_lets_are_evaluated_once);
-    RUN_TEST(test_systems_given_outright);
     RUN_TEST(test_several_mechanisms_and_uses);
     RUN_TEST(test_byte_order_mark_and_line_ends);
     drop();

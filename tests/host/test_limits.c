@@ -118,21 +118,6 @@ TEST(limits, the_page_has_the_known_limits) {
     free(page);
 }
 
-/* Runge-Kutta 4 loses (h w)^6/72 of the energy in a step. */
-TEST(limits, what_a_step_takes) {
-    for (int k = 5; k < 20; k++) {
-        const double hw = 0.02 * k;
-        motion m;
-        motion_open_text(&m, spring,
-                         (stepping){.kind = &engine_double, .method = WH_RK4, .step_s = hw});
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 100));
-        const double size = hypot(motion_value(&m, "x"), motion_value(&m, "x'"));
-        motion_close(&m);
-        const double wanted = 100.0 * pow(hw, 6.0) / 72.0;
-        TEST_ASSERT_DOUBLE_WITHIN(0.03 * wanted, wanted, -2.0 * log(size));
-    }
-}
-
 /* Nice steps are 1, 2 and 5 times powers of ten, here from 5000 down over 16 decades. Each result must be the largest nice
  * step up to the given one. */
 TEST(limits, nice_steps) {
