@@ -57,7 +57,7 @@ refused=0
 : >"$scratch/numbers"
 try() { # try TARGET OPTION...
     number=$((number + 1))
-    "$whirl" derive "$@" --as c --number fixed --name "scene_$number" >"$scratch/scene_$number.c" 2>"$scratch/err"
+    "$whirl" derive "$@" --as c --number fixed --name "scene_$number" --header "$scratch/scene_$number.h" >"$scratch/scene_$number.c" 2>"$scratch/err"
     derived=$?
     "$whirl" run "$@" --number fixed >"$scratch/$number.run" 2>"$scratch/$number.err"
     ran=$?
@@ -85,33 +85,12 @@ compared=$(wc -l <"$scratch/numbers")
 verdict $? "$compared scenes have a step in fixed point, $refused are refused with a hint" "$scratch/numbers"
 
 # --- one program of all -----------------------------------------------------------------------------------------------
-{
-    echo '#include <inttypes.h>'
-    echo '#include <stdio.h>'
-    echo '#include "core/fixed_scene.h"'
-    sed 's/ .*//; s/.*/extern const wh_fixed_scene scene_&;/' "$scratch/numbers"
-    echo 'static const struct { int number; const wh_fixed_scene *scene; } all[] = {'
-    sed 's/ .*//; s/.*/    {&, \&scene_&},/' "$scratch/numbers"
-    cat <<'END'
-};
-static uint64_t memory[200];
-int main(void) {
-    for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
-        wh_fixed_state state;
-        wh_status status = wh_fixed_start(all[i].scene, &state, memory, sizeof memory);
-        while (status == WH_OK && state.steps < all[i].scene->steps) {
-            status = wh_fixed_step(all[i].scene, &state);
-        }
-        printf("%d 0x%016" PRIx64 "\n", all[i].number, wh_fixed_hash(all[i].scene, &state));
-    }
-    return 0;
-}
-END
-} >"$scratch/main.c"
+mk/count/index.sh --fixed $(sed 's/ .*//; s/^/scene_/' "$scratch/numbers") >"$scratch/table.c"
 build() { # build COMPILER FLAGS
-    $1 $warnings $2 -o "$scratch/program" "$scratch"/scene_*.c "$scratch/main.c" core/*.c >"$scratch/err" 2>&1
+    $1 $warnings $2 -I"$scratch" -o "$scratch/program" "$scratch"/scene_*.c "$scratch/table.c" boards/programs/fixed_scenes.c \
+        boards/host/board.c core/*.c >"$scratch/err" 2>&1
     verdict $? "$1 $2 compiles them without a warning"
-    "$scratch/program" >"$scratch/hashes"
+    "$scratch/program" | sed -n 's/^scene scene_\([0-9]*\) .* hash \(0x[0-9a-f]*\) .*/\1 \2/p' >"$scratch/hashes"
     differ=0
     while read -r number hash; do
         grep -q "state hash.*$hash" "$scratch/$number.run" || {
