@@ -303,18 +303,13 @@ done
 # --- deriving and interpreting ----------------------------------------------------------------------
 : >"$scratch/numbers"
 [ -z "${WHIRL_FEW:-}" ] || sed -i 'n;d' "$scratch/list"
-# part_of NUMBER: the part of the list that it belongs to, 0 to 3, without any rhythm that the list has (Thue and Morse's
-# sequence of all bits and of every other one). Folded tables exist in float alone, which parts 0 and 2 are compiled in.
-ones() { # of NUMBER, 10 bits: odd or even
-    echo $((($1 ^ $1 >> 1 ^ $1 >> 2 ^ $1 >> 3 ^ $1 >> 4 ^ $1 >> 5 ^ $1 >> 6 ^ $1 >> 7 ^ $1 >> 8 ^ $1 >> 9) & 1))
-}
+# part_of NUMBER: the part of the list that it belongs to, 0 to 3, by a sum, which has no rhythm that the list has. Folded tables
+# exist in float alone, which parts 0 and 2 are compiled in.
 part_of() {
-    later=$(($(ones $(($1 & 0x155))) | $(ones $(($1 & 0x2aa)))))
-    if [ -e "$scratch/$1.folded" ]; then
-        echo $((2 * later))
-    else
-        echo $((2 * later + $(ones $(($1 & 0x133)))))
-    fi
+    drawn=$(($(echo "$1" | cksum | cut -d ' ' -f 1) % 8)) # parts 0 and 1 are an eighth each
+    [ $drawn -lt 2 ] || drawn=$((2 + drawn % 2))
+    [ ! -e "$scratch/$1.folded" ] || drawn=$((drawn / 2 * 2))
+    echo $drawn
 }
 # What both parts that gate-long compiles need; all else needs all.
 wanted() { # NUMBER
