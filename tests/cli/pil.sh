@@ -194,7 +194,6 @@ done
 head -c 3000 "$scratch/pc.tape" >"$scratch/cut.tape"
 exits 2 'it is broken' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
 { head -c 3000 "$scratch/pc.tape" && printf X && tail -c +3002 "$scratch/pc.tape"; } >"$scratch/flip.tape"
-exits 2 'it is broken' --replay "$scratch/flip.tape" --firmware "$build/pil_rig"
 exits 2 'no tape' --replay "$build/pil_rig" --firmware "$build/pil_rig"
 exits 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
 exits 2 "of 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
@@ -239,7 +238,6 @@ sh tests/limit.sh 60 "$whirl" pil $rig --fault edge-late=5ms@3s,cell-saturated@6
 "$whirl" pil --read "$scratch/late.tape" | awk -F, '$3 == "edge" && $1 > 3.1 && $1 < 6 { n++; if ($2 - $1 < 0.005 || $2 - $1 > 0.0091) bad++ }
     $8 == "saturated" && ($1 < 6 || $4 != 1) { bad++ } $8 == "saturated" { full++ } END { exit !(n > 5 && bad == 0 && full > 1) }'
 verdict $? "what comes late has its stamp, and what is saturated says so" "$scratch/out"
-exits 2 'it is broken' --read "$scratch/cut.tape"
 exits 2 'it is broken' --read "$scratch/flip.tape"
 exits 2 'no tape of this version' --read "$build/pil_rig"
 exits 2 'no tape of this version' --read /dev/zero
@@ -302,12 +300,7 @@ done
 exits 2 'cannot be read' docs/plants/cart.whirl --firmware ''
 [ ! -c /dev/full ] ||
     exits 1 'cannot be written' docs/plants/cart.whirl --until 0.02s --firmware "$build/pil_cart" --tape /dev/full
-for tape in /dev/null /dev/zero /dev/urandom; do
-    exits 2 'no tape of this version' --replay $tape --firmware "$build/pil_cart"
-done
 exits 2 'cannot be read: Is a directory' --replay "$scratch" --firmware "$build/pil_cart"
-{ cat "$scratch/cart.tape" && head -c 100000 /dev/zero; } >"$scratch/long_end.tape"
-exits 2 'it is broken' --replay "$scratch/long_end.tape" --firmware "$build/pil_cart"
 cp docs/plants/cart.whirl "$scratch/mine.whirl"
 exits 2 'over' "$scratch/mine.whirl" --tape "$scratch/mine.whirl" --firmware "$build/pil_cart"
 cmp -s docs/plants/cart.whirl "$scratch/mine.whirl"

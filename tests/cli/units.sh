@@ -170,13 +170,6 @@ verdict $? "and its summary" "$scratch/out"
     grep -q '^  output  *turned  *\[rev/min\]$' "$scratch/out" && grep -q '^  output  *plain  *\[m\]$' "$scratch/out"
 verdict $? "derive lists units as declared, without blanks" "$scratch/out"
 
-# A number without its unit is refused where that is not SI, with a hint that can be pasted.
-run --quiet --start theta=2; [ $? -eq 2 ] && grep -q '^hint: "theta = 2 \[deg\]", or in SI: "theta = 2 \[rad\]"$' "$scratch/err"
-verdict $? "a bare number for an angle in degrees is refused"
-run --quiet --set m=2 --start "z'=1"; [ $? -eq 2 ] && [ "$(grep -c 'this value has no unit$' "$scratch/err")" -eq 2 ] && grep -q '\[m/s\]' "$scratch/err"
-verdict $? "and one for a mass in grams, and for a rate"
-run --quiet --set l=2 --set "m=2 [kg]" --start theta=2rad --start z=0 && [ ! -s "$scratch/err" ]
-verdict $? "taken where SI is declared or a unit is given, and for 0"
 # a limit without its unit: of a stop and of a crossing, in each unit that is not SI; the hint pasted is taken
 awk -F '\t' '$3 != 1 { print $1 }' "$scratch/names" | while read -r unit; do
     for limit in 'stop z <= %s restitution 1' 'stop z >= -%s restitution 1' "when z crosses %s rising { set z' = 0 }"; do
