@@ -1,5 +1,5 @@
-/* main.c: runs the suites of a test program, on this machine and on boards. Here it takes names
- * ("suite_lang lang") and runs only those; a name that is none of them ends it with status 2. */
+/* main.c: runs the suites of a test program, on this machine and on boards. On this machine the arguments are names
+ * ("suite_lang lang"), and only those suites run; an unknown name ends the program with status 2. */
 #include "tests/suites.h"
 
 #if __STDC_HOSTED__
@@ -69,7 +69,7 @@ int main(int argc, char **argv) {
             return 2;
         }
     }
-    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* what was said before a crash must be seen */
+    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* so that the output before a crash is not lost */
     UNITY_BEGIN();
     for (unsigned i = 0; i < suite_count; i++) {
         if (is_wanted(&suites[i], argc - 1, argv + 1)) {

@@ -6,7 +6,7 @@
 
 struct suite {
     const char *name;
-    const char *file; /* that defines it: what its lines begin with */
+    const char *file; /* the file that defines it; its lines of output begin with this name */
     void (*run)(void);
 };
 

@@ -19,7 +19,7 @@ typedef struct stm32f4_clocks {
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
-/* A peripheral, by the bit of the register that enables its clock; ports are the first of them. */
+/* The number of a peripheral: the index of its bit among the clock enable registers. Those of the ports come first. */
 #define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
 
 /* Enable the peripheral's clock; it runs when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */

@@ -7,7 +7,7 @@
 algebra *algebra_new(void);
 void algebra_free(algebra *a);
 
-/* Greatest size of an expression. It bounds the time of walks that visit shared parts repeatedly. */
+/* Greatest size of an expression. It limits the time of functions that visit shared parts repeatedly. */
 #define POLY_SIZE_MAX 1e6
 
 /* True after an expression exceeded a limit of the algebra; results are then meaningless. */

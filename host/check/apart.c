@@ -119,7 +119,7 @@ static bool solve(int n, double *matrix) {
     return true;
 }
 
-/* The least change of x, in coordinates that `may` move, that changes the expressions by `by`. */
+/* The smallest change of x, in the coordinates that `may` move, by which the expressions change by `by`. */
 static bool move(const apart *a, const bool *may, const double *by, double *x) {
     double matrix[HOLDS * (HOLDS + 1)] = {0.0};
     const int n = a->holds;

@@ -47,9 +47,9 @@ typedef struct books {
     double stored_J[2];
     double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
-    double loss_J;        /* losses so far */
+    double loss_J;        /* losses since the start */
     double power_W[2][2]; /* input and loss power at the last two even steps' ends */
-    spread kinetic;       /* over the steps */
+    spread kinetic;       /* spread over the steps */
     spread stored;
     spread *rate;  /* [count] */
     spread *push;  /* [count] momenta without lean[] */

@@ -44,9 +44,9 @@ typedef struct finding_row {
 extern const finding_row finding_rows[FINDINGS];
 
 /* Other thresholds of findings, besides their rows' limits. */
-/* accuracy: a run is reported if its error reaches RUN_CHECKS_TOLERANCE, as a part of a range, too early. It is not reported
- * if the error grew as in a chaotic motion, for which no step helps. Such an error reaches EARLY_TOLERANCE after BEGIN of the
- * run, and TOLERANCE in less than GROWS times as long. */
+/* accuracy: a run is reported if its error reaches RUN_CHECKS_TOLERANCE, as a part of a range, too early in the run. It
+ * is not reported if the error grew as in a chaotic motion, for which no step helps. Such an error reaches
+ * EARLY_TOLERANCE after BEGIN of the run, and TOLERANCE in less than GROWS times as long. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0

@@ -15,7 +15,8 @@ void findings_say(FILE *out, const run_checks *v, bool fails);
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);
-/* For a run that ended too early, or with undefined energies: an option with which it completes, if one is found. */
+/* For a run that ended too early, or with undefined energies: reports an option with which the run completes, if one is
+ * found. */
 void findings_say_failed(FILE *out, const run_checks *v);
 /* After a step with `status`: reports the expression that was not a finite number, or the coordinate that diverged. */
 void failure_say(FILE *out, wh_status status, const run_checks *v);

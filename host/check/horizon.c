@@ -9,7 +9,8 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* Factor on the round-off bound, for what it leaves out: a step's own sums, and the library's functions. */
+/* Factor on the round-off bound, for round-off that the bound leaves out: in the sums of a step and in library
+ * functions. */
 #define ROUNDING_ROOM 8.0
 /* Least range of a rate, as a part of its size. For a rate of 34.56 rad/s that varies by 0.007, float cannot resolve a
  * thousandth of the variation. Positions have no such least range, because their origin is arbitrary. */
@@ -137,7 +138,8 @@ void horizon_free(horizon *h) {
  * period: the run's span divided by a prime number. It samples such a force at varying phases, and has another result.
  * The runs are compared at the end of the finer run's trusted span. */
 
-/* Steps of the third run per step of the run. It is above one, so that the third run is more accurate, and near no simple ratio. */
+/* Number of steps of the third run per step of the run. Above one, so that the third run is more accurate, and far from
+ * simple ratios. */
 #define STEPS 1.41
 /* The third run may differ by this many times the difference of the run and the finer one, because of its steps alone. */
 #define ITS_OWN 2.0

@@ -1,6 +1,6 @@
-/* horizon.h: the time until which a run is accurate to a tolerance, for each coordinate, by step doubling (step_doubling.h). It
- * ends when the two runs first differ by more than the tolerance times the coordinate's range in the finer run. Measured in
- * docs/dev/stability.md. */
+/* horizon.h: the time until which a run is accurate to a tolerance, for each coordinate, by step doubling
+ * (step_doubling.h). This time ends when the two runs first differ by more than the tolerance times the coordinate's
+ * range in the finer run. Measured in docs/dev/stability.md. */
 #ifndef CHECK_HORIZON_H
 #define CHECK_HORIZON_H
 

@@ -96,7 +96,8 @@ static void taylor_bounds_close(taylor_bounds *a) {
 
 /* --- forms ----------------------------------------------------------------------------------------------*/
 
-/* The intersection, or the one that is known. If round-off makes it empty, the result is `a`. */
+/* The intersection of two enclosures, or the one that is known. If it is empty because of round-off, the result is
+ * `a`. */
 static enclosure both(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? a : b;
@@ -165,7 +166,8 @@ static form chain(const form *u, slopes at, slopes on) {
                                 enclosure_mul(on.f[1], u->curve))};
 }
 
-/* One of two forms, if it is unknown which. At a kink the slope is between those of the two, and there is no curvature. */
+/* A form that encloses both `a` and `b`, if it is not known which applies. At a kink the slope is between their slopes,
+ * and there is no curvature. */
 static form either(form a, form b, enclosure middle, enclosure value) {
     return (form){middle, enclosure_hull(a.middle_slope, b.middle_slope), value,
                   enclosure_is_finite(a.slope) && enclosure_is_finite(b.slope)
@@ -502,7 +504,7 @@ static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
     return a->of[a->list->result[result]].middle;
 }
 
-/* How much the result would change over the whole way, with its slope and curvature on the part. */
+/* How much the result would change over the whole path, with the slope and curvature of this part. */
 static double taylor_bounds_change(const taylor_bounds *a, int result) {
     const form *f = &a->of[a->list->result[result]];
     const double slope = enclosure_size(f->middle_slope);
@@ -538,9 +540,9 @@ struct missed {
     int *mode;              /* [contacts] modes before and after the step */
     int *mode_to;
     double *most;              /* [coordinates] a larger acceleration is hidden from both ends */
-    const engine_piece *piece; /* the present piece */
+    const engine_piece *piece; /* the present path */
     double size;               /* the larger of the margins at the piece's ends */
-    int parts;                 /* parts tested so far */
+    int parts;                 /* number of parts tested so far */
 };
 
 static bool has_exponential(const op_list *t) {
@@ -687,7 +689,7 @@ static missed_found or_this(missed_found found, int passed, int what) {
                : found;
 }
 
-/* A hold that would close has no effect if its expression does not move on the way. */
+/* A hold that would close has no effect if its expression does not move on this path. */
 static bool is_idle(missed *m, int k) {
     if (m->image->contact[k].kind != WH_HOLD || m->piece->mode[k] != WH_FREE) {
         return false;

@@ -240,7 +240,7 @@ static bool find(const blamed *v, const nonfinite_at *at, int first, int count, 
     return false;
 }
 
-/* Tries these questions at the state and at places ahead of it along its rates. */
+/* Tries these questions at the state and at some states that its rates lead to. */
 static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     bool found = false;

@@ -37,7 +37,8 @@ enum { GROWTH_POINTS = 10 };
 #define GROWTH_BEYOND 1e60
 
 typedef enum growth {
-    GROWTH_ROUGH, /* the growth is uneven, because of round-off or a zero; from farther away it may be even */
+    /* the growth is uneven, because of round-off or a zero; from a greater distance it may be even */
+    GROWTH_ROUGH,
     GROWTH_NONE, /* even growth, but no pole: a limit, or one over a root */
     GROWTH_POLE  /* even growth, as at a pole */
 } growth;
@@ -266,7 +267,7 @@ static int grows_from(const looker *l, const spot *s, double zero_at, double far
 #define ASIDE 5.0
 
 /* The position of the zero, from the sizes of the value on both sides of the estimate: (a - e)^order and (a + e)^order
- * differ by the part order*e/a. The place of a simple zero is known already. */
+ * differ by the part order*e/a. The position of a simple zero is already known. */
 static double centred(const looker *l, const spot *s, double aside) {
     const double before = size_at(l, s->of, s->zero_at - aside);
     const double behind = size_at(l, s->of, s->zero_at + aside);

@@ -67,7 +67,7 @@ static double part_left(const run_checks *v) {
     return budget_left(v->budget) / BUDGET_LEAST - share;
 }
 
-/* If part_left() falls below this, the finer run alone costs too much, and is given up. */
+/* If part_left() falls below this, the finer run alone is too expensive, and is ended. */
 #define BEHIND (-1.0 / 16.0)
 
 void run_checks_enter(run_checks *v) {

@@ -23,7 +23,7 @@ typedef struct run_checks {
     const image *image;
     const engine_kind *kind;
     void *run;
-    const image *plain; /* the finer run's image */
+    const image *plain; /* image of the finer run */
     budget own;
     budget *budget; /* shared by all checks: &own, or the caller's */
     double part;    /* factor of the limits of energy and accuracy: 1, and less for a remedy */

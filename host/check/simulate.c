@@ -99,7 +99,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* Undefined outputs do the same. They are checked when they are recorded or drawn, and at the end. */
+/* Undefined outputs end the run in the same way. They are checked when they are recorded or drawn, and at the end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -333,7 +333,7 @@ static bool write_about(const simulation *sim) {
     return written;
 }
 
-/* Has all of it been written? Standard output is checked at the program's end. */
+/* Was the whole file written? Standard output is checked at the end of the program. */
 static bool is_taken(FILE *file) {
     return file == NULL || file == stdout || (fflush(file) == 0 && ferror(file) == 0);
 }

@@ -241,7 +241,7 @@ typedef struct rounded {
     double *off;
     double *most;   /* [results]: largest bound of all looks that had one */
     uint64_t *lost; /* [results]: number of looks without a bound */
-    uint64_t looks; /* number of all looks */
+    uint64_t looks; /* number of comparisons */
 } rounded;
 
 /* Unit round-off of double. */
@@ -360,15 +360,15 @@ typedef struct pair {
     pole_crossing *our_jumps;
     pole_crossing *finer_jumps;
     rounded rounded;
-    uint64_t stride; /* steps between looks */
+    uint64_t stride; /* number of steps between two comparisons */
     double look_s;   /* time of the last look */
     double before_s; /* time of the look before the last one */
     uint64_t looks;
     bool owns; /* the pair owns the run and its monitors */
 } pair;
 
-/* Compares the two runs. With contacts, a difference at a single look does not count: the other run may have the same event within
- * the step. A run of one step has only one look, which counts. */
+/* Compares the two runs. With contacts, a difference in a single comparison does not count, because the other run may
+ * have the same event within the step. A run of one step has only one comparison, which counts. */
 static void look(pair *p, double time_s) {
     step_doubling *t = p->to;
     const bool events = p->wish.image->contacts > 0 && p->wish.image->steps > 1U;

@@ -211,8 +211,8 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
 
-/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", for the first length with a conserved
- * momentum. The momentum of an angle, such as a clock's, does not show where the device goes. */
+/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", for the first length with a conserved momentum. The momentum of
+ * an angle, such as a clock's, says nothing about where the device moves. */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {

@@ -12,7 +12,8 @@
 #include "host/study/subsets.h"
 #include "pricing.h"
 
-/* The allowed error without --error, as a part of a coordinate's range; and the round-off at rest, SI. */
+/* The allowed error without --error, as a part of a coordinate's range; and the size of round-off for a coordinate at
+ * rest, SI. */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 

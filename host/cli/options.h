@@ -128,7 +128,7 @@ typedef struct change_options {
     const char *step;
     const char *until;
     const char *name; /* value of --name, for commands with this option; else NULL */
-    char **owned;     /* pieces of comma lists */
+    char **owned;     /* the parts of comma-separated lists */
     int owned_count;
 } change_options;
 

@@ -116,7 +116,7 @@ bool pricing_quantity(const char *command, const mechanism *of, const char *name
                       const char *text, dimension wanted, double *value);
 /* Computes the references at records of this spacing up to the horizon. Returns an exit status. */
 int pricing_begin(pricing *p, whole_ratio spacing);
-/* Least records of `whirl price` to the horizon; the most are two and a half times as many. */
+/* Least number of records of `whirl price` until the horizon; the largest number is two and a half times as many. */
 #define PRICING_RECORDS 1000.0
 /* A spacing of 1, 2 or 5 times a power of ten for `count` to two and a half times `count` records. */
 whole_ratio pricing_spacing(double until_s, double count);

@@ -94,7 +94,7 @@ static const char *name_of(void *context, int point) {
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The command line's changes and then the varied values, which take precedence; free with changes_forget(). */
+/* The changes of the command line, and after them the varied values, which replace them; free with changes_forget(). */
 static overrides changes_in(const pricing_scene *p, int point) {
     static const grid none = {0};
     return changes_at(is_own(p, point) ? &none : p->grid, p->changes, (uint64_t)point);

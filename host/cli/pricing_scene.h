@@ -6,7 +6,7 @@
 #include "host/study/grid.h"
 #include "host/study/trial.h"
 
-/* An image that was already made. Images of the same place and setting share its lists. */
+/* An image that was already made. Images of the same point and setting have the same lists. */
 typedef struct pricing_made {
     int point;
     image_settings settings;

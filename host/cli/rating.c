@@ -112,7 +112,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
 /* Steps as fractions and multiples of a record's interval, all decimals; a decade has five. */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Operations of all tried runs together. The comparison with the reference takes the same time again. */
+/* Allowed number of operations of all tried runs together. Comparing them with the reference takes as long again. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
 /* Pace `i`, from long to short steps. */

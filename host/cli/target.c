@@ -5,7 +5,7 @@
 
 #include "host/number/functions.h"
 
-/* Take the value of one of the table's options; false, reported, if it is wrong. */
+/* Takes the value of one of the table's options. Returns false, and reports the reason, if the value is wrong. */
 static bool take_value(const char *command, const own_option *o, const char *value) {
     if (o->number == NULL) {
         o->text[o->count != NULL ? (*o->count)++ : 0] = value;

@@ -331,7 +331,7 @@ bool energy_mass_has_rates(const equations *e) {
     return false;
 }
 
-/* At rest a quadratic form and its derivatives are zero. *known: they are finite there. */
+/* Checks that T and its derivatives are zero at rest, as for a quadratic form. *known: they are finite there. */
 static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
     trial_state state = {e->instance, number, true};
     double most = fabs(poly_evaluate(e->kinetic, trial_value, &state));

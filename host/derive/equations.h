@@ -125,8 +125,8 @@ const poly *equations_fold(const equations *e, const poly *p);
  * the rates and V contains no rate, h is T + V. On a turntable, in a magnetic potential or at relativistic speeds it is
  * not. There T + V also changes by the work of the turntable's drive, which no statement of the file mentions. */
 
-/* h, folded, if it differs from T + V; else, and for a system, NULL. If it equals T + V, nothing enters the algebra. So
- * the order of its terms, and with it the generated code, does not change. */
+/* The energy integral h, with folded constants, if it differs from T + V; otherwise, and for a system, NULL. If h
+ * equals T + V, no expression is added to the algebra, so that the generated code does not change. */
 const poly *energy_integral(const equations *e);
 
 /* The power of the drive of unknown i, an input with a rate: its work beyond the forces, losses and contacts. */

@@ -327,8 +327,8 @@ static void take_program(image_draft *d, program *p) {
     }
 }
 
-/* Make the requested matrix; `use` tells whether there is a blame list. Returns the image, or NULL, reported. An image
- * with a matrix has one for every step, unless its numbers grow too large; that needs no equations. */
+/* Make the requested matrix; `use` tells whether there is a blame list. Returns the image; or NULL, and reports the
+ * reason. */
 static image *with_matrix(image_draft *d, const equations *e, image_use use, diags *errors) {
     bool wants_blame;
     bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);

@@ -350,11 +350,10 @@ static run_checks verdict_at(const equations *e, int try, double *m, double *blu
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
-/* Tries the mass matrix at a number of generic states and at the start. False, with an error that
- * names the cause, if it is singular or undefined at all of them. The mass matrix of a mechanism
- * given by energies must also be positive definite at one of them; otherwise a mass is negative.
- * A matrix that is singular only at some states (a pole of spherical coordinates) passes: such
- * states are found while running. e->mass_blur is set. */
+/* Tries the mass matrix at a number of generic states and at the start. Returns false, with an error that names the
+ * cause, if the matrix is singular or undefined at all of them. The mass matrix of a mechanism given by energies must
+ * also be positive definite at one of them; otherwise a mass is negative. A matrix that is singular only at some states
+ * (a pole of spherical coordinates) passes: such states are found while running. e->mass_blur is set. */
 static bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);

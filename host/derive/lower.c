@@ -99,7 +99,7 @@ typedef struct family {
     int members;
 } family;
 
-/* The whole number m for which angle = m * base; 0 if there is none. */
+/* The whole number m with angle = m * base; 0 if there is none. */
 static int multiple_of(const poly *angle, const poly *base) {
     if (angle->count != base->count) {
         return 0;
@@ -382,7 +382,8 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
         if (poly_is_number(rest, &number) || rest->count > longest) {
-            continue; /* equal except for a constant, which is no help; or too long to be a known angle */
+            /* equal except for a constant, which does not help; or too long to be a known angle */
+            continue;
         }
         rest = upright(l, rest, &flipped);
         const int other = find(l, rest);
@@ -505,8 +506,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* In this file each operation is a statement of its own. C leaves the order of evaluation of arguments open, and
- * that order would become the order of the list. */
+/* In this file each operation has its own statement. In C the order of evaluation of arguments is open, and it would
+ * become the order of the list. */
 static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {

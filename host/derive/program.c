@@ -427,7 +427,7 @@ static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int co
     if (good) {
         l->powers = enter_ready(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
-        /* the equations have such an angle only inside sines with whole factors, but a power has it elsewhere */
+        /* the equations have this angle only inside sines, with whole factors, but a power has it elsewhere */
         l->turned = op_list_reads_turns(l->powers);
     }
     if (!good) {

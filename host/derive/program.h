@@ -19,7 +19,7 @@ typedef struct contact_row {
 typedef struct contact_lists {
     int count;
     int forced;
-    int held; /* holds without a pin */
+    int held; /* number of holds without a pin */
     int set_count;
     contact_row *row; /* [count] */
     int *target;      /* [set_count] component of the state, angles first */

@@ -83,7 +83,7 @@ static double generic(double of) {
     return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
 }
 
-/* The value of every operation at an artificial generic state, which tells vanishing pivots from others. */
+/* The value of every operation at an artificial generic state, to find pivots that vanish. */
 static double *sample(const op_list *t) {
     double *v = alloc(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
@@ -842,7 +842,7 @@ static bool can_be_permuted(const linear_system *s) {
 
 typedef struct choice {
     arrangement how;
-    int weight; /* -1: nothing tried yet */
+    int weight; /* -1: no arrangement was tried yet */
 } choice;
 
 static void try_it(const lowering *l, const linear_system *s, const arrangement *how,
@@ -853,7 +853,7 @@ static void try_it(const lowering *l, const linear_system *s, const arrangement 
     }
 }
 
-/* As it is, and rescaled if that may help. */
+/* Tries the system as it is, and rescaled if that may help. */
 static void try_scales(const lowering *l, const linear_system *s, arrangement how, bool rescales,
                        choice *best) {
     for (int again = 0; again <= rescales; again++) {

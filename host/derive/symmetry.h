@@ -8,7 +8,7 @@
  *     dP/dt = -dV + sum (Q_i - dF/dq_i') (A q + b)_i + contacts
  *
  * Translations and rotations are affine in Cartesian coordinates and in joint angles. In others, such as spherical
- * ones, a direction is not affine: the search then finds nothing and claims nothing. */
+ * ones, a direction is not affine: the search then finds no symmetry, although there is one. */
 #ifndef DERIVE_SYMMETRY_H
 #define DERIVE_SYMMETRY_H
 

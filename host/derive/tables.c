@@ -10,7 +10,7 @@
 #include "host/number/ratio.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */
-/* In double, with the program's own functions: identical on every host. */
+/* Sines in double, computed with the program's own functions, so that they are identical on every host. */
 
 /* The value of an operation at some angle. */
 typedef struct turn_value {
@@ -562,7 +562,7 @@ static bool shares(int *turns, const int *other, int angles) {
     return true;
 }
 
-/* An angle of the other phase that this phase does not have, or else the other's first. */
+/* The index of an angle of the other phase that this phase does not have; if there is none, the other's first angle. */
 static int angle_of_other(const int *turns, const int *other, int angles) {
     for (int k = 0; k < angles; k++) {
         if (other[k] != 0 && turns[k] == 0) {

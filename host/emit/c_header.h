@@ -6,7 +6,7 @@
 
 #include "host/image/image.h"
 
-/* `text` for a comment, on one line. It cannot end the comment, and causes no compiler warnings. */
+/* Writes `text` as part of a comment, on one line. The text cannot end the comment, and causes no compiler warnings. */
 void c_comment(FILE *out, const char *text);
 
 /* Enumerators of components, inputs and outputs of a scene in fixed point, one a line. */

@@ -9,13 +9,13 @@
 /* Increased when a field changes its meaning or is removed; new fields may appear at any time. */
 #define DESCRIBE_VERSION 1
 
-/* One JSON object. `file` is the .whirl file's name. */
+/* Writes one JSON object. `file` is the name of the .whirl file. */
 void describe_json(FILE *out, const image *im, const char *file);
 
 /* Writes the description as text for readers. */
 void describe_text(FILE *out, const image *im, const char *file);
 
-/* Words that both use. */
+/* Words of both descriptions. */
 extern const char *const describe_roles[IMAGE_ROLES];
 const char *describe_ledger_kind(ledger_kind kind);
 

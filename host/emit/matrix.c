@@ -6,7 +6,7 @@
 /* Columns of a table next to each other. */
 enum { BESIDE = 5, NAME_WIDTH = 14, NUMBER_WIDTH = 17 };
 
-/* The label of column k, or row k: a state or an input. Its name with primes, in text[size]. */
+/* The label of column or row k, a state or an input: its name with primes, in text[size]. */
 static const char *name_of(const image *im, int k, char *text, size_t size) {
     const int states = im->matrix.states;
     if (k >= states + im->inputs) {

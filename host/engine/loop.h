@@ -6,9 +6,9 @@
 #include "engine.h"
 
 /* All checks of a run draw on one budget, counted in operations (engine_operations). It is the larger of the run's own
- * operations and a fixed number, which takes about a second. A check ends when the budget is empty. Order of importance: the
- * balance and the monitors, at each step; the finer run; poles and missed contacts; the third run of aliasing; remedies; the
- * rows of accuracy and cost. */
+ * operations and a fixed number, which takes about a second. A check ends when the budget is empty. In order of
+ * importance they are: the balance and the monitors, at each step; the finer run; poles and missed contacts; the third
+ * run for aliasing; remedies; the rows of accuracy and cost. */
 typedef struct budget {
     uint64_t own;   /* operations of the run's steps so far */
     uint64_t spent; /* operations of completed checks */
@@ -37,7 +37,7 @@ typedef struct loop {
 typedef enum loop_end {
     LOOP_DONE,
     LOOP_FAILED, /* the step's status has the reason */
-    LOOP_ENOUGH, /* see() returned false */
+    LOOP_ENOUGH, /* the callback see() returned false */
     LOOP_INTERRUPTED,
     LOOP_SPENT /* the budget is empty */
 } loop_end;
@@ -45,7 +45,7 @@ typedef enum loop_end {
 /* From the present step to the last, or to an interrupt (host/os/system.h). */
 loop_end loop_run(const loop *l, wh_status *status);
 
-/* This many steps, without callbacks, up to the first failure. */
+/* Makes this many steps, without callbacks, until the first failure. */
 wh_status loop_steps(const engine_kind *kind, void *run, uint64_t count);
 
 #endif

@@ -32,7 +32,7 @@ static double of_phase(const op_list *t, const op *o, const rounding_values *at,
     return size + (o->b >= 0 ? fabs(at->value[o->b]) + more : 0.0);
 }
 
-/* By the function's slopes at (x, y), with errors `a` and `b`. */
+/* Bound for a function of (x, y), by its slopes, if x and y have the errors `a` and `b`. */
 static double of_call(function_id function, double x, double y, double a, double b) {
     const double by_x = fabs(number_slope(function, 0, x, y)) * a;
     return function_arguments(function) == 1 ? by_x

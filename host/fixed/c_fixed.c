@@ -130,7 +130,7 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
         break;
     case FIXED_SIGN: fprintf(out, "wh_fixed_sign(x%d, %d)", o->a.op, o->bits); break;
     case FIXED_PHASE:
-    case FIXED_QUOTIENT: break; /* takes several statements */
+    case FIXED_QUOTIENT: break; /* written as several statements */
     }
 }
 

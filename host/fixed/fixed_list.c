@@ -228,7 +228,7 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     }
 }
 
-/* The most left shifts of a number of this many units that keep it within 31 digits. */
+/* The largest left shift with which a number of this many units stays within 31 digits. */
 static int left_of(double size) {
     int exponent;
     (void)number_split(size + 1.0, &exponent);
@@ -423,7 +423,7 @@ typedef struct hull {
     enclosure *angle; /* [angles] */
     int *cell;        /* [angles] */
     bool *cut;        /* [angles] does any phase depend on it? */
-    int cells;        /* cells a turn */
+    int cells;        /* number of cells per turn */
     bool at_middles;  /* leaves are at the middle of their ranges */
     bool divides_zero;
     bool unbounded;
@@ -445,14 +445,15 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* The sines of all angles in a. Tighter than enclosure_sine() of a whole cell; SINE_OFF covers round-off. */
+/* An enclosure of the sines of all angles in a. Tighter than enclosure_sine() of a whole cell; SINE_OFF covers
+ * round-off. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);
     const double other = number_sine(a.high);
     enclosure made = {enclosure_lesser(one, other), enclosure_larger(one, other)};
     for (int side = -1; side <= 1;
-         side += 2) { /* a crest or a trough: 0.25 or -0.25 of a turn and a whole k */
+         side += 2) { /* maximum or minimum: at 0.25 or -0.25 of a turn, plus whole turns */
         const double at = side * 0.25 * TURN;
         if (at + TURN * number_ceiling((a.low - at) / TURN) <= a.high) {
             *(side > 0 ? &made.high : &made.low) = side;

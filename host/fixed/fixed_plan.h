@@ -9,8 +9,8 @@
 
 /* === statements that fixed point refuses, each at its place =================================== */
 
-/* Generated code may get inputs that no run has tested. So each input without a declared range is reported, with the range of
- * a run. False: there is such an input. */
+/* Generated code may get inputs that no run has tested. So each input without a declared range is reported, with the
+ * range of a run. Returns false if there is such an input. */
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);
 
 /* Multiplication by a constant, with a change of the binary point: x 2^shift number 2^-(32 + by), rounded. */

@@ -184,7 +184,8 @@ typedef struct image_contact {
     int sets;
     const char *unit; /* SI, of a stop's gap; "1" for other kinds */
     place at;
-    /* Indices in the blame list: expressions that may be undefined, then those needed only at an impact. */
+    /* Indices in the list of diagnostic expressions: expressions that may be undefined, then those that are evaluated
+     * only at an impact. */
     int first_question, questions;
     int first_late, late;
 } image_contact;
@@ -243,7 +244,7 @@ typedef struct diagnostics_node {
     place at; /* no source in a derived expression */
 } diagnostics_node;
 
-/* The check that a number is finite. If not, a message names `what` in the statement at `where`. */
+/* A number that must be finite. If it is not, a message names `what` in the statement at `where`. */
 typedef struct diagnostics_question {
     int node;
     bool derived; /* a derivative: the message can name only the statement, not a part of it */
@@ -302,7 +303,8 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* the mechanism's own and those of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* If folding lost digits: variants with other ways of folding (host/number/folding.h). Only their lists are used. */
+    /* If constant folding lost digits: variants folded with other roundings (host/number/folding.h). Only their lists
+     * are used. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
     bool unbounded;         /* in a variant: a number of the file is not finite */
@@ -333,7 +335,7 @@ typedef struct image {
     image_contact *contact; /* [contacts] crossings come last */
     int contacts;
     int forced;    /* contacts with a force: all but crossings */
-    int held;      /* holds without a pin */
+    int held;      /* number of holds without a pin */
     int set_count; /* values that crossings set */
     int *target;   /* [set_count] component of the state, angles first */
     image_ledger ledger;

@@ -139,7 +139,7 @@ typedef struct op_list {
     op *ops;
     int count;
     int room;
-    int angles; /* length of every `turns` */
+    int angles; /* length of each array `turns` */
     int *index; /* hash index of ops */
     int index_size;
     int *result; /* operation numbers of the list's results */
@@ -200,7 +200,7 @@ int op_list_carried(const op_list *t);
 /* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
 bool op_list_reads_turns(const op_list *t);
 
-/* A wave: a phase made of turn angles, which a step can turn on (core/step/stage_turn.h). */
+/* A wave: a phase composed of turn angles, which a step can rotate (core/step/stage_turn.h). */
 static inline bool op_list_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
 int op_list_waves(const op_list *t);
 /* Is every wave a sum of turn angles and a number? Then the list can receive its pairs of sine and cosine, in the order

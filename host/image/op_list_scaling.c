@@ -623,7 +623,7 @@ typedef struct scaling_search {
     const op_list *like;
     const op_list *from; /* the last round's list */
     int most;            /* operations */
-    op_list *best;       /* NULL: not found yet */
+    op_list *best;       /* NULL: none found yet */
     double bias;
     int operations;
     double *times; /* [3 * from->count] */

@@ -312,7 +312,7 @@ static schedule schedule_of(const op_list_needs *n) {
         s.until[v] = n->first[v] < n->first[v + 1] ? n->user[n->first[v + 1] - 1] : v;
     }
     for (int i = 0; i < t->results; i++) {
-        s.uses[t->result[i]] += 2; /* results stay alive */
+        s.uses[t->result[i]] += 2; /* results are live to the end */
         s.until[t->result[i]] = t->count;
     }
     for (int v = 0; v < t->count; v++) {

@@ -11,13 +11,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Buckets at most. */
+/* Most buckets. */
 #define DECIMATION_ROOM 4000U
 
 typedef struct decimation decimation;
 
-/* For rows with `columns` columns (> 0). `samples`: the first row of each bucket in place of extremes, for columns that
- * belong together, as in a path of one column over another. */
+/* For rows with `columns` columns (> 0). `samples`: each bucket has its first row instead of extremes. This is for
+ * columns that belong together, as in a path of one column over another. */
 decimation *decimation_new(int columns, bool samples);
 void decimation_free(decimation *v); /* NULL is allowed */
 

@@ -688,7 +688,7 @@ typedef struct extent {
     double most;
 } extent;
 
-/* Joins the finite values of a run's column; least above most if there are no finite values. */
+/* Extends `e` by the finite values of a run's column; if there are no finite values, least is above most. */
 static extent joined(extent e, const plot_run *run, int column) {
     for (int r = 0; r < run->rows && column >= 0; r++) {
         const double value = run->data[(size_t)r * (size_t)run->columns + (size_t)column];

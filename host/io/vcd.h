@@ -1,7 +1,7 @@
 /* vcd.h: a value change dump for waveform viewers (IEEE 1364, 18): wires of one bit, real numbers, and events without a
  * value. Vectors of several bits are not supported, since they have crashed viewers. Only changes of the printed value
- * are written. Changes slightly out of order are sorted; later ones are written at the last written time. Times are
- * whole numbers of the dump's unit, and increase. */
+ * are written. Changes that come slightly out of order are sorted; those that come too late for that are written at the
+ * last written time. Times are whole numbers of the dump's unit, and increase. */
 #ifndef IO_VCD_H
 #define IO_VCD_H
 

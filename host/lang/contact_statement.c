@@ -88,7 +88,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     if (by == NULL) {
         return NULL;
     }
-    /* Only the signs of comparisons matter: a length and a speed may be joined. */
+    /* only the signs of comparisons matter, so that a length and a speed may be combined */
     expr *made = expr_new(in, by->op, by->at);
     *made = *by;
     made->dim = dim_none();

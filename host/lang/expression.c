@@ -577,7 +577,7 @@ static const expr *parse_signed(parser *in) {
     return expr_negate(in, sign.at, operand);
 }
 
-/* PART { sign PART } with the two signs of one level, from left to right. */
+/* Parses PART { sign PART } with the two signs of one level, from left to right. */
 static const expr *parse_level(parser *in, const expr *(*part)(parser *), const char *signs,
                                expr_op first, expr_op second) {
     const expr *left = part(in);

@@ -68,7 +68,7 @@ static void check_line_ends(const lexer *in) {
 lexer lexer_start(const source *text, diags *all) {
     lexer in = {{text, 1, 1, 0}, true, false, all};
     if (text->length >= 3 && memcmp(text->text, "\xef\xbb\xbf", 3) == 0) {
-        in.at.offset = 3; /* byte order mark */
+        in.at.offset = 3; /* after the byte order mark */
     }
     check_line_ends(&in);
     return in;

@@ -1,4 +1,5 @@
-/* scene_block.c: the parser of scene blocks. They are read last, so that they may name later effects. */
+/* scene_block.c: the parser of scene blocks. Scenes are read last, so that they may name effects that come after
+ * them. */
 #include <stdio.h>
 #include <string.h>
 

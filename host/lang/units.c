@@ -152,8 +152,8 @@ static const unit_entry *find_unit(const char *name, size_t length) {
     return NULL;
 }
 
-/* An enclosure of a table's factor. A whole number is exact. The others are decimals or multiples of pi, perhaps times
- * a number, rounded to the nearest double. */
+/* An enclosure of a factor of the table. Whole numbers are exact. Other factors are decimals, or multiples of pi,
+ * rounded to the nearest double. */
 static enclosure exact_factor(double factor) {
     return number_nearest(factor) == factor ? enclosure_of(factor) : enclosure_about(factor, 1);
 }

@@ -70,7 +70,7 @@ bool dim_is_none(dimension dim); /* dimensionless, zero or unknown */
 bool dim_multiply(dimension a, dimension b, dimension *product);
 bool dim_divide(dimension a, dimension b, dimension *quotient);
 bool dim_power(dimension base, double exponent, dimension *power);
-/* Of a time derivative: per second for each prime. */
+/* The dimension of a time derivative: `of` per second for each prime. */
 bool dim_derivative(dimension of, int primes, dimension *derivative);
 
 /* "force [kg*m/s^2]", "[kg/s]" or "dimensionless", cut to `size` bytes; returns `buffer`. */

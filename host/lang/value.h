@@ -6,11 +6,11 @@
 
 /* === the units of displayed numbers: the declared unit, or SI ================================= */
 
-/* The display unit of an output, of a coordinate or state, or of its derivative with so many primes. It is the declared
- * unit; a derivative adds per second: [deg] becomes deg/s, deg/s^2. Without a declared unit it is SI. */
+/* The display unit of an output, of a coordinate or state, or of its derivative with `primes` primes. It is the
+ * declared unit; a derivative adds per second: [deg] becomes deg/s, deg/s^2. Without a declared unit it is SI. */
 unit_scale shown_unit(const symbol *s, int primes);
 
-/* Its name: "deg/s", "kg*m/s^2", "rad", "1". The caller frees it. */
+/* The name of this unit: "deg/s", "kg*m/s^2", "rad", "1". The caller frees it. */
 char *shown_unit_name(const symbol *s, int primes);
 
 /* The name of the SI unit of the same quantity. The caller frees it. */

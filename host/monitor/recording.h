@@ -43,7 +43,7 @@ bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);
 
-/* Losses, and their places. */
+/* Numbers of losses, and where they occurred. */
 typedef struct recording_counts {
     uint64_t frames;
     uint64_t samples;

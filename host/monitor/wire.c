@@ -47,7 +47,8 @@ static wire_event end_chunk(wire *w) {
     return WIRE_FRAME;
 }
 
-/* The second byte decides whether the first began a frame. No frame begins with a line feed. */
+/* Adds a byte. The second byte after a zero decides whether the first began a frame: no frame begins with a line
+ * feed. */
 static wire_event add(wire *w, uint8_t byte) {
     if (!w->is_frame && w->length == 1U) {
         w->is_frame = byte >= 0x80U;
@@ -100,7 +101,7 @@ void wire_forget(wire *w) {
  * before it may be answers to another program's questions. */
 static const struct {
     const char *words;
-    const char *answer; /* beginning of the answer */
+    const char *answer; /* begin of the answer */
 } questions[] = {{"id", "OK program="},
                  {"talk off", "OK"},
                  {"tel list", "OK rate="},

@@ -41,7 +41,8 @@ enum {
     /* A midpoint of two doubles has at most 768 significant digits (next to 2^-1074 and 2^-1022). So a longer number is
      * on the same side of every midpoint as its first DIGITS_MAX digits, with one more digit if the rest is not zero. */
     DIGITS_MAX = 780,
-    /* The place of the first digit: 10^-324 and above is not below half of 2^-1074, 10^309 is infinity. */
+    /* The least and the largest exponent of the first digit. A smaller number is below half of 2^-1074, which is zero;
+     * a larger one is infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
     /* 5^1106 has 2569 bits, 781 digits have 2595; both may be moved up to the other's length, and by one bit. */
@@ -125,7 +126,7 @@ static void take_away(big *a, const big *b) {
 /* The significant digits of a number as a whole one, times 10^exponent. */
 typedef struct digits {
     big whole; /* count 0: zero */
-    int held;  /* significant digits taken */
+    int held;  /* number of significant digits taken so far */
     bool more; /* a digit other than zero follows them */
     int64_t exponent;
 } digits;

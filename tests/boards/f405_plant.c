@@ -56,7 +56,7 @@ void stm32f4_cell_start(void) {
 
 void stm32f4_slots_start(void) {}
 
-static bool started; /* as seen by the plant */
+static bool started; /* the processor has started, as far as the plant knows */
 
 unsigned hear_start(void) {
     const unsigned wrong = tell_start();

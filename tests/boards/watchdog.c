@@ -1,4 +1,5 @@
-/* watchdog.c: a board's watchdog is silent if kicked in time. Otherwise it interrupts when due, then resets (watchdog.sh). */
+/* watchdog.c: a board's watchdog does nothing if it is kicked in time. Otherwise it interrupts at its timeout, then
+ * resets (watchdog.sh). */
 #include "hal/watchdog.h"
 #include "boards/board.h"
 #include "core/text.h"

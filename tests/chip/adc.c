@@ -31,7 +31,7 @@ static struct {
     uint32_t ccr;
     uint64_t stable_at; /* after ADON */
     bool busy, sampled;
-    unsigned at; /* of the group */
+    unsigned at; /* index in the group */
     uint64_t hold_at, end_at;
     uint16_t value;
     bool late;
@@ -123,7 +123,7 @@ static uint16_t converted(void) {
 
 static void adc_happens(void) {
     if (!adc.sampled) {
-        adc.value = converted(); /* held from now on */
+        adc.value = converted(); /* sampled now */
         adc.sampled = true;
         return;
     }
@@ -271,7 +271,7 @@ static struct {
 
 void dma_request_adc(void) {
     if ((dma.cr & EN) == 0 || FIELD(dma.cr, 25, 3) != 0) {
-        return; /* not taken: the next value overruns */
+        return; /* the value was not read: the next one overruns it */
     }
     volatile uint16_t *memory = (volatile uint16_t *)memory_at(dma.m0ar);
     if (dma.par != AT_ADC1 + DR || memory == NULL || FIELD(dma.cr, 6, 2) != 0 ||

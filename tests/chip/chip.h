@@ -18,7 +18,7 @@
 
 typedef enum chip_cause {
     CHIP_BY_POWER, /* power-on: volatile memories are lost */
-    CHIP_BY_DIP,   /* below the brown-out level, not below power-down */
+    CHIP_BY_DIP,   /* the supply dipped below the brown-out level, not below power-down */
     CHIP_BY_PIN,
     CHIP_BY_WATCHDOG,
     CHIP_BY_SOFTWARE /* the core's own SYSRESETREQ */
@@ -34,13 +34,13 @@ typedef enum chip_end {
 typedef enum chip_counter {
     CHIP_COUNTS,
     CHIP_NO_COUNTER,   /* DWT_CTRL.NOCYCCNT */
-    CHIP_COUNTER_STILL /* as in emulators */
+    CHIP_COUNTER_STILL /* the counter does not count, as in emulators */
 } chip_counter;
 
 /* The world around the chip. A test may change all of it at any time; the crystal stops only by chip_crystal_stops(). */
 typedef struct chip_world {
     uint32_t crystal_Hz;
-    bool crystal;           /* answers */
+    bool crystal;           /* the crystal oscillates */
     uint64_t crystal_units; /* start-up time */
     bool pll;               /* locks */
     uint64_t watchdog_Hz;   /* LSI: 17 to 47 kHz */
@@ -110,7 +110,7 @@ uint32_t chip_tim2_count(void);
 uint64_t chip_tim1_tick_units(void);
 uint32_t chip_tim1_period_ticks(void);
 
-/* A busy bus: DMA takes the next value too late, so the ADC overruns. */
+/* The bus is busy: DMA takes the next value too late, so the ADC overruns. */
 void chip_adc_overruns(void);
 
 /* Serial line of USART6. A received byte comes at the end of its stop bit. Sent bytes are recorded with the time of their end. */
@@ -119,13 +119,13 @@ void chip_serial_comes(uint64_t when, uint8_t byte);
 void chip_serial_comes_as(uint64_t when, uint8_t byte, uint8_t flags);
 unsigned chip_serial_sent(void);
 uint8_t chip_serial_byte(unsigned at);
-uint64_t chip_serial_byte_units(void); /* at the rate that is set */
+uint64_t chip_serial_byte_units(void); /* at the present baud rate */
 
 /* Flash: 1 MB from 0x08000000, and the option bytes. */
 uint8_t chip_flash_byte(uint32_t address);
 void chip_flash_byte_is(uint32_t address, uint8_t byte);
 unsigned chip_flash_erases(unsigned sector);
-void chip_protect_sector(unsigned sector); /* by its option byte */
+void chip_protect_sector(unsigned sector); /* by the sector's option byte */
 unsigned chip_option_writes(void);
 bool chip_options_are_locked(void);
 uint32_t chip_option_bytes(void); /* bits of FLASH_OPTCR, as loaded at power-on */

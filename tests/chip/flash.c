@@ -37,7 +37,7 @@ static struct {
     uint64_t busy_until;
     bool looked; /* BSY was read as 0 since the previous operation */
     flash_work does;
-    uint32_t at, value; /* of the current operation */
+    uint32_t at, value; /* address and value of the current operation */
     struct {
         bool used;
         uint32_t address;

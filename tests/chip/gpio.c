@@ -115,7 +115,7 @@ bool pin_input(unsigned port, unsigned pin) {
     return level == CHIP_OPEN ? (drawn() & 1U) != 0 : level == CHIP_HIGH;
 }
 
-/* Tells the other parts that an input pin of theirs has changed. */
+/* Informs the other parts that an input pin of theirs has changed. */
 static void tell(unsigned port, unsigned pin) {
     const uint8_t *channel = function_row(port, pin, TIM2_IN);
     if (channel != NULL) {

@@ -68,8 +68,8 @@ uint32_t apb2_Hz(void);
 bool part_is_clocked(const part *which);
 bool pll_is_on(void);
 bool lsi_is_on(void);
-void lsi_forced(void);             /* by the watchdog */
-uint64_t units_of(uint32_t hertz); /* a period */
+void lsi_forced(void);             /* called by the watchdog */
+uint64_t units_of(uint32_t hertz); /* units of time in a period */
 /* Called by rcc.c before and after a change of clocks. */
 void timers_hold_counts(void);
 void timers_go_on(void);

@@ -8,7 +8,7 @@ enum { KR = 0x00, PR = 0x04, RLR = 0x08, SR = 0x0C };
 #define RVU BIT(1)
 
 static struct {
-    uint32_t pr, rlr;           /* as written */
+    uint32_t pr, rlr;           /* registers as written */
     uint32_t pr_used, rlr_used; /* after the update */
     uint64_t pr_at, rlr_at;
     uint64_t bites_at;

@@ -9,7 +9,7 @@
 /* Sets up clocks, variables, console, time base and the rig's hardware. *how: result of hal_clock_start(), if it was reached. */
 chip_end chip_start(hal_start *how);
 
-/* Memory that survives a reset holds earlier data (boards/cortexm/kept.c), or no data. */
+/* Sets whether memory that survives a reset has earlier data (boards/cortexm/kept.c). */
 void chip_memory_keeps(bool anything);
 
 /* A suite's seed, not 0: the given one, or WHIRL_SEED. */
@@ -20,7 +20,7 @@ typedef struct chip_wiring {
     uint32_t crystal_Hz;
     char slot_port[2];
     uint8_t slot_pin[2];
-    uint8_t cell_input, supply_input; /* of ADC1 */
+    uint8_t cell_input, supply_input; /* channels of ADC1 */
 } chip_wiring;
 const chip_wiring *chip_wires(void);
 void chip_slot_is(unsigned sensor, chip_level level);
@@ -28,13 +28,13 @@ void chip_slot_is_at(uint64_t when, unsigned sensor, chip_level level);
 
 /* A chip on its board, wired as in docs/boards.md: resistors, closed stop chain, quiet sensors; no power yet. */
 void chip_wired(uint64_t seed);
-extern double (*chip_cell_V)(double s); /* at the load cell's pin, at a time */
+extern double (*chip_cell_V)(double s); /* voltage at the load cell's pin as a function of time */
 extern double chip_supply_V;            /* the pin has a tenth of it */
 
 /* As above, with power on and the image started. The test fails if the start fails or violates a rule. */
 void chip_on(uint64_t seed);
 
-/* Only its clocks; the same chip after a power-off. */
+/* Starts only the chip's clocks; the same chip after a power-off. */
 void chip_clocks_on(uint64_t seed);
 void chip_clocks_again(void);
 

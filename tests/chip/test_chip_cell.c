@@ -100,14 +100,15 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* The amplitude is right to 0.05 %, the stamps to 1.5 us. Frequencies are the rig's, and higher ones at which a plain mean
- * would be 1 % too low. */
+/* Sines of the rig's frequencies, and of higher ones at which a plain mean would be 1 % too low. The amplitude is right
+ * to 0.05 %, the time stamps to 1.5 us. */
 TEST(chip_cell, sines) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
         turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
                                : 25.0 + (double)(scattered() % 1000U) / 66.0;
-        swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0; /* with the offset at least 0.2 V */
+        /* together with the offset at least 0.2 V */
+        swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0;
         phase = (double)(scattered() % 6283U) / 1000.0;
         offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
         collect(220);
@@ -177,7 +178,7 @@ TEST(chip_cell, ends) {
         const unsigned row = i % (sizeof rows / sizeof *rows);
         const double part = i < 4 ? 0.0 : i < 8 ? 1.0 : (double)(scattered() % 10001U) / 10000.0;
         level_V = rows[row].least_V + part * (rows[row].most_V - rows[row].least_V);
-        chip_pass_us(10000); /* samples from before, and those with both */
+        chip_pass_us(10000); /* waits for samples from before, and for those with both voltages */
         run_take();
         collect(5);
         for (unsigned at = 0; at < got_count; at++) {
@@ -277,8 +278,8 @@ TEST(chip_cell, core_that_stood) {
     }
 }
 
-/* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no sample follows, right or wrong. The
- * controller sees a silent cell. A reset restores the samples. */
+/* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no further sample comes, and the
+ * controller detects a silent cell. A reset restores the samples. */
 TEST(chip_cell, overrun) {
     begin(110);
     chip_cell_V = ramp;
@@ -299,7 +300,7 @@ TEST(chip_cell, overrun) {
     collect(5);
 }
 
-/* On the chip's internal oscillator too, a pair is converted before the next request, and the force is right. */
+/* Also on the chip's internal oscillator a pair is converted before the next request, and the force is right. */
 TEST(chip_cell, fallback) {
     hal_start how = HAL_START_NO_TIMER;
     chip_wired(111);

@@ -95,7 +95,7 @@ static void wait_for(uint32_t offset, uint32_t bit) {
     while ((reg_load(RCC_AT(offset)) & bit) == 0) {
     }
 }
-static bool bypassed; /* its oscillator's amplifier */
+static bool bypassed; /* the amplifier of the oscillator is bypassed */
 static void loader(void) {
     reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | (bypassed ? 0x40000U : 0U));
     reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | 0x10000U);
@@ -164,7 +164,7 @@ TEST(chip_clock, waits) {
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
                              "it waits for what is past");
     TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
-    TEST_ASSERT_EQUAL(0, hal_clock_late_ticks()); /* since the last call */
+    TEST_ASSERT_EQUAL(0, hal_clock_late_ticks()); /* no late wait since the last call */
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
 

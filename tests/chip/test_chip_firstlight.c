@@ -1,5 +1,6 @@
-/* test_chip_firstlight.c: the image boards/programs/firstlight.c on the chip model. Its record matches the drawn world: clock,
- * cycles, cell, supply, stop and slots. Enter repeats it. Neither enable nor PWM is ever high. */
+/* test_chip_firstlight.c: the image boards/programs/firstlight.c on the chip model. The record agrees with the random
+ * state of the modelled board: clock, cycles, cell, supply, stop and slots. After the Enter key the image prints the
+ * record again. Neither enable nor PWM is ever high. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -40,7 +40,8 @@ static void set_to(float V) {
 #define PERIOD_UNITS (CHIP_UNITS_PER_S / 20000U)
 #define TICKS 8400U
 
-/* Number of ticks in one period with the pin high. No interrupts, because they would take time between two reads. */
+/* Number of ticks in one period during which the pin is high. Interrupts are off, because they would take time between
+ * two reads. */
 static unsigned high_ticks(void) {
     unsigned high = 0;
     const uint32_t before = reg_hold();
@@ -131,7 +132,7 @@ TEST(chip_motor, what_is_out_of_range) {
     chip_pass_us(10000);
     for (unsigned i = 0; i < 2U * sizeof rows / sizeof *rows; i++) {
         if (i == sizeof rows / sizeof *rows) {
-            set_to(5.0F); /* and from a voltage */
+            set_to(5.0F); /* and from another voltage */
         }
         set_to(rows[i % (sizeof rows / sizeof *rows)].volts);
         TEST_ASSERT_EQUAL(rows[i % (sizeof rows / sizeof *rows)].high, high_ticks());
@@ -158,7 +159,7 @@ TEST(chip_motor, off_at_once) {
         set_to((float)(scattered() % 13U));
         if (i % 4 == 3) {
             draw_way();
-            run(off); /* it is off already */
+            run(off); /* the motor is already off */
         }
         chip_pass(scattered() % (3U * PERIOD_UNITS));
         draw_way();
@@ -257,7 +258,8 @@ TEST(chip_motor, ordered_while_pressed) {
     TEST_ASSERT_EQUAL(TICKS, high_ticks());
 }
 
-/* While the motor is off, it is switched off again each step. If stop was pressed since the last time, a start has no effect. */
+/* While the motor is off, the program switches it off again in each step. If stop was pressed since the last of these
+ * calls, a start has no effect. */
 TEST(chip_motor, pressed_before_a_start) {
     scattered_state = chip_seed(14);
     chip_on(14);
@@ -350,8 +352,8 @@ TEST(chip_motor, no_supply) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* A debugger halts the core at any instant: the motor is off, at once if a halt disables the outputs, otherwise by the
- * watchdog's reset. Settings that a debugger left before the start change nothing. */
+/* A debugger halts the core at any instant: the motor goes off, either at once because the halt disables the outputs,
+ * or by the watchdog's reset. Settings that a debugger left before the start change nothing. */
 static void freeze_watchdog(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 static void watch(void) { hal_watchdog_start(20000); }
 TEST(chip_motor, debugger) {
@@ -381,7 +383,7 @@ TEST(chip_motor, debugger) {
     }
 }
 
-/* After a reset at any instant both pins float, and the resistors hold them low. */
+/* After a reset at any instant both pins float, and their resistors pull them low. */
 TEST(chip_motor, reset_at_any_instant) {
     scattered_state = chip_seed(10);
     for (unsigned i = 0; i < 12; i++) {

@@ -51,8 +51,7 @@ TEST(chip_reset, words_are_cut) {
 
 #define LEVEL(options) ((options) >> 2 & 3U) /* BOR_LEV: 0 is level 3, 3 is off (3.9.10) */
 
-/* From any level, the brown-out level becomes 3. It is written once, and other option bytes do not change (that would be a
- * violation). */
+/* The brown-out level becomes 3, whatever it was. It is written once, and the other option bytes do not change. */
 TEST(chip_reset, brown_out) {
     chip_wired(3);
     chip_reset(CHIP_BY_POWER);

@@ -39,7 +39,7 @@ static void run(void (*what)(void)) {
                              "longer than a call may take");
 }
 
-/* Both slots are compared with the test's own copy through erases and writes of any length. No other memory changes. */
+/* After erases and writes of any length, both slots equal a copy in the test. No other memory changes. */
 TEST(chip_settings, slots) {
     static uint8_t mine[2][HAL_SETTINGS_BYTES];
     scattered_state = chip_seed(1);

@@ -181,7 +181,8 @@ TEST(chip_slots, high_at_the_start) {
     TEST_ASSERT_TRUE(at_start <= 2U);
 }
 
-/* If pulses are not read, the oldest are kept, at least 8, and the others are counted as overruns. Later pulses arrive. */
+/* If pulses are not read, at least 8 are stored, the oldest ones, and the others are counted as overruns. Later pulses
+ * are stored again. */
 TEST(chip_slots, full) {
     scattered_state = chip_seed(14);
     for (unsigned round = 0; round < 10; round++) {
@@ -211,7 +212,8 @@ TEST(chip_slots, full) {
     }
 }
 
-/* While the core stands, one pulse per sensor arrives. Their times are captured, and they come in order. */
+/* While the core is halted, one pulse of each sensor comes. Both times are captured, and the pulses are delivered in
+ * order. */
 TEST(chip_slots, core_that_stood) {
     begin(19);
     for (unsigned i = 0; i < 100; i++) {
@@ -237,7 +239,7 @@ TEST(chip_slots, core_that_stood) {
     TEST_ASSERT_EQUAL(0, overruns);
 }
 
-/* A pulse comes before the last one was read: one is lost and reported, the other is whole. */
+/* A second pulse comes before the first was read: one is lost and counted, the other is complete. */
 TEST(chip_slots, overrun) {
     begin(20);
     for (unsigned i = 0; i < 40; i++) {

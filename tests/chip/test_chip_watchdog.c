@@ -40,7 +40,7 @@ static void bites_by(uint64_t ticks) {
 
 static uint32_t drawn_timeout(void) {
     static const uint32_t decades[8] = {8000, 20000, 8000,   20000,
-                                        8000, 20000, 200000, 2000000}; /* from 2 ms */
+                                        8000, 20000, 200000, 2000000}; /* timeouts from 2 ms on */
     const uint32_t most = decades[scattered() % 8U];
     return most / 4U + (uint32_t)(scattered() % most);
 }

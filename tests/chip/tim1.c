@@ -25,9 +25,9 @@ enum {
 #define CC1P BIT(1)
 #define CC1NE BIT(2)
 #define CC1NP BIT(3)
-#define POLARITIES 0x2AAAU /* of CCER: CCxP, CCxNP */
+#define POLARITIES 0x2AAAU /* the bits CCxP and CCxNP of CCER */
 #define OIS1N BIT(9)
-#define IDLE_STATES 0x7F00U /* of CR2 */
+#define IDLE_STATES 0x7F00U /* bits of CR2 */
 #define OSSI BIT(10)
 #define OSSR BIT(11)
 #define BKE BIT(12)
@@ -40,7 +40,7 @@ bool break_pin_is_high(void);
 
 static struct {
     uint32_t r[20];
-    uint32_t psc, arr, ccr1; /* in use: after the preload */
+    uint32_t psc, arr, ccr1; /* values in use, after the preload */
     uint32_t count;
     uint64_t base; /* time of that value */
     bool locked_once, failed;
@@ -130,7 +130,7 @@ static bool reference(void) {
     }
 }
 
-/* Outputs by table 94. Dead time must be 0, because a single output needs none. */
+/* The outputs by table 94. The dead time must be 0, because a single output needs none. */
 chip_level tim1_ch1n(void) {
     const uint32_t ccer = *reg(CCER);
     const uint32_t bdtr = *reg(BDTR);

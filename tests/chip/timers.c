@@ -24,7 +24,7 @@ enum {
 #define URS BIT(2)
 #define UIF BIT(0)
 #define FLAGS 0x1E5FU
-#define TIM3_TRGO 8U /* of ADC's EXTSEL (table 69) */
+#define TIM3_TRGO 8U /* EXTSEL of the ADC (table 69) */
 
 typedef struct timer {
     uint32_t r[21];
@@ -32,8 +32,8 @@ typedef struct timer {
     uint64_t count, base;
     uint64_t most; /* the largest count */
     unsigned interrupt;
-    unsigned debug_bit; /* of DBGMCU_APB1_FZ */
-    unsigned trigger;   /* of the ADC's, by its update */
+    unsigned debug_bit; /* bit of DBGMCU_APB1_FZ */
+    unsigned trigger;   /* the ADC's trigger at this timer's update */
     struct {
         bool level, filtered;
         uint64_t accepted_at; /* when the filter passes the new level */
@@ -133,7 +133,7 @@ void tim2_input(unsigned channel, bool high) {
     }
     t->input[i].level = high;
     if (high == t->input[i].filtered) {
-        t->input[i].accepted_at = CHIP_NEVER; /* it went back in time */
+        t->input[i].accepted_at = CHIP_NEVER; /* the time went back */
         return;
     }
     unsigned samples = 0;

@@ -17,7 +17,7 @@ enum { SR = 0x00, DR = 0x04, BRR = 0x08, CR1 = 0x0C, CR2 = 0x10, CR3 = 0x14, GTP
 static struct {
     uint64_t when;
     uint8_t byte;
-    uint8_t flags; /* in SR: a byte that was never sent */
+    uint8_t flags; /* flags of SR; of a byte that was never sent */
 } coming[COMING];
 static unsigned coming_from, coming_to;
 static uint8_t sent[SENT];
@@ -83,7 +83,7 @@ static void usart_happens(void) {
             if ((u.sr & RXNE) != 0) {
                 u.sr |= ORE; /* DR keeps the previous byte; this one is lost */
             } else {
-                u.received = byte; /* also an invalid one (30.3.3) */
+                u.received = byte; /* also an invalid byte (30.3.3) */
                 u.sr |= RXNE | flags;
             }
         }

@@ -106,7 +106,7 @@ TEST(fixed, small_operations) {
 }
 
 static void check_reciprocal(uint32_t d) {
-    /* x d near 2^61, by less than 2^61/2^27.3 */
+    /* the error of x d, which is nearly 2^61; it must be below 2^61/2^27.3 */
     const int64_t off =
         (int64_t)((uint64_t)(uint32_t)wh_fixed_reciprocal(d) * d) - ((int64_t)1 << 61);
     TEST_ASSERT_TRUE_MESSAGE(off < INT64_C(14000000000) && off > -INT64_C(14000000000),

@@ -1,5 +1,5 @@
-/* Arduino.h: enough of the framework to run the documents' sketches on this machine. It defines Arduino's macros too: the
- * core's headers must compile among them. */
+/* Arduino.h: enough of the framework to run the documents' sketches on this machine. It also defines Arduino's macros,
+ * with which the core's headers must compile. */
 #ifndef TESTS_EMBED_ARDUINO_H
 #define TESTS_EMBED_ARDUINO_H
 

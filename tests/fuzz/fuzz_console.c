@@ -1,8 +1,8 @@
 /* fuzz_console.c: broken bytes at the rig's console do only what a line allows. Answers are whole lines, settings stay in
  * range, telemetry stays in its buffer, and the motor's command stays between zero and the supply.
  *
- * The input is a sequence of control steps. The first byte of a step gives the number of bytes that arrive (low five bits),
- * whether a pulse and a sample are seen, and whether the host reads. The bytes follow. */
+ * The input is a sequence of control steps. The first byte of a step gives the number of bytes that arrive (low five
+ * bits), whether a pulse and a sample come, and whether the host reads. The bytes follow. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -41,7 +41,7 @@ enum {
 };
 /* clang-format on */
 
-typedef struct { /* so long after the first orders of a state, or one of the three above */
+typedef struct { /* the time after the first orders of a state, or one of the three above */
     int state;
     double delay, at;
 } event;

@@ -12,7 +12,7 @@ enum { HEADER = 8 }; /* bytes: version, kind, sequence, ticks */
 
 typedef struct {
     uint8_t byte[2048];
-    size_t n, at; /* at: the reader's place */
+    size_t n, at; /* at: position of the reader */
 } message;
 
 typedef struct {

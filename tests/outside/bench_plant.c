@@ -65,8 +65,8 @@ static void queue_pulse(plant *p, double seconds, uint32_t channel) {
     p->queue[at] = (pulse){seconds, channel};
 }
 
-/* Queue the pulses of the last step, from angle a, by speeds va to vb: on the cubic through both
- * ends. Far from a sensor its jitter becomes an angle, which stays while the slot is near. */
+/* Queues the pulses of the last step, which goes from angle a with speed va to speed vb, on the cubic through both
+ * ends. Far from a sensor, its jitter is converted to an angle, which is used while the slot is near the sensor. */
 static void find_pulses(plant *p, double a, double va, double vb, double h) {
     const double b = p->y[ANGLE], way = b > a ? 1 : -1;
     const double place[2] = {p->b->place_1 * DEG, PI / 2 + p->b->place_2 * DEG};
@@ -124,7 +124,7 @@ static void follow_turn(plant *p, double a, const double *f, const double *g, do
 
 void plant_start(plant *p, const bench *b) {
     *p = (plant){.b = b, .d = b->seed, .inertia = b->inertia * ROTOR_KGM2};
-    for (int i = 0; i < 500; i++) { /* to where the rotor rests */
+    for (int i = 0; i < 500; i++) { /* to the angle at which the rotor rests */
         p->y[ANGLE] += driven(p, p->y) - weighed(p->y);
     }
     p->energy_0 = energy(p);

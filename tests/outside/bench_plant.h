@@ -20,11 +20,12 @@ typedef struct {
     const bench *b;
     dice d;
     double t, y[STATES], inertia, duty, enable, turn_began;
-    bool stuck, cut, pressed, stopped, stop_told, held, whole; /* held: by dry friction */
+    /* held: the rotor is at rest by dry friction */
+    bool stuck, cut, pressed, stopped, stop_told, held, whole;
     uint32_t watchdog_us;
     uint64_t now_us, kicked_us;
     int queued;
-    double play_at, jitter[2], lead[2]; /* this pass's jitter, in seconds and as an angle */
+    double play_at, jitter[2], lead[2]; /* jitter of this passage, in seconds and as an angle */
     double force[2], energy_0, energy_off, peak_high, peak_low;
     long turns;
     turn now, past[KEPT];
@@ -33,6 +34,6 @@ typedef struct {
 
 void plant_start(plant *p, const bench *b);
 void plant_step(plant *p, double h);
-double plant_sample(plant *p, int channel, bool recording); /* of the rig's hello */
+double plant_sample(plant *p, int channel, bool recording); /* channel of the rig's hello */
 
 #endif

@@ -1,4 +1,4 @@
-/* A run of the firmware against a plant: hello, turns, and the judge. */
+/* A run of the firmware against a plant: hello, exchanges, and the verdict. */
 #include "tests/outside/bench_run.h"
 #include "tests/outside/bench_line.h"
 #include <math.h>
@@ -79,10 +79,9 @@ static void blame(outcome *o, bool *rule, const char *format, ...) {
     va_end(values);
 }
 
-/* Compare a good result with the force's Fourier coefficient over as many turns, the last ones or
- * up to two earlier. A result is right, too, if its only errors are those that no run can show
- * (docs/rig.md). These are a gain error below 5 %, a sensor 1 less than 5 degrees from its place,
- * a load train, and a pick-up once a turn. */
+/* Compare a good result with the force's Fourier coefficient over as many turns, the last ones or up to two earlier. A
+ * result also counts as right if its only errors are those that no run can show (docs/rig.md). These are a gain error
+ * below 5 %, a sensor 1 less than 5 degrees from its place, a load train, and a pick-up once a turn. */
 static void judge_result(const plant *p, outcome *o) {
     double least = NEVER;
     for (int known = 0; known < 2; known++) {
@@ -120,9 +119,9 @@ static void judge_result(const plant *p, outcome *o) {
     }
 }
 
-/* After stop, a trip or the run's end no voltage may be asked for. A stage that drives all the same
- * must lose its enable within 1 s of the first turn that shows it. Such a turn does not slow the
- * rotor down, or brings it above 408 rpm in a run. */
+/* After stop, a trip or the run's end no voltage may be asked for. If a stuck stage drives the rotor, the enable must
+ * go off within 1 s of the first turn that shows this. In such a turn the rotor does not slow down or, in a run,
+ * exceeds 408 rpm. */
 typedef struct {
     double off_since, drives_since, shown, angle_0, last_at, last_took;
     long turns;

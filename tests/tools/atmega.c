@@ -154,8 +154,8 @@ static void call_with(const char *name, const void *argument, size_t bytes) {
     mega_call(mega_symbol(name), arguments);
 }
 
-/* Off and on again at any instant of the PWM's period, from any voltage, either way. The timer has the ordered duty, and
- * mega_parts.c checks that the pin is never high after a start. */
+/* The motor goes off and on again at any instant of the PWM's period, from any voltage, in both ways. The timer then
+ * has the ordered duty, and mega_parts.c checks that the pin is never high after a start. */
 static bool starts_low(unsigned times) {
     const uint32_t wait = mega_symbol("hal_clock_wait_until");
     for (unsigned i = 0; i < times; i++) {

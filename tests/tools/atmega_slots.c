@@ -17,7 +17,7 @@ static void watch_take(void) {
     watch.take = mega_symbol("hal_slots_take");
 }
 
-/* One step; true if it took an edge. */
+/* Makes one step. Returns true if the step took an edge. */
 static bool taken(hal_slot_edge *edge) {
     mega_step();
     const uint8_t *data = mega_data();
@@ -60,7 +60,7 @@ static bool sees_edge(unsigned i, unsigned sensor, hal_slot_end end, int64_t *di
     return off - (uint32_t)*differ + 1U <= 2U || no("edge %u is %d us off", i, (int)off);
 }
 
-/* True if no edge is taken for this many steps. */
+/* Returns true if no edge comes for this many steps. */
 static bool sees_none(unsigned i, unsigned steps) {
     hal_slot_edge seen;
     for (; steps > 0; steps--) {
@@ -71,7 +71,7 @@ static bool sees_none(unsigned i, unsigned steps) {
     return true;
 }
 
-/* Runs this many cycles; true if an edge was taken. */
+/* Runs this many cycles. Returns true if an edge came. */
 static bool waits(unsigned cycles, hal_slot_edge *seen) {
     const uint64_t end = mega_cycle() + cycles;
     bool any = false;
@@ -81,8 +81,8 @@ static bool waits(unsigned cycles, hal_slot_edge *seen) {
     return any;
 }
 
-/* A burst of up to four pulses, most of them over before an interrupt can look. A beginning is reported, none twice, and the
- * edges that follow (sees_edges()) are still seen. */
+/* A burst of up to four pulses, most of which are over before an interrupt can read the pin. One begin is reported,
+ * none twice, and later edges (sees_edges()) are still reported. */
 static bool sees_burst(unsigned i, unsigned sensor) {
     hal_slot_edge before = {0};
     hal_slot_edge seen = {0};

@@ -6,7 +6,7 @@
 #include "tests/tools/atmega.h"
 
 enum { POWER_ON = 1, EXTERNAL = 2, BROWN_OUT = 4 }; /* flags of MCUSR */
-#define HANG 0xCFFFU                                /* rjmp to itself */
+#define HANG 0xCFFFU                                /* a jump to itself */
 
 /* A random state: idle, armed, at some time of a run, or tripped. True: a trip is latched. */
 static bool draw_state(bool *tripped) {
@@ -34,7 +34,8 @@ static bool draw_state(bool *tripped) {
     return mega_run(100) && asks("fault", "OK trip=11");
 }
 
-/* Over-voltage up to 60 V is seen even if a setting allows it: `arm` is refused, and a run trips within two samples. */
+/* Over-voltage up to 60 V is detected even if a setting allows it: `arm` is refused, and a run trips within two
+ * samples. */
 bool sees_supply(unsigned times) {
     for (unsigned i = 0; i < times; i++) {
         const bool set = below(2) == 1U;
@@ -75,7 +76,8 @@ static bool is_off_within(uint64_t cycles) {
     return true;
 }
 
-/* Restarts and reports its reason (`says`; NULL: no report), never drives by itself, and has its state back. */
+/* Checks that the firmware restarts and reports the reason (`says`; NULL: no report), does not drive by itself, and has
+ * its state back. */
 static bool begins_anew(const char *cause, bool tripped) {
     const uint64_t end = mega_cycle() + MEGA_HZ / 5U;
     char line[300] = "";

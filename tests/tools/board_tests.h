@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-extern const char *image; /* its file */
+extern const char *image; /* file of the image */
 
 /* Sets the reason; returns false. */
 __attribute__((format(printf, 1, 2))) bool no(const char *form, ...);

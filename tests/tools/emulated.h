@@ -23,14 +23,14 @@ typedef struct emulated {
     int console;
     int test;
     int log;
-    char heard[262144]; /* from the console, not yet taken */
+    char heard[262144]; /* bytes from the console that were not read yet */
     unsigned heard_bytes;
-    char said[256]; /* qtest's answer */
+    char said[256]; /* the answer of qtest */
     unsigned said_bytes;
     char logged[512]; /* an unfinished line */
     unsigned logged_bytes;
     emulated_store_seen store[EMULATED_STORES];
-    uint64_t stores; /* seen since the start */
+    uint64_t stores; /* number of stores since the start */
 } emulated;
 
 /* `serial`: the number of interfaces before the console. Each instruction takes 2^shift ns of the board's time. */

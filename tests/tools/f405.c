@@ -50,7 +50,8 @@ static bool converses(unsigned times) {
             return false;
         }
     }
-    memset(many, 'x', 400); /* all at once, faster than any cable: more than the ring holds */
+    /* in one write, faster than any cable, and more than the ring can store */
+    memset(many, 'x', 400);
     many[400] = '\0';
     emulated_say(&board, many);
     emulated_wait(&board, 300);
@@ -58,8 +59,8 @@ static bool converses(unsigned times) {
         return false;
     }
     many[0] = '\0';
-    for (unsigned i = 0; i < 10;
-         i++) { /* in one write: the interrupt takes them, and each control step answers one line */
+    for (unsigned i = 0; i < 10; i++) {
+        /* in one write: the interrupt stores them, and each control step answers one line */
         strcat(many, i % 2 == 0 ? "id\r" : "fault\r");
     }
     emulated_say(&board, many);

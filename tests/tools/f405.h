@@ -13,13 +13,13 @@ extern emulated board;
 /* The symbol's address in the image; 0: none. */
 uint32_t symbol(const char *name);
 
-/* The decimal numbers in a line, `most` at most; returns their number. */
+/* Finds the decimal numbers in a line, at most `most`. Returns how many there are. */
 unsigned numbers_of(const char *line, unsigned *numbers, unsigned most);
 
 /* The console's next line that begins with this. */
 bool hear(const char *begin, char *line, unsigned room, unsigned ms);
 
-/* Sends a line; the answer goes to line[room] and begins with this. */
+/* Sends a line. The answer goes to line[room] and must begin with `begin`. */
 bool answers(const char *order, const char *begin, char *line, unsigned room);
 
 /* The same for a line that may be lost because the console does not listen yet: repeats it every few seconds. */

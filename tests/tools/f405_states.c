@@ -45,7 +45,7 @@ static bool bring_somewhere(char *state, unsigned room, unsigned *trip) {
     }
     if (where > 0 && *trip == 0) {
         emulated_store(&board, symbol("bench_rest"), 1);
-        for (unsigned i = 0; i < 100; i++) { /* until the rig knows that it rests */
+        for (unsigned i = 0; i < 100; i++) { /* until the rig has detected that the rotor rests */
             if (!answers("arm", "", line, sizeof line)) {
                 return false;
             }
@@ -66,7 +66,8 @@ static bool bring_somewhere(char *state, unsigned room, unsigned *trip) {
     return says_state(state, room, trip);
 }
 
-/* After the mark nothing drives except before `reset`, the boot's first store; from there the motor's off comes first. */
+/* After the mark nothing drives, except before `reset`, which is the first store of the boot. From there on, the first
+ * motor store switches off. */
 static bool is_off_after(uint64_t mark, bool faulted) {
     uint64_t boot = 0;
     for (unsigned ms = 0; boot == 0; ms++) { /* the log lags on a busy machine */
@@ -206,7 +207,8 @@ static bool resets_once(unsigned number) {
         return no("in %s: the cause is not told", state);
     }
     emulated_wait(&board, 20);
-    if (!says_state(after, sizeof after, &trip_after)) { /* also the answer to a half-typed line */
+    if (!says_state(after, sizeof after, &trip_after)) {
+        /* this is also the answer to a line typed in part */
         return false;
     }
     if (strcmp(after, trip != 0 ? "tripped" : "idle") != 0 || trip_after != trip) {

@@ -21,7 +21,7 @@
 #define UNTIL_S 60.0
 #define PATIENCE_S 600.0
 #define JITTER_S 60e-6
-#define INSTRUCTION_S (1.5 / 16e6) /* as in whirl pil */
+#define INSTRUCTION_S (1.5 / 16e6) /* s per instruction, as in `whirl pil` */
 enum { PLANTS_MAX = 16, JOBS_MAX = 64 };
 
 static void on_interrupt(int signal_number) {
@@ -37,7 +37,7 @@ typedef struct plants {
     const scene *in;
     const char *step;
     unsigned count;
-    char *parameter[PLANTS_MAX]; /* "" for none */
+    char *parameter[PLANTS_MAX]; /* "" for no parameter */
     loaded made[PLANTS_MAX];
 } plants;
 

@@ -200,7 +200,7 @@ static void merge(tally *into, const tally *from) {
     into->wrong += from->wrong;
 }
 
-/* One process per core. False if one failed. */
+/* Measures with one process per core. Returns false if one failed. */
 static int measure_on_all_cores(const subject *s, uint64_t stride, tally *all) {
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
     const uint64_t cores = online < 1 ? 1U : (online > CORES_MAX ? CORES_MAX : (uint64_t)online);

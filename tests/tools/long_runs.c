@@ -22,7 +22,7 @@ typedef struct subject {
     const char *what;
     double (*energy_J)(const motion *m);
     const char *text;
-    bool rates;    /* its accelerations use rates; its centre of mass is fixed */
+    bool rates;    /* the accelerations depend on rates; or the centre of mass is fixed */
     bool no_books; /* a coordinate is integrated from its momentum */
 } subject;
 
@@ -61,8 +61,8 @@ static const subject subjects[] = {
     {"gear, X conserved", gear_J,
      GEAR "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true,
      false},
-    /* A force of zero strength that names X. Otherwise X would follow from the angle and the time; with it, X is integrated
-     * from the rate that its momentum gives. */
+    /* A force of size zero that depends on X. Otherwise X would follow from the angle and the time; with it, X is
+     * integrated from the rate that its momentum gives. */
     {"gear, X' conserved", gear_J,
      GEAR
      "input pull = 0 [N]\nQ(theta) = pull*X\nscene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\n"
@@ -83,7 +83,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
     const double begin_m = of->rates ? centre_m(&m) : 0.0;
     uint64_t end = 1000;
     int at = 0;
-    const uint64_t go = 37; /* not a divisor of the period */
+    const uint64_t go = 37; /* no divisor of the period */
     for (uint64_t k = 0; k + go <= steps;) {
         if (motion_step(&m, go) != WH_OK) {
             printf("%-18s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);

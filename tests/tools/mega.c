@@ -28,7 +28,7 @@ enum {
 #define ENABLE 0x40U
 #define PWM 0x20U
 #define COM1A1 0x80U
-#define WDRF 8U /* of MCUSR */
+#define WDRF 8U /* bit of MCUSR */
 #define STOP_PIN 4U
 #define BYTE_CYCLES (MEGA_HZ / 11520U)
 #define MEMORY_BASE 0x800000U
@@ -43,7 +43,7 @@ static avr_t *avr;
 static elf_firmware_t firmware;
 static hal_virtual_rig plant;
 static uint64_t plant_cycle; /* time of the model's state */
-static float force_N[2];     /* at both ends of the last step */
+static float force_N[2];     /* force at both ends of the last step */
 static hal_slot_edge edges[HAL_VIRTUAL_PULSES];
 static unsigned edge_count;
 static uint64_t high_until[2]; /* end of a sensor's pulse; 0: low */
@@ -111,7 +111,7 @@ static float cell_N(void) {
     return output[0];
 }
 
-/* The chip sees the rig one model step late: the events in that step are known by then. */
+/* The chip gets the state of the rig one model step late: the events in that step are then known. */
 static void advance_plant(void) {
     const mega_motor motor = mega_motor_now();
     plant.supply_V = mega_supply_V;
@@ -328,7 +328,7 @@ void mega_start(const char *image) {
         eeprom_known = true;
     }
     avr_ioctl(avr, AVR_IOCTL_EEPROM_SET, &all);
-    avr->data[REG_MCUSR] = 1; /* the power came */
+    avr->data[REG_MCUSR] = 1; /* cause of the reset: power-on */
     if (!hal_virtual_rig_start(&plant, &rig_fixed)) {
         fail("the model does not start");
     }

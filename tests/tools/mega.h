@@ -21,8 +21,9 @@ typedef struct mega_times {
     uint64_t worst_step;
     uint64_t worst_loop;
     uint64_t sum_step;
-    uint64_t late;          /* waits that began late */
-    unsigned histogram[64]; /* of steps, 1000 cycles each; the last counts all above */
+    uint64_t late; /* waits that began late */
+    /* control steps by their cycles, 1000 per bin; the last bin has all longer ones */
+    unsigned histogram[64];
 } mega_times;
 
 typedef struct mega_motor {
@@ -77,7 +78,7 @@ void mega_reset(uint8_t flag);
 void mega_say(const char *line);
 bool mega_hear(char *line, unsigned room, unsigned ms);
 
-/* Sends a line; its answer begins with these words. Otherwise prints a message and returns false. */
+/* Sends a line; its answer must begin with these words. Otherwise prints a message and returns false. */
 bool mega_answers(const char *order, const char *begin, char *line, unsigned room);
 
 #endif

@@ -9,7 +9,7 @@
 #include "mega.h"
 
 enum { REG_DDRB = 0x24, REG_TIFR4 = 0x39, REG_EECR = 0x3F, REG_EEAR = 0x41, REG_WDTCSR = 0x60 };
-enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* from mega_timer_base on */
+enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* offsets from mega_timer_base */
 #define COMA1 0x80U
 #define FOCA 0x80U
 #define OC1A_PIN 0x20U
@@ -27,7 +27,7 @@ enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* from mega_timer_base on */
 static struct {
     uint64_t until; /* end of the EEPROM's write; 0: idle */
     uint64_t heard; /* the watchdog, */
-    uint64_t kept;  /* and simavr's own, from biting */
+    uint64_t kept;  /* and those of simavr, which must not bite */
     uint8_t settings;
     bool oc1a; /* the level of OC1A while it is disconnected */
     const char *wrong;
@@ -132,7 +132,7 @@ mega_next mega_parts_next(const avr_t *avr) {
     return next;
 }
 
-/* simavr writes a byte at once. The chip takes time and shows it in EEPE. */
+/* In simavr a byte is written at once. A chip takes some time, and EEPE is set meanwhile. */
 static void keep_eeprom_busy(avr_t *avr, bool writes) {
     if (writes) {
         const bool both = (avr->data[REG_EECR] & EEPM) == 0;

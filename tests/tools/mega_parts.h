@@ -14,7 +14,7 @@ extern const uint16_t mega_timer_base[MEGA_TIMERS]; /* the address of TCCRnA */
 
 typedef struct mega_next {
     uint16_t captured[MEGA_TIMERS]; /* ICRn, */
-    bool writable[MEGA_TIMERS];     /* and whether the CPU can write it */
+    bool writable[MEGA_TIMERS];     /* can the CPU write it? */
     bool timed;                     /* OC1A is connected to its pin, an output */
     bool hears;                     /* `wdr` */
     bool writes;                    /* begins to write or erase an EEPROM byte: */

@@ -16,7 +16,7 @@ extern const naive_mechanism naive;
 
 /* Sets state[] to rest at zero. */
 void naive_start(double state[]);
-/* One step of the classic Runge-Kutta method, h_s seconds long. */
+/* One step of h_s seconds by the classic Runge-Kutta method. */
 void naive_step(double state[], double h_s);
 
 #endif

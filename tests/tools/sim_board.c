@@ -37,20 +37,20 @@ const uint32_t board_ticks_per_s = 1000000U;
 static uint64_t now_us;
 static uint32_t last_ticks;
 static uint64_t until_us;
-static uint64_t credit; /* of the line, in millionths of a byte */
+static uint64_t credit; /* what the line may still send, in millionths of a byte */
 static uint64_t baud;
 static bool alone;
-static bool asked; /* for telemetry, by the reader */
+static bool asked; /* the reader has asked for telemetry */
 static int line = -1;
 static int other_end = -1;
 static const char *link_name;
 static uint64_t seed;    /* 0: no random events */
-static unsigned drawn;   /* lines so far */
+static unsigned drawn;   /* number of lines so far */
 static unsigned ordered; /* orders given in this minute */
 static uint64_t minute;
 
 static const struct {
-    double at_s; /* of each minute */
+    double at_s; /* time of each minute, s */
     const char *line;
 } orders[] = {
     {0.5, ""}, {3.0, "arm\n"}, {3.5, "start 330\n"}, {20.0, "set 250\n"}, {50.0, "stop\n"}};

@@ -43,7 +43,7 @@ static void take_samples(counts *c, const wire_frame *frame, bool csv, double sc
 
 static void take(counts *c, const wire_frame *frame, bool csv, double scale) {
     if (frame->channel >= CHANNELS) {
-        c->twice++; /* no such channel */
+        c->twice++; /* there is no such channel */
         return;
     }
     const uint16_t gap = (uint16_t)(frame->sequence - c->next[frame->channel]);

@@ -170,7 +170,7 @@ static void send(pool *p) {
     }
 }
 
-/* Put the whole answers in a worker's bytes into their slots. */
+/* Moves the complete answers among a worker's bytes to the slots of their points. */
 static void take_answers(pool *p, worker *w) {
     size_t at = 0;
     answer a;
