@@ -102,7 +102,7 @@ static bool is_one_of(const char *word, const char *a, const char *b, const char
     return strcmp(word, a) == 0 || strcmp(word, b) == 0 || (c != NULL && strcmp(word, c) == 0);
 }
 
-/* Runs the command that words[1] names. Its output may still be in a buffer. */
+/* Runs the command that words[1] names. After that, output may still be in a buffer. */
 static int answer(int count, char **words) {
     static char help_word[] = "--help";
     char *help[] = {help_word, NULL};

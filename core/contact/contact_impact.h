@@ -393,9 +393,9 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* Corrects holds that have just captured (bits) a little short of their condition's limit, because of the location's
- * error. Their expressions are moved to the same distance beyond the limit. signal[] must belong to the state; rates[]
- * are the signals before the capture. */
+/* Corrects holds (bits) that have captured slightly before their condition's limit, because of the error of location.
+ * Their expressions are moved to the same distance beyond the limit. signal[] must have been evaluated at the state;
+ * rates[] are the signals before the capture. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {

@@ -33,7 +33,8 @@ struct algebra {
     intern_table products;    /* memo_pair: poly, poly */
     intern_table derivatives; /* memo_pair: poly, atom */
     intern_table lets;        /* memo_pair: symbol, NULL */
-    size_t work;              /* terms handled and bytes allocated so far: bounds time and memory */
+    /* terms processed and bytes allocated so far: the limit bounds time and memory */
+    size_t work;
     bool overflow;
     const poly *zero;
     const poly *one;
@@ -89,7 +90,7 @@ const poly *sum_close(algebra *a, poly_sum *s);
 /* base^exponent. Whole powers of sums of positions are not expanded if the exponent is `kept` or more. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
-/* The memoized poly of the pair, or NULL; and memoize it. */
+/* memo_get(): the stored result for the pair, or NULL. memo_put(): stores it. */
 const poly *memo_get(intern_table *table, const void *left, const void *right);
 void memo_put(algebra *a, intern_table *table, const void *left, const void *right,
               const poly *result);

@@ -30,7 +30,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
     case FN_ABS: return poly_call(a, FN_SIGN, x, NULL);
     case FN_SINH: return poly_call(a, FN_COSH, x, NULL);
     case FN_COSH: return poly_call(a, FN_SINH, x, NULL);
-    case FN_TANH: /* cosh(x)^-2 keeps its digits when tanh(x) is near one */
+    case FN_TANH: /* cosh(x)^-2 is precise even if tanh(x) is near one */
         return poly_pow(a, poly_call(a, FN_COSH, x, NULL), -2.0);
     case FN_MIN:
     case FN_MAX: { /* 1 for the selected argument, 1/2 for each at equality */

@@ -44,7 +44,7 @@ struct atom {
     function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */
     const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
     uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
-    bool keeps_powers;       /* contains a power of a sum that could be multiplied out */
+    bool keeps_powers;       /* contains a power of a sum that was not multiplied out */
     double size;             /* number of leaves when written out */
 };
 
@@ -76,7 +76,7 @@ struct poly {
     int count;
     uint64_t symbols;
     bool keeps_powers;
-    double size;       /* number of leaves when written out: shared parts count at each use */
+    double size;       /* number of leaves when written out: a shared part counts at each use */
     poly_term terms[]; /* in mono_order(); zero has no terms */
 };
 

@@ -222,8 +222,8 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 #define WORK_MAX ((size_t)1 << 29)
 /* Work of handling a term, in bytes. */
 #define WORK_OF_TERM 2U
-/* Work of making objects, in bytes: their sizes on a 64-bit host. Fixed numbers, so that the limit does not depend on
- * the host. */
+/* The work of making an object, in bytes: its size on a 64-bit host. Fixed numbers, so that the limit does not depend
+ * on the host. */
 enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
 
 static uint64_t bits_of(double value) {
@@ -530,7 +530,7 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* === sums, products and powers ================================================================ */
 
-/* A product of sums with more terms than this stays a product. */
+/* A product of sums with more terms than this is not expanded. */
 #define PRODUCT_TERMS_MAX 400000
 /* Whole powers of a sum of positions from this one on stay powers: expanded, (x - b)^3 would lose its digits near x =
  * b. Squares are expanded, since some are equal only in expanded form. */

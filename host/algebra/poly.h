@@ -39,7 +39,7 @@ const poly *poly_of_term(algebra *a, double coefficient, const mono *m);
 bool poly_is_zero(const poly *p);
 /* True if p is a number, which goes to *value. */
 bool poly_is_number(const poly *p, double *value);
-/* False only if p certainly does not contain the symbol with so many primes. */
+/* False only if p certainly does not contain the symbol with `primes` primes. */
 bool poly_may_contain(const poly *p, const symbol *sym, int primes);
 /* Exact test: does p contain the symbol with so many primes (-1: any number of primes)? */
 bool poly_contains(const poly *p, const symbol *sym, int primes);
@@ -51,7 +51,7 @@ bool poly_contains(const poly *p, const symbol *sym, int primes);
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns);
 
-/* Partial derivative by the symbol with so many primes. */
+/* Partial derivative by the symbol with `primes` primes. */
 const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int primes);
 
 /* p with atoms replaced: `replace` returns the replacement of an atom, or NULL. */

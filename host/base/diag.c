@@ -20,7 +20,7 @@ void statement_text(place at, char *text, size_t size) {
         start--;
     }
     size_t end = start;
-    int open = 0; /* depth of its own braces */
+    int open = 0; /* depth of the statement's own braces */
     while (end < from->length && strchr("\n#", from->text[end]) == NULL &&
            (from->text[end] != '}' || open > 0)) {
         open += from->text[end] == '{' ? 1 : 0;

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#define DIAG_MAX 20 /* errors reported for one file; a last line says if there were more */
+#define DIAG_MAX 20 /* errors reported for one file; if there were more, a last line says so */
 
 /* A place in a source text. Line and column count from 1, the column in characters. `text` is the whole text, from
  * which the line is printed, or NULL. */

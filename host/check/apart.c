@@ -17,7 +17,7 @@ enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
 /* A held expression is meant to be zero if its error is below this share of its terms. Above APART_LEAST it is reported. */
 #define OFF_MOST 0.5
-/* "A moment later" is this share of a step later. */
+/* "A moment later" is this share of a step after the start. */
 #define SOON 1e-6
 
 typedef struct apart {
@@ -30,7 +30,7 @@ typedef struct apart {
     int holds;
     /* the expression changes its sign near the start, which that of a distance does not */
     bool vanishes[HOLDS];
-    bool closes; /* one expression is slightly off zero, within OFF_MOST */
+    bool closes; /* an expression is slightly away from zero, within OFF_MOST */
     double place[N];
     double rate[N];
 } apart;
@@ -223,7 +223,7 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
         const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
         const char *si = u->unit[primes].si;
         const bool has_unit = strcmp(si, "1") != 0;
-        /* The user pastes this in place of the scene's starts, so it includes the unchanged ones. */
+        /* the user replaces the scene's start by this text, so it includes unchanged values */
         if (value != was || (u->start_at[primes].source != NULL && !u->driven)) {
             fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
                     has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");
@@ -278,7 +278,7 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-/* The error or rate of a hold, as a part of its terms; 0: it fits the start. */
+/* The error or rate of a hold, as a part of its terms; 0: the start satisfies it. */
 static double part_of(const apart *a, int h) {
     const double off = fabs(off_zero(a, h));
     const double speed = fabs(moving(a, h));
@@ -304,7 +304,7 @@ double apart_say(FILE *out, const char *who, const image *im) {
         a.place[i] = image_start(im, i);
         a.rate[i] = image_start(im, a.n + i);
     }
-    double soon[N]; /* a condition at its limit is false if it is so a moment later */
+    double soon[N]; /* a condition at its limit counts as false if it is false a moment later */
     for (int i = 0; i < a.n; i++) {
         soon[i] = a.place[i] + SOON * im->step_s * a.rate[i];
     }

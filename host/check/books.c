@@ -76,7 +76,7 @@ double books_swing_J(const books *b) {
 
 /* --- round-off ---------------------------------------------------------------------------------*/
 
-/* The smallest normal float, and how often a step rounds each of its entries, at its stages and events. */
+/* The smallest normal float; and how often a step rounds each entry, at its stages and events. */
 #define FLOAT_LEAST 0x1p-126
 #define SUMS_OF_A_STEP 8.0
 
@@ -262,7 +262,7 @@ static void add_work(books *b, const double power_W[2]) {
 
 /* --- terms linear in the rates -------------------------------------------------------------------*/
 
-/* The kinetic energy at this place with every rate reversed. lean[] gets its momenta. */
+/* The kinetic energy at this state with every rate reversed. lean[] gets its momenta. */
 static double reversed_J(books *b, const double *angle_rad, const double *from) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -281,7 +281,8 @@ static void take_lean(books *b) {
     }
 }
 
-/* Tests generic places and rates near the start. A coordinate that is recovered from its momentum has no rate to reverse. */
+/* Tests random positions and rates near the start. A coordinate that is recovered from its momentum has no rate to
+ * reverse. */
 static bool find_leans(books *b) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -317,7 +318,7 @@ enum { FRAME_MOST = 24 };
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 
-/* The rate of each momentum at a random place with random rates; false: not finite there. */
+/* The rate of each momentum at random positions and rates; false if it is not finite. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
     double angle_rad[2][IMAGE_COMPONENTS_MAX];

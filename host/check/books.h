@@ -23,7 +23,7 @@ typedef struct book_account {
 book_account account_of(const double level[2]);
 void account_enter(book_account *a, double given);
 
-/* Mean and spread of a series, by Welford's recurrence, from its first value on. */
+/* Mean and spread of a series, from its first value on, by Welford's recurrence. */
 typedef struct spread {
     double first;
     double mean;    /* mean of the values minus `first` */
@@ -51,13 +51,15 @@ typedef struct books {
     double power_W[2][2]; /* input and loss power at the last two even steps' ends */
     spread kinetic;       /* spread over the steps */
     spread stored;
-    spread *rate;  /* [count] */
-    spread *push;  /* [count] momenta without lean[] */
-    bool *frame;   /* [count] part of a conserved momentum: a common speed only adds its mean */
-    double *lean;  /* [count] part of a momentum even in the rates, which depends on the origin */
-    bool leans;    /* is any lean[] nonzero, as in a magnetic field? */
-    double *off;   /* bounds on the round-off of value[], in units of the unit round-off */
-    double size_J; /* largest |T| + |V| */
+    spread *rate; /* [count] */
+    spread *push; /* [count] momenta without lean[] */
+    /* [count] the part of a conserved momentum, to which a common speed only adds its mean */
+    bool *frame;
+    /* [count] part of a momentum that is even in the rates, and depends on the origin */
+    double *lean;
+    bool leans;         /* a lean[] is nonzero, as in a magnetic field */
+    double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
+    double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */
     double computing_J; /* largest sampled round-off of the evaluation of the energy */
     double lost_J;      /* largest sampled underflow of a step's entries in float */
@@ -65,7 +67,7 @@ typedef struct books {
     double kept_J;      /* residual at the last even step */
     double most_J;      /* largest size of the residual at an even step */
     double jump_J;      /* largest change of the residual between two even steps */
-    double jump_s;      /* the end of that change */
+    double jump_s;      /* the end of that sudden change */
     bool negative;      /* the kinetic energy was negative, which no masses allow */
     double negative_s;  /* the first time */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */

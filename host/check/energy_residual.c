@@ -32,8 +32,8 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account_free(&kept);
 }
 
-/* Energy that steps gave back was lost before, so it counts as missing. If nothing was lost, and the steps only corrected the
- * energy's round-off, it counts as excess. */
+/* Energy that the steps gave back had been lost before, so it counts as missing. If nothing had been lost, and the
+ * steps only corrected round-off of the energy, it counts as excess. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);

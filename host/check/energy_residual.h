@@ -29,7 +29,7 @@
 
 #include "books.h"
 
-/* Beyond this ratio a run is not believed. */
+/* Above this ratio a run is not trusted. */
 #define ENERGY_RESIDUAL_LIMIT 1e-3
 
 #define ENERGY_RESIDUAL_COLUMN "energy_residual"
@@ -47,7 +47,7 @@ typedef struct energy_residual {
         rounding_J; /* round-off of a step times the root of the number of steps, plus that of the energy's evaluation */
     double ratio;   /* |left| / largest, >= 0; infinite for a residual without entries */
     bool stabilized; /* steps gave back (--stabilized) */
-    double lost_J;   /* size of the residual without the energy that they gave back */
+    double lost_J;   /* size of the residual without the energy that the steps gave back */
     bool saturated;  /* values were clamped to their range */
     bool exact;      /* the steps are exact (--matrix exact) */
     double jump_s;   /* time of a sudden change of the residual; below 0: it changed gradually */

@@ -31,7 +31,7 @@ typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity
 #define STRICT_OFF (-1.0)
 #define STRICT_FINDINGS 0.0
 
-/* The one place of thresholds: a finding is reported if its value exceeds the limit. */
+/* The thresholds: a finding is reported if its value exceeds the limit of its row. */
 typedef struct finding_row {
     const char *word;
     finding_severity severity;
@@ -61,9 +61,9 @@ extern const finding_row finding_rows[FINDINGS];
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 
-/* "[pole] [missed]": the names of these findings. */
+/* Prints the names of these findings: "[pole] [missed]". */
 void finding_say_names(FILE *out, unsigned ids);
-/* The last line of a command that ends with exit status 1 because of these findings, as bits. */
+/* Prints the last line of a command that ends with exit status 1 because of these findings (bits). */
 void finding_say_status(FILE *out, const char *command, unsigned fails);
 
 #endif

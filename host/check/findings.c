@@ -198,7 +198,7 @@ enum { REMEDY_TEXT = 120 };
 
 /* A remedy must stay below this part of the limits, because the lists of the user's next run may round differently. */
 #define LEAVES 0.3
-/* The finest tried step is the run's, divided by this. */
+/* The finest step that is tried: the step of the run divided by this. */
 #define PARTS_MOST 20000.0
 /* In float, a remedy with this many times more steps also gets compensated sums. */
 #define COMPENSATED_FROM 10.0
@@ -258,7 +258,7 @@ static bool does(const run_checks *v) {
            !is_off_at_once(v);
 }
 
-/* False ends the trial: after a jump over a pole the remedy has failed. */
+/* Returning false ends the trial: after a jump over a pole the remedy has failed. */
 static bool see(void *of, uint64_t step) {
     run_checks *v = of;
     (void)step;
@@ -288,7 +288,7 @@ static bool try(search *s, const wish *w) {
     v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
-    wh_status status = WH_OK; /* without a finer run its error is unknown */
+    wh_status status = WH_OK; /* without a finer run the error is not known */
     const loop_end end = v->twins != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     run_checks_end(v, status);
     const bool good = end == LOOP_DONE && does(v);
@@ -593,7 +593,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* A linkage has several motions out of its flat position, so a step past it would choose one. */
+        /* A linkage has several motions that lead out of its flat position, so a step past it would choose one. */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

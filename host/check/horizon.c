@@ -141,7 +141,8 @@ void horizon_free(horizon *h) {
 /* Number of steps of the third run per step of the run. Above one, so that the third run is more accurate, and far from
  * simple ratios. */
 #define STEPS 1.41
-/* The third run may differ by this many times the difference of the run and the finer one, because of its steps alone. */
+/* The third run may differ by this many times the difference between the run and the finer one, because of its steps
+ * alone. */
 #define ITS_OWN 2.0
 /* Smaller differences do not count, SI. */
 #define ALIKE 1e-9

@@ -19,7 +19,7 @@
  * part. Each value is intersected with  f(m) + f'(m) d + f''(part) d^2/2  and with  f(m) + f'(part) d. */
 typedef struct taylor_bounds taylor_bounds;
 
-/* A value on a part of the way; NaN: unknown. */
+/* A value on a part of the path; NaN: unknown. */
 typedef struct form {
     enclosure middle;       /* value at the middle of the part */
     enclosure middle_slope; /* slope at the middle of the part */
@@ -37,13 +37,13 @@ struct taylor_bounds {
     const image *image;
     const op_list *list;
     double *input;      /* [inputs] */
-    double (*cubic)[4]; /* [coordinates] the way's coefficients */
+    double (*cubic)[4]; /* [coordinates] coefficients of the path */
     double span_s;
     form *place;        /* [coordinates] */
     form *rate;         /* [coordinates] */
     form *of;           /* [operations] */
     bool *needs;        /* [results * operations] does the result depend on the operation? */
-    enclosure *natural; /* [operations] bounds on the whole way */
+    enclosure *natural; /* [operations] bounds on the whole path */
     bool glanced;       /* natural[] is set */
     double half;        /* half the part's width */
 };
@@ -405,7 +405,8 @@ static void cut(form *f, double half) {
 
 /* --- the way ------------------------------------------------------------------------------------------------*/
 
-/* The way: the cubic through places and rates at its ends, `span_s` apart; from, to: [angles + reals], angles in radians. */
+/* The path: the cubic through positions and rates at its ends, which are `span_s` apart. from, to: [angles + reals],
+ * angles in radians. */
 static void taylor_bounds_way(taylor_bounds *a, const double *from, const double *to,
                               double span_s) {
     const int n = a->image->coordinates;
@@ -430,7 +431,7 @@ static enclosure between(double a, double b, double bend) {
                        enclosure_above(number_most(a, b) + bend)};
 }
 
-/* Places and rates on the part. */
+/* Computes positions and rates on a part of the path. */
 static void go(taylor_bounds *a, double low, double high) {
     const double share[3] = {low, 0.5 * low + 0.5 * high, high};
     const double h = a->span_s;
@@ -463,7 +464,7 @@ static void go(taylor_bounds *a, double low, double high) {
 /* Costs, in operations, of an operation's bounds, a coordinate's way, a form, and a function's form. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
-/* Natural bounds of one result on the whole way: a quick test. */
+/* Natural bounds of one result on the whole path: a quick test. */
 static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
     if (!a->glanced) {
         a->glanced = true;
@@ -476,7 +477,7 @@ static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
     return a->natural[a->list->result[result]];
 }
 
-/* Bound one result, or all (-1), on the part from `low` to `high`, shares of the way. */
+/* Bounds one result, or all (-1), on the part of the path from `low` to `high`, as shares. */
 static void taylor_bounds_look(taylor_bounds *a, int result, double low, double high) {
     const op_list *t = a->list;
     const bool *needs = result < 0 ? NULL : a->needs + (ptrdiff_t)result * t->count;
@@ -524,7 +525,7 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
  * TURNS in a step. */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* A gap's slope that changes by this share of its size in 2^-EDGE_HALVINGS of a step has an edge there. */
+/* The slope of a gap has an edge if it changes by this share of its size in 2^-EDGE_HALVINGS of a step. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 
@@ -541,7 +542,7 @@ struct missed {
     int *mode_to;
     double *most;              /* [coordinates] a larger acceleration is hidden from both ends */
     const engine_piece *piece; /* the present path */
-    double size;               /* the larger of the margins at the piece's ends */
+    double size;               /* the larger of the margins at the ends of the path */
     int parts;                 /* number of parts tested so far */
 };
 
@@ -621,7 +622,7 @@ static enclosure margin(const missed *m, int k, enclosure signal) {
     return is ? signal : enclosure_neg(signal);
 }
 
-/* Is the condition met on a part of the way (1), excluded there (0), or undecided (-1)? */
+/* Is the condition met on a part of the path (1), excluded there (0), or undecided (-1)? */
 typedef int looking(missed *m, int k, double low, double high, double bar);
 
 /* The finest part: a thinner contact does not count. */
@@ -682,7 +683,7 @@ static int passes(missed *m, looking *look, int k, double low, double high, doub
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
-/* The earlier result, or this one. The first certain one wins. */
+/* Combines two results: the first certain one counts. */
 static missed_found or_this(missed_found found, int passed, int what) {
     return passed > 0 || (passed < 0 && found.what < 0)
                ? (missed_found){.what = what, .sure = passed > 0}
@@ -700,7 +701,7 @@ static bool is_idle(missed *m, int k) {
            WIDTHS * (middle.high - middle.low) + DBL_MIN;
 }
 
-/* Does contact k, which is in the same mode at both ends, leave it on the way? */
+/* Does contact k, which has the same mode at both ends, leave this mode on the path? */
 static int contact_passes(missed *m, int k) {
     double beyond = 0.0;
     m->size = 0.0;
@@ -797,7 +798,7 @@ static int look_edge(missed *m, int i, double low, double high, double most) {
                                                               : -1;
 }
 
-/* Does the slope of stop k's gap jump on the way? A contact that lies on an edge all the way slides over no edge. */
+/* Does the slope of stop k's gap jump on the path? A contact that stays on an edge all the time slides over no edge. */
 static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {

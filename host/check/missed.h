@@ -32,8 +32,8 @@ typedef struct missed_found {
 } missed_found;
 #define MISSED_NOTHING ((missed_found){-1, false, false})
 
-/* Enters the state after each step, the start included. `eventful`: the step had events. `blind`: the state before it was
- * not entered, so it is not tested. */
+/* Enters the state after each step, the start included. `eventful`: the step had events. `blind`: the state before the
+ * step was not entered, so the step is not tested. */
 missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,
                           bool blind);
 

@@ -101,7 +101,7 @@ static const char hint_domain[] =
 
 /* --- values ------------------------------------------------------------------------------------*/
 
-/* The unknowns at the last good state, and their highest derivatives there. */
+/* Sets the unknowns at the last good state, and their highest derivatives. */
 static void look_here(blamed *v, const nonfinite_at *at) {
     const image *im = at->image;
     double *result = alloc(im->list[IMAGE_BOOKS]->results, sizeof *result);
@@ -224,7 +224,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     return sine ? hint : hint_domain;
 }
 
-/* Reports the first question with an answer that is not finite. */
+/* Reports the first of these expressions that is not finite. */
 static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
     const image_blame *b = &v->image->blame;
     for (int i = first; i < first + count; i++) {

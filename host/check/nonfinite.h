@@ -33,12 +33,12 @@ bool *blamed_parts(const image *im, int node);
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
-/* The place of a failure in one run. The image is one to run: it has the expressions as written. */
+/* Where a failure is searched in one run. The image is one to run: it has the expressions as written. */
 typedef struct nonfinite_at {
     const image *image;
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
-    bool turns;              /* angles are integers (float): their sine is known everywhere */
+    bool turns;              /* angles are integers (float), so their sines exist for all values */
     double ahead_steps;      /* distance of the evaluation: 0 for the state itself */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;

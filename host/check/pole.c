@@ -12,11 +12,12 @@
 
 /* === a pole on the way =========================================================================== */
 
-/* Halvings until a share of the way has no more digits. */
+/* Halvings after which a share of the path has no more digits. */
 enum { HALVINGS = 56 };
-/* Factor of the distance if round-off hides the growth of a value. */
+/* Factor by which the distance is increased if round-off hides the growth of a value. */
 #define FARTHER 2.5
-/* A smooth expression has few zeros on its way to a pole. Round-off alternates its sign, at distances that grow by FURTHER. */
+/* A smooth expression has few zeros between a state and a pole. If the sign alternates more often, at distances that
+ * grow by FURTHER, it is round-off. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
@@ -61,7 +62,7 @@ typedef struct looker {
     double *then; /* [signs] values at the end of the part */
     double *value;
     double *side;  /* [GROWTH_POINTS * values] */
-    bool *done;    /* [values] this value has no pole at the place */
+    bool *done;    /* [values] this value has no pole at the spot */
     double *touch; /* [4 * signs] */
 } looker;
 
@@ -188,8 +189,8 @@ static bool is_rounding(const looker *l, int i, double zero_at, double from, dou
     return turns >= TURNS_MOST;
 }
 
-/* The value overflows at `from` off the place. Was it very large before, up to the end of the way? A difference that cancels to
- * zero was not. */
+/* The value overflows at the distance `from` from the spot. Was it very large before, up to the end of the path? A
+ * difference that cancels to zero was not. */
 static bool overflows(const looker *l, int i, double zero_at, double from) {
     const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
@@ -203,18 +204,19 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
 typedef struct spot {
     part in;
     double zero_at;
-    double nearest; /* smallest useful distance from the place */
-    int of;         /* the value with the sign change at the place */
+    double nearest; /* smallest useful distance from the spot */
+    int of;         /* the value that changes its sign at the spot */
     bool touches;   /* the value only touches zero */
 } spot;
 
-/* The number of nearest points, and the index of the point that is nine times as far from the place as the nearest. */
+/* The number of nearest points; and the index of the point that is nine times as far from the spot as the nearest
+ * one. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 /* Tolerance of the value at the place. */
 #define LEFT 0.05
 
-/* Does the value stay above zero at the place, as y^2 + x^2 does? It does if, without its square part, it equals the
- * value at the place. */
+/* Does the value stay above zero at the spot, as y^2 + x^2 does? It does if its extrapolation without the square part
+ * equals the value at the spot. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -230,7 +232,7 @@ static bool stands_off(double at_place, const double *over, double far) {
     return stands;
 }
 
-/* Is there a zero of the spot's value, judged by over[GROWTH_POINTS], the reciprocals of its sizes? */
+/* Is there a zero of the value at the spot? Decided from over[GROWTH_POINTS], the reciprocals of the value's sizes. */
 static bool is_there(const spot *s, const double *over) {
     const growth kind = growth_of(over, 1);
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
@@ -285,7 +287,7 @@ static bool all_done(const looker *l) {
     return done == l->way->values;
 }
 
-/* The first value with a pole at the spot, on one side. The nearest distances with even growth decide. */
+/* The first value with a pole at the spot, approached from one side. The nearest distances with even growth decide. */
 static int pole_on_side(const looker *l, const spot *s, double side) {
     int found = -1;
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
@@ -372,7 +374,7 @@ typedef struct divisor {
     int node;
     bool of_a_tan; /* the cosine of a tangent's argument: it changes its sign at the pole */
     bool derived;
-    bool leaps;    /* an event may change it at once */
+    bool leaps;    /* an event may change the value abruptly */
     bool bends;    /* the value is nonlinear in the state, and may touch zero */
     double before; /* value before the step */
     double aside;  /* value at POLE_ASIDE of the step's way */
@@ -400,11 +402,11 @@ enum {
     DIVIDES = 4U,  /* a factor of a divisor */
     OF_A_TAN = 8U, /* is the argument of a tangent */
     NEEDED = 16U,
-    LEAPS = 32U, /* depends on values that an event may change at once */
+    LEAPS = 32U, /* depends on values that an event may change abruptly */
     BENDS = 64U, /* depends on the state nonlinearly */
 };
 
-/* Places are continuous at an event, unless a crossing sets them. */
+/* Positions are continuous at an event, unless a crossing sets them. */
 static bool leaps(const image *im, const diagnostics_node *n) {
     bool set = n->b > 0;
     for (int i = 0; i < im->set_count; i++) {
@@ -447,7 +449,7 @@ static void find_what_moves(denominators *d) {
         }
         is |= bends(d, n, of, count) ? BENDS : 0U;
         d->is[i] = (unsigned char)is;
-        d->at.value[i] = blamed_node(&d->at, n); /* constants: once and for all */
+        d->at.value[i] = blamed_node(&d->at, n); /* constants are evaluated here, only once */
     }
 }
 
@@ -545,7 +547,7 @@ static bool has_factors_that_move(const denominators *d) {
     return false;
 }
 
-/* The factors of divisors in the list that solves for the slopes. */
+/* The factors of denominators in the list that solves for the slopes. */
 static void find_derived(denominators *d) {
     const op_list *t = d->at.image->list[IMAGE_BOOKS];
     bool *divides = alloc(t->count, sizeof *divides);
@@ -655,7 +657,7 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* The image's question of one of the values: for a slope, the first equation with it. */
+/* The expression in the image that corresponds to one of the values; for a slope, the first equation with it. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {
@@ -720,7 +722,7 @@ void pole_crossing_close(pole_crossing *j) {
 
 /* --- the way of a step --------------------------------------------------------------------------------*/
 
-/* Is the divisor tested in this step? Rates that jump at an impact pass through no pole. */
+/* Is the denominator tested in this step? A jump of rates at an impact passes no pole. */
 static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
 
 /* The change of this component in the step. Turn angles are given within a turn, so this is the shorter way. */
@@ -753,7 +755,8 @@ static double relative_way_of(const pole_crossing *j, int c) {
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
 }
 
-/* The largest relative way of the components that this divisor depends on; a derived divisor may depend on any. */
+/* The largest relative change of the components that this denominator depends on; a derived denominator may depend on
+ * any. */
 static double relative_way(const pole_crossing *j, const divisor *d) {
     double most = 0.0;
     for (int c = 0; c < j->components && d->derived; c++) {
@@ -774,7 +777,7 @@ static double relative_way(const pole_crossing *j, const divisor *d) {
     return most;
 }
 
-/* The first question with a pole on the way, or -1. */
+/* The first expression with a pole on the path, or -1. */
 static int pole_between(pole_crossing *j) {
     double *nearest = alloc(j->of.count, sizeof *nearest);
     for (int i = 0; i < j->of.count; i++) {

@@ -46,7 +46,7 @@ typedef struct pole_way {
     int signs;
     int values;
     const double
-        *nearest; /* [signs] smallest share of the way that the arguments of this value resolve */
+        *nearest; /* [signs] smallest share of the path that the arguments of this value resolve */
     /* Evaluates sign[signs] and value[values] at this share of the way, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;
@@ -56,7 +56,7 @@ typedef struct pole_way {
 #define POLE_ASIDE 0x1p-20
 bool pole_may_touch(const double value[static 4]);
 
-/* The first value with a pole on the way, or -1. */
+/* The first value with a pole on the path, or -1. */
 int pole_on(const pole_way *w);
 
 #endif

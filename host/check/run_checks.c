@@ -143,7 +143,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* A speed with less than this part of all energy is smaller than float's rounding of the other speeds. */
+/* A speed with less than this part of all energy is smaller than the round-off of the other speeds in float. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -174,7 +174,7 @@ static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
            own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
 }
 
-/* Rates jump at contacts. Two runs may jump in different steps, so there their rates differ. */
+/* Rates jump at contacts. Two runs may have the jump in different steps, and then their rates differ at that time. */
 static bool is_asked(const run_checks *v, int k) {
     const record_column *c = &v->twins->shape->column[k];
     return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->twins, k) &&

@@ -46,7 +46,7 @@ typedef struct simulation {
     bool energies_told;
     int output;           /* the first output that was not a finite number, or -1 */
     double output_s;      /* time when it was first not finite */
-    double trusted_s;     /* the plot is shaded after this time; no shade if not above 0 */
+    double trusted_s;     /* the plot is shaded after this time; below or at 0: no shade */
     uint64_t output_rows; /* number of records and points in which an output was not finite */
 } simulation;
 
@@ -272,7 +272,8 @@ static simulation_result judge(simulation *sim, wh_status status, bool ended) {
         say_failure(sim, status);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
-    } else if (sim->output < 0) { /* an output is watched at the end, too, recorded or not */
+    } else if (sim->output < 0) {
+        /* an output is checked at the end, too, even if it is not recorded */
         watch_outputs(sim, sim->records->row[0]);
     }
     tell_outputs(sim);

@@ -15,8 +15,8 @@
 /* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
  * variants whose constants are folded with other roundings (host/number/folding.h). Most scenes need no variants. */
 
-/* Adds to share[ways] each way's errors off[ways * count], relative to the largest error of the same component. Components have
- * different units. */
+/* Adds to share[ways] the errors off[ways * count] of each variant, relative to the largest error of the same
+ * component. Components have different units. */
 static void add_shares(const double *off, int ways, int count, double *share) {
     for (int i = 0; i < count; i++) {
         double most = 0.0;
@@ -68,8 +68,8 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* The image of the way with the largest difference near the scene's start; NULL if there is no other way. Evaluates at the start,
- * and with each component moved by one unit, because a component that is zero at the start may hide a factor. */
+/* The variant with the largest difference near the scene's start; NULL if there are no variants. Evaluates at the
+ * start, and with each component moved by one unit, because a component that is zero at the start may hide a factor. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -239,8 +239,8 @@ typedef struct rounded {
     double *input;
     double *result;
     double *off;
-    double *most;   /* [results]: largest bound of all looks that had one */
-    uint64_t *lost; /* [results]: number of looks without a bound */
+    double *most;   /* [results]: largest bound of all samples with a bound */
+    uint64_t *lost; /* [results]: number of samples without a bound */
     uint64_t looks; /* number of comparisons */
 } rounded;
 
@@ -361,8 +361,8 @@ typedef struct pair {
     pole_crossing *finer_jumps;
     rounded rounded;
     uint64_t stride; /* number of steps between two comparisons */
-    double look_s;   /* time of the last look */
-    double before_s; /* time of the look before the last one */
+    double look_s;   /* time of the last comparison */
+    double before_s; /* time of the comparison before the last one */
     uint64_t looks;
     bool owns; /* the pair owns the run and its monitors */
 } pair;

@@ -60,7 +60,7 @@ typedef struct step_doubling_column {
     bool written; /* its start is the scene's value, without the round-off of sums */
     int place;    /* of a rate: the column of its coordinate; else this column */
     double one;   /* one SI unit, in the column's unit */
-    double alike; /* the largest range of all places with the column's unit */
+    double alike; /* the largest range of all positions with the column's unit */
     passages off;
 } step_doubling_column;
 
@@ -119,7 +119,8 @@ int step_doubling_order(const image *im);
 
 /* Runs both from the start to the end, or until one fails. The images must outlive the result. */
 step_doubling *step_doubling_run(const step_doubling_wish *w);
-/* The same for a run that the caller steps: enter it at its start and after each step. `w` is copied. */
+/* The same for a run that the caller steps: call step_doubling_enter() at its start and after each step. `w` is
+ * copied. */
 step_doubling *step_doubling_open(const step_doubling_wish *w, void *run);
 void step_doubling_enter(step_doubling *t);
 /* The run has ended; `status` is that of its last step. */

@@ -133,7 +133,7 @@ static bool stays(const opening *o, const records *r, int i, double most) {
            strayed(o, i) * c->unit->scale / c->unit->divisor < STAYS * most;
 }
 
-/* A coordinate that moves, or an output that is a length. */
+/* A coordinate that moves, or an output that is a length and moves. */
 static bool moves(const opening *o, const records *r, int i, bool is_output) {
     const record_column *c = &r->column[i];
     return c->primes == 0 && o->high[i] > o->low[i] &&

@@ -77,11 +77,11 @@ static const char *taken_in_c(const char *name, bool with_header) {
 typedef struct form_row {
     const char *word;
     void (*print)(const loaded *made, const char *file);
-    bool shows; /* equations, of each mechanism of a file in turn; else code */
+    bool shows; /* prints equations, of each mechanism of a file in turn; otherwise code */
     void (*print_steps)(const loaded *made,
                         const char *file); /* the derivation of the equations (--steps) */
     void (*print_folded)(const loaded *made,
-                         const char *file); /* values in place of names (--folded) */
+                         const char *file); /* prints values instead of names (--folded) */
     /* the form steps the scene: momenta, method and number type matter */
     bool runs;
     /* For code with the scene's name (--name): the owner of that name there, if it is taken, or NULL. */
@@ -189,7 +189,7 @@ static void print_usage(FILE *out) {
         forms_with(has_steps, said));
 }
 
-/* Is the option, such as "--header", with its value's word, valid for this form? Else the forms that accept it are reported. */
+/* Is the option, such as "--header", valid for this form? Otherwise reports the forms that accept it. */
 static bool goes_with(const char *option, const char *value, bool (*of)(const form_row *form),
                       const form_row *as) {
     char said[FORMS_TEXT_SIZE];
@@ -242,7 +242,7 @@ static bool write_header(const form_row *as, const image *im, const fixed_plan *
     return out != NULL && atomic_file_close(out, header, true);
 }
 
-/* Can code of that form have the scene's name? Else the reason is reported. */
+/* Can code of that form have the scene's name? Otherwise reports the reason. */
 static bool has_name(const image *im, const source_model *from, const form_row *as,
                      const char *header) {
     const char *taken_by = as->name_taken_by(im->name, header != NULL);
@@ -268,7 +268,7 @@ static fixed_plan *plan_of(const image *im, const source_model *from, const engi
     return plan;
 }
 
-/* Can this be C for the core? Else the reason is reported. */
+/* Can this be C for the core? Otherwise reports the reason. */
 static bool has_c_form(const image *im, source_model *from) {
     const bool has = start_angles_are_held(im, from->errors) &&
                      start_has_method(im, im->settings.method, from->errors);
@@ -395,7 +395,7 @@ static bool read_options(int count, char **words, derive_options *o) {
     return o->target != NULL;
 }
 
-/* All mechanisms of a file, if the form shows them and no name is given; else the named one. */
+/* Derives all mechanisms of a file, if the form shows them and no name is given; otherwise the named one. */
 static int derive_opened(source_model *from, const derive_options *o) {
     const overrides changes = options_overrides(&o->common.change);
     const mechanism *of;
@@ -408,7 +408,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
         }
         return code;
     }
-    /* pick the file's only scene, or with several scenes its mechanism */
+    /* the file's only scene; if there are several scenes, its mechanism */
     code = source_pick(from, from->model->scene_count == 1, &of, &in);
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
         code = EXIT_BAD_INPUT;

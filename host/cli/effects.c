@@ -48,7 +48,7 @@ static const char primes[] = "''''''''''";
 
 static bool is_coordinate(const record_column *c) { return c->unknown >= 0 && c->primes == 0; }
 
-/* The column `name`; 0, reported, if there is none. */
+/* The column `name`. Returns 0, and reports it, if there is none. */
 static int column_of(const subsets *s, const char *name) {
     nearest search = nearest_start(name, strlen(name));
     for (int i = 1; i < s->columns->columns; i++) {
@@ -123,7 +123,7 @@ static void print_cell(const char *head, bool is_head, const char *format, doubl
     free(text);
 }
 
-/* A row; the headings if `moved` is NULL. With contacts, only the longest step has a price. */
+/* Prints a row, or the headings if `moved` is NULL. With contacts, only the longest step has a price. */
 static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
                       int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {

@@ -106,7 +106,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
         return LIGHT_NONE;
     }
     if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
-        return LIGHT_TOLD; /* interrupts of silicon use stack, too */
+        return LIGHT_TOLD; /* interrupts on real boards use the stack, too */
     }
     if (strcmp(name, "period_us") == 0) {
         char *end = NULL;

@@ -56,8 +56,8 @@ bool source_would_be_lost(const source_model *source, const char *option, const 
  * scene, else its only mechanism. Returns an exit status. */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
 
-/* Data stored beside an image, which needs neither. Text and LaTeX are printed from the equations, and a sweep makes
- * more instances like the first. */
+/* Data kept together with an image. Text and LaTeX are printed from the equations, and a sweep makes more instances
+ * like the first. */
 typedef enum load_keep { KEEP_IMAGE, KEEP_INSTANCE, KEEP_EQUATIONS } load_keep;
 
 typedef struct load_wish {

@@ -314,7 +314,7 @@ static void listen(monitor *m) {
             port_close(&m->line);
             m->open = false;
             if (!was_line) {
-                return; /* the end of a file, or of its readable part */
+                return; /* the end of a file, or of the part of it that can be read */
             }
             fprintf(stderr, "whirl monitor: %s is gone; waiting for it\n", m->o->port);
             continue;
@@ -390,7 +390,7 @@ static void tell(const monitor *m) {
     }
 }
 
-/* False, reported: a line was to be recorded, but no rig was there to send it. */
+/* Returns false, and reports it, if a line was to be recorded but no rig was there to send one. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {

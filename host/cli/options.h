@@ -101,7 +101,8 @@ bool options_help(int count, char **words, const command_usage *usage);
  * missing value is reported and sets *bad. A repeated option is reported, too, unless it may be repeated. */
 const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
 
-/* A number between two bounds, inclusive, for this option of this command; false, reported with the hint, for other text. */
+/* Reads a number between two bounds, inclusive, for this option of this command. For other text, returns false and
+ * reports the hint. */
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 
@@ -109,7 +110,7 @@ bool options_number(const char *command, const char *option, const char *text, d
 #define EFFORT_LEAST 1e4
 #define EFFORT_MOST 1e15
 
-/* --strict, --strict=off or --strict=LIMIT, for run_checks_fails(); false for another word. */
+/* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */
 bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
 #define OPTIONS_STRICT_HELP \
     "  --strict=off         exit status 0 even with a warning (default: 1)\n" \
@@ -158,7 +159,7 @@ overrides options_overrides(const change_options *changes);
 bool options_same(const char *a, const char *b);
 
 /* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
- * its word. -1 if there is no such row: reported, with the words. */
+ * its word. If there is no such row, reports the possible words and returns -1. */
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count);
 

@@ -111,7 +111,7 @@ static bool take_fault(int count, char **words, int *at, void *options, bool *ba
     return value != NULL;
 }
 
-/* A tape that is only shown needs no firmware. */
+/* Printing a tape needs no firmware. */
 static bool is_read_alone(const pil_options *o) {
     const char *beside = o->target != NULL     ? "scene"
                          : o->every != NULL    ? "--every"

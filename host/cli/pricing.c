@@ -165,7 +165,8 @@ static bool find_board(pricing *p) {
 /* Operations that all trials may evaluate without --effort. */
 #define EFFORT 1e9
 
-/* Reads --error, in the dimension of its own quantity or of --of's. An unknown quantity is reported later. */
+/* Reads --error, in the dimension of its own quantity or of --of's. An unknown quantity is not reported here but
+ * later. */
 static bool read_error(pricing *p) {
     const char *text = p->options->value[PRICING_ERROR];
     const char *command = p->options->command;
@@ -330,7 +331,7 @@ int pricing_open(pricing *p, const pricing_options *o) {
     p->changes = options_overrides(&o->common.change);
     p->changes.balance = o->balance;
     overrides asked = p->changes;
-    asked.until = NULL; /* printed command lines get an --until of their own */
+    asked.until = NULL; /* printed command lines get their own --until */
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(o->target);
     if (!find_board(p) || !read_effort(p) || !read_methods(p) || !read_error(p) ||

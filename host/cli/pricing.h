@@ -108,17 +108,17 @@ struct pricing {
 /* Reads the options and the scene. Returns an exit code, with errors reported; pricing_close() in any case. */
 int pricing_open(pricing *p, const pricing_options *o);
 void pricing_close(pricing *p);
-/* The board of --board, which must have prices; NULL, reported, if there is no such board. */
+/* The board of --board, which must have prices. Returns NULL, and reports the reason, if there is no such board. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* A positive quantity of the command line, in SI; false: reported. Its dimension is that of the quantity `name`, or, if
- * that is NULL, `wanted`. */
+/* Reads a positive quantity of the command line, in SI. Returns false, and reports the reason, if it is invalid. Its
+ * dimension is that of the quantity `name`, or, if that is NULL, `wanted`. */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
 /* Computes the references at records of this spacing up to the horizon. Returns an exit status. */
 int pricing_begin(pricing *p, whole_ratio spacing);
 /* Least number of records of `whirl price` until the horizon; the largest number is two and a half times as many. */
 #define PRICING_RECORDS 1000.0
-/* A spacing of 1, 2 or 5 times a power of ten for `count` to two and a half times `count` records. */
+/* Chooses a spacing of 1, 2 or 5 times a power of ten, with `count` to two and a half times `count` records. */
 whole_ratio pricing_spacing(double until_s, double count);
 
 #endif

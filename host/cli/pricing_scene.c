@@ -59,7 +59,7 @@ char *pricing_words(const overrides *c, bool as_label) {
     return text;
 }
 
-/* Is this the point without changes? */
+/* Is this point the scene without changes? */
 static bool is_own(const pricing_scene *p, int point) {
     return p->grid->count == 0 || (p->has_own && point == p->source.points - 1);
 }
@@ -119,8 +119,8 @@ static void forget_diags(pricing_scene *p, diags *of) {
     }
 }
 
-/* The image of a place with the lists of these settings, made once; its step and end are the scene's. NULL: reported, or the scene
- * refuses the settings. */
+/* The image of a point with the lists of these settings, made once, with the scene's step and end. NULL if the scene
+ * refuses the settings, or after an error, which is reported. */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
     for (int i = 0; i < p->made_count; i++) {
         if (p->made[i].point == point && same_lists(&p->made[i].settings, settings)) {
@@ -183,7 +183,7 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
         .changes = changes,
         .grid = g,
         .errors = errors,
-        .instance = alloc(points + 1, sizeof(instance *)), /* one more for the scene's own place */
+        .instance = alloc(points + 1, sizeof(instance *)), /* one more for the scene's own values */
         .equations = alloc(points + 1, sizeof(equations *)),
         .source = {.points = points, .make = make, .name = name_of}};
     p->source.context = p;

@@ -1,4 +1,5 @@
-/* pricing_scene.h: a scene and its varied places as a source of images for trials of settings (host/study/trial.h). */
+/* pricing_scene.h: a scene and the points of its varied values as a source of images for trials of settings
+ * (host/study/trial.h). */
 #ifndef CLI_PRICING_SCENE_H
 #define CLI_PRICING_SCENE_H
 
@@ -24,8 +25,8 @@ typedef struct pricing_scene {
     equations **equations; /* [points] NULL: not yet derived */
     pricing_made *made;    /* [made_count] */
     int made_count;
-    bool has_own; /* the last point is the scene's own place, which is no point of the grid */
-    char *name;   /* text of the last requested place */
+    bool has_own; /* the last point is the scene's own values, which are no point of the grid */
+    char *name;   /* text of the last requested point */
     trial_source source;
 } pricing_scene;
 
@@ -36,7 +37,7 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
                                  const grid *g, diags *errors);
 /* If the scene's own values are not a point of the grid, they become an additional point. Call it before making any image. */
 void pricing_scene_add_own(pricing_scene *p, const instance *own);
-/* Lend an image that was made with these settings; the caller still frees it. NULL is fine. */
+/* Gives an image that was made with these settings, which the caller still frees. NULL is allowed. */
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 

@@ -59,7 +59,7 @@ typedef struct prove_options {
     bool quiet;
 } prove_options;
 
-/* The cost of two runs, the range's and the compared one; the tube has a limit of its own. */
+/* The cost of two runs: one for the range, one to compare with. The tube has its own limit. */
 static bool is_affordable(const image *im, double effort) {
     const double wanted = step_doubling_operations(im, im);
     if (wanted > effort) {

@@ -13,7 +13,7 @@
 
 /* --- the rows --------------------------------------------------------------------------------------*/
 
-/* The number type of the board's programs, unless the command line gives one. */
+/* The number type: that of the command line or, without one, that of the board's programs. */
 static const engine_kind *number_of(const rating_wish *w) {
     const bool pc = strcmp(w->board->name, "host") == 0;
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
@@ -25,7 +25,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
     if (command != NULL) {
         char *target = pricing_quoted(w->target);
         overrides asked = *w->changes;
-        asked.step = NULL; /* it tries several steps */
+        asked.step = NULL; /* price tries several steps */
         char *changes = pricing_words(&asked, false);
         fprintf(out, "; %sthey are shown by: whirl %s %s%s%s%s",
                 strcmp(command, "price") != 0 ? "in Whirl's source tree " : "", command, target,
@@ -136,7 +136,8 @@ static double operations_for(trials *t, const setting *s, deviation_pace pace, d
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
 }
 
-/* The number of the first pace that satisfies the error; -1, reported, if there is none. *longest: it is the first tried pace. */
+/* The number of the first pace that satisfies the error; *longest: it is the first pace that was tried. Returns -1, and
+ * reports the reason, if there is none. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = -1.0;
@@ -218,8 +219,8 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     return warned;
 }
 
-/* Among the next few paces after number `at`, finds the first that satisfies the error without a warning. True if there
- * is one; else the pace does not change. */
+/* Among the next few paces after number `at`, finds the first that satisfies the error without a warning. Returns true
+ * if there is one; otherwise the pace does not change. */
 static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
                           trial_result *r) {
     enum { MORE = 6 };
@@ -229,7 +230,8 @@ static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *p
     double operations = 0.0;
     for (int i = at + 1; i < PACES && i <= at + MORE && !t->stopped; i++) {
         const deviation_pace next = pace_at(i);
-        operations += 4.0 * trial_operations(t, s, next); /* the run, and its finer run */
+        /* operations of the run and of its finer run */
+        operations += 4.0 * trial_operations(t, s, next);
         if (next.records <= (uint64_t)t->records && operations <= TRIES_OPERATIONS) {
             const trial_result one = trial_run(t, s, next);
             if (one.ran && one.usable && one.error <= t->tolerated && !is_warned_of(t, s, next)) {

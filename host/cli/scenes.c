@@ -247,8 +247,8 @@ enum { WORDS = 40 };
 typedef struct settings_emission {
     const char *folder;
     uint64_t steps; /* most steps of a run */
-    int every;      /* one setting in so many is written, and every one with a new word */
-    int seen;       /* settings counted through all scenes, so that each scene gets others */
+    int every;      /* only every `every`-th setting is written, and every one with a new word */
+    int seen;       /* number of settings counted over all scenes, so that each scene gets others */
     const char *word[AXES][WORDS];
     FILE *hashes[KINDS];
     FILE *settings; /* NAME SCENE OPTIONS OF `whirl run` without float and double..., and the events

@@ -5,8 +5,8 @@
 #include "host/cli/load.h"
 #include "options.h"
 
-/* Take one of a command's own options, with its value, and advance *at past it; false for another word. *bad: reported.
- */
+/* Takes one of a command's own options, with its value, and advances *at past it. Returns false for another word. An
+ * error is reported and sets *bad. */
 typedef bool target_take(int count, char **words, int *at, void *options, bool *bad);
 
 /* One of a command's own options, in a table. Exactly one of text, number, strict and flag is set. */
@@ -42,15 +42,16 @@ typedef struct target_reader {
     const own_option *table;    /* own options, ended by one without a word; or NULL */
     target_take *take;          /* reads own options that are not in the table; or NULL */
     const char *const *own;     /* the words of those options, NULL at the end */
-    const char *one; /* name of a target in the message about a second one; NULL: "scene" */
-    bool derives;    /* a target may also be a mechanism, which changes that message */
+    const char *one; /* word for a target in the message about a second one; NULL: "scene" */
+    bool derives;    /* a target may also be a mechanism; that message then says so */
     bool none;       /* the command may have no target */
     /* The work of target_command(), which returns an exit status: on the opened target, or (`work` alone) without it. */
     int (*work_on)(source_model *from, void *options);
     int (*work)(void *options);
 } target_reader;
 
-/* Take all common and own options. *target is the only other word, or NULL. False after an error, reported. */
+/* Takes all common and own options. *target is the only other word, or NULL. Returns false after an error, which is
+ * reported. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  void *options, const char **target);
 

@@ -159,7 +159,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     return g;
 }
 
-/* The same. If unexpanded powers of sums prevent it, they are multiplied out. */
+/* As potential_of(). If unexpanded powers of sums prevent it, they are multiplied out. */
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {

@@ -18,7 +18,7 @@ typedef struct conservation {
     int count;          /* unknowns recovered */
     int *unknown;       /* [count] */
     int *number;        /* [equations->count] index in unknown[], or -1 */
-    bool closed;        /* the coordinates follow from G(q); else they are integrated */
+    bool closed;        /* the coordinates follow from G(q); otherwise they are integrated */
     const poly **rate;  /* [count] the rates as functions of the others' */
     const poly **value; /* [count] the coordinates as functions of the others and time; NULL unless
                          * closed */
@@ -30,8 +30,8 @@ typedef struct conservation {
 /* The symbol of time in the polys above. */
 extern const symbol conservation_time;
 
-/* Recovers the coordinates that wanted[equations->count] names (NULL: none). NULL, reported, if the momentum of a named
- * coordinate is not conserved. */
+/* Recovers the coordinates that wanted[equations->count] names (NULL: none). Returns NULL, and reports it, if the
+ * momentum of a named coordinate is not conserved. */
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
 void conservation_free(conservation *c);
 

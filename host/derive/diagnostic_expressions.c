@@ -221,7 +221,7 @@ static void ask_value(maker *k, place where, const expr *tree, const char *what)
     }
 }
 
-/* The derivatives by the unknowns with so many primes: 0, the coordinates; 1, their rates. */
+/* Enters the derivatives by all coordinates (primes 0) or by all rates (primes 1). */
 static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
     const equations *e = k->equations;
     const poly *value = poly_from_expr(e->algebra, tree);

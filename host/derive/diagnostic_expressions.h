@@ -5,7 +5,7 @@
 #include "host/derive/equations.h"
 #include "image_parts.h"
 
-/* Enter them, with the conditions of each contact. The image must have its inputs and contacts. */
+/* Enters these expressions, with the conditions of each contact. The image must have its inputs and contacts. */
 void diagnostics_make(image_draft *d, const equations *e);
 
 #endif

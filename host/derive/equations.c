@@ -399,8 +399,8 @@ const poly *energy_drive(const equations *e, int i) {
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
     const poly *force =
         poly_add(a, poly_derivative(a, lagrangian, q, 0), forces_on(a, e->force, e->forces, i));
-    const poly *power = poly_add(
-        a, poly_mul(a, force, poly_symbol(a, q, 1)),
-        poly_mul(a, poly_derivative(a, lagrangian, q, 1), e->applied[i])); /* the rate's part */
+    const poly *power = poly_add(a, poly_mul(a, force, poly_symbol(a, q, 1)),
+                                 /* the part of the rate */
+                                 poly_mul(a, poly_derivative(a, lagrangian, q, 1), e->applied[i]));
     return poly_scale(a, power, -1.0);
 }

@@ -353,8 +353,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         program_free(p);
         return NULL;
     }
-    /* Scaling helps float runs only, so variants do without it. It suits neither contacts, which solve with the same
-     * matrix, nor tables, which have a rounding of their own. */
+    /* Scaling helps only float runs, so variants are not scaled. It is not possible with contacts, which use the same
+     * matrix, nor useful with tables, which are rounded separately. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&p->step, op_list_scaling_price(p->step));

@@ -24,7 +24,7 @@ const char *image_text(image_draft *d, const char *text);
 /* Converts a source place to one in the image's copy of the source; each source is copied once. */
 place image_place(image_draft *d, place at);
 
-/* The unit of a symbol's derivative with so many primes. */
+/* The unit of a symbol's derivative with `primes` primes. */
 image_unit image_unit_of(image_draft *d, const symbol *s, int primes);
 /* A quantity with this value, SI. */
 image_quantity image_quantity_of(image_draft *d, const symbol *s, double value);

@@ -238,7 +238,8 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* The part of the kinetic energy that is negative most often; *most is how often. NULL: no part ever is. */
+/* The part of the kinetic energy that is negative most often; *most is the number of states. NULL if no part is ever
+ * negative. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -305,7 +306,8 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
-/* Are the energies finite, including constant parts? Those vanish from the equations, but 1/0 in one is still a mistake. */
+/* Are the energies finite, including constant parts? Constants vanish from the equations, but 1/0 in one of them is a
+ * mistake of the user. */
 static bool energies_finite(const equations *e, generic_state *state) {
     return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
@@ -563,7 +565,7 @@ static const poly **polys(int count) { return alloc(count, sizeof(const poly *))
 /* Do the equations exceed the limits of the algebra, or of walks through its results? */
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
-        return true; /* the unvisited part of the result is missing */
+        return true; /* the part of the result that was not visited is missing */
     }
     double size = 0.0;
     for (int i = 0; i < e->count; i++) {

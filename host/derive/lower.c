@@ -371,7 +371,7 @@ static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
 
-/* A rule that makes `angle` from two known ones, if there is one. */
+/* Finds a rule that computes `angle` from two known ones. Returns true if there is one. */
 static bool rule_for(lowering *l, const poly *angle, wave *w) {
     int longest = 0;
     for (int i = 0; i < l->wave_count; i++) {
@@ -401,7 +401,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
     return false;
 }
 
-/* If the term is a number times a turn angle, that angle; else -1. */
+/* The turn angle, if the term is a number times a turn angle; otherwise -1. */
 static int turn_of(const lowering *l, const poly_term *t) {
     const mono *m = t->mono;
     const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;

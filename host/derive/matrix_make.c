@@ -56,7 +56,7 @@ static void multiply(const twofold *a, twofold factor, int columns, twofold *to)
     }
 }
 
-/* The coefficients of operation o, from those of all earlier ones. False if it is not affine. */
+/* The coefficients of operation o, from those of all earlier ones. Returns false if the operation is not affine. */
 static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
     const int columns = affine_columns(im);
     const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
@@ -370,7 +370,7 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
     }
 }
 
-/* The same, but the exponential's series ends with the power `order`. A Runge-Kutta method of that order with as many
+/* As above, but the exponential's series ends with the power `order`. A Runge-Kutta method of that order with as many
  * stages gives this result for any weights. */
 static void exponential_series(twofold *step, int states, int columns, int order) {
     const int count = states * columns;

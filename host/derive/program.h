@@ -77,12 +77,13 @@ typedef struct program {
     op_list *books;
 } program;
 
-/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. NULL after an error, reported to
- * `errors`: too many components, a momentum that is not conserved, or a constant that is not finite. */
+/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. Returns NULL after an error,
+ * which is reported to `errors`: too many components, a momentum that is not conserved, or a constant that is not
+ * finite. */
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors);
-/* Replace the step's functions of one angle by table look-ups (tables.h). False if that is impossible, reported with
- * its place. */
+/* Replaces the step's functions of one angle by table look-ups (tables.h). If that is impossible, returns false and
+ * reports the place. */
 bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors);
 void program_free(program *p);
 

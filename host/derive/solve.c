@@ -49,7 +49,7 @@ static void solve_pair(op_list *t, int n, const int *mass, const int *force, int
  * substitution. */
 static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
                                 int done, int *solution) {
-    int left = n - 1; /* the last place with a value that is still needed */
+    int left = n - 1; /* the last index with a value that is still needed */
     double value;
     for (int at = done; at < n - 1; at++) {
         const int k = order[at];
@@ -301,7 +301,7 @@ static double shared_frequency(algebra *a, int n, const poly *const *mass, const
     return number_root(squared);
 }
 
-/* The centrifugal pull: the others' forces contain g across_i q'^2, with a common g. Removes it from them; returns g. */
+/* Takes the centrifugal pull out of the others' forces: they contain g across_i q'^2, with a common g. Returns g. */
 static double take_pull(algebra *a, int n, const poly **force, const poly *const *across,
                         const poly *rate_squared) {
     double g = 0.0;
@@ -633,7 +633,7 @@ static bool off_hinges(const arranged *w, int k) {
     return off;
 }
 
-/* Eliminate all unknowns on hinges, in order. False if there are none. */
+/* Eliminates all unknowns on hinges, in order. Returns false if there are none. */
 static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangement *how,
                              arranged *w) {
     const int n = s->n;
@@ -751,8 +751,8 @@ static void add_across(op_list *t, int n, const int *across, double inverse, int
     }
 }
 
-/* Enter the solution on `t`; solution[] receives the operations. False, with nothing entered, if this arrangement is
- * impossible. */
+/* Enter the solution on `t`; solution[] receives the operations. If this arrangement is impossible, enters nothing and
+ * returns false. */
 static bool enter(const lowering *like, op_list *t, const linear_system *s, const arrangement *how,
                   int *solution) {
     const int n = s->n;

@@ -610,7 +610,7 @@ enum {
     PATIENCE = 150000 /* total operations of tried lists; then a round ends */
 };
 
-/* The bias must fall to half for a clear improvement, and by a hundredth for any. */
+/* For a clear improvement the bias must fall to half; for any improvement, by a hundredth. */
 #define CLEARLY 0.5
 #define LESS 0.99
 

@@ -476,7 +476,8 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
     in->scenes[in->scene_count++] = into->made;
-    into->number = 2 + in->scene_count; /* distinct from the marks of statements.c */
+    /* distinct from the numbers that statements.c gives to blocks */
+    into->number = 2 + in->scene_count;
     const bool good = parse_body(in);
     if (good && into->of == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",

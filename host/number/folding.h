@@ -20,8 +20,9 @@
 
 #include "host/number/functions.h"
 
-/* FOLDING_NEAREST rounds to nearest, as on a board. FOLDING_OTHER moves sums and functions to the other side. FOLDING_APART
- * rounds to nearest, without merging nearly equal numbers. From FOLDING_SOME on, all results move up or down, by their digits. */
+/* FOLDING_NEAREST rounds to nearest, as on a board. FOLDING_OTHER rounds sums and functions to the other side of the
+ * exact value. FOLDING_APART rounds to nearest, without merging nearly equal numbers. From FOLDING_SOME on, all results
+ * are rounded up or down, as a hash of their digits decides. */
 enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
 /* Room for residues; further ones are not recognized. */

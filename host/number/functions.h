@@ -91,7 +91,7 @@ typedef enum function_dimensions {
     TAKES_ANGLE,  /* a number that is an angle in radians: a number */
     TAKES_NUMBER, /* a number: a number */
     TAKES_SQUARE, /* any: its root */
-    TAKES_SIZE,   /* any: the same */
+    TAKES_SIZE,   /* any dimension: the result has the same */
     TAKES_ANY,    /* any: a number */
     TAKES_RATIO,  /* two of one dimension: a number */
     TAKES_CHOICE  /* two of one dimension: the same */

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Set by the first SIGINT or SIGTERM; a second ends the program at once, whatever it waits for. */
+/* Set by the first SIGINT or SIGTERM. A second one ends the program at once, even while it waits. */
 extern volatile sig_atomic_t interrupted;
 
 /* Catch interrupts from now on. A read or write that is interrupted continues, so that no record is cut. */

@@ -3,8 +3,9 @@
  * no faults.
  *
  * The syntax of a fault is KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1; without it,
- * all edges or the first sample. WHEN is a time, or NOTE=VALUE, or NOTE=VALUE~TIME: so long after the firmware's note
- * of that name reaches that value. Without WHEN a fault begins at the start, without DURATION it lasts to the end. */
+ * all edges or the first sample. WHEN is a time, or NOTE=VALUE, when the firmware's note of that name reaches that
+ * value; NOTE=VALUE~TIME is this time later. Without WHEN a fault begins at the start, without DURATION it lasts to the
+ * end. */
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 

@@ -90,7 +90,7 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* Ask the firmware for its next message: its hello, or the answer after its end. */
+/* Asks the firmware for its next message: its hello, or the message after its program has ended. */
 static guest_heard ask(talk *t) {
     uint8_t coded[WH_FRAME_BYTES(0)];
     const wh_frame frame = {.kind = WH_FRAME_ASK};

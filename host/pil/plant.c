@@ -443,7 +443,7 @@ static void enqueue(plant *p, plant_queue *q, plant_event event) {
     q->event[at] = event;
 }
 
-/* The watched quantity of an edge over a step: both ends, and the rates times the step. */
+/* The quantity of an edge over a step: its values at both ends, and its rates there times the step. */
 typedef struct span_of_step {
     double from;
     double to;

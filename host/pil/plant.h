@@ -1,8 +1,8 @@
 /* plant.h: a scene as a controller's hardware: the scene runs in double, surrounded by sensors. Time is in ticks of the
  * controller's timer since the plant's start. The scene has its own, finer steps. An edge is located within a step, on
  * the cubic through its ends, if the two ends are on different sides of the level. The cubic alone cannot distinguish a
- * turn within the step from a stop or an impact. Samples are those of the first step end at or after their instant;
- * changes of outputs take effect there, too. */
+ * turn within the step from a stop or an impact. A sample is taken at the first end of a step at or after its instant.
+ * Changes of outputs take effect at ends of steps, too. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 
@@ -49,9 +49,9 @@ typedef struct recorded {
     uint64_t every; /* steps between rows */
 } recorded;
 
-/* Records a row every every_s seconds. With every_s < 0: every millisecond, or each step if a millisecond is not a whole
- * number of steps. With `name` NULL nothing is recorded. False, reported, if every_s is not a whole number of steps, or
- * the file cannot be written. */
+/* Records a row every every_s seconds. With every_s < 0: every millisecond, or each step if a millisecond is not a
+ * whole number of steps. If `name` is NULL, nothing is recorded. Returns false, and reports the reason, if every_s is
+ * not a whole number of steps, or the file cannot be written. */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
 /* False, reported, if the file is incomplete. */
 bool recorded_close(recorded *r);

@@ -24,7 +24,7 @@ typedef struct taped {
     wh_hello hello; /* hello of the firmware */
     wh_signal signal[WH_SIGNALS_MAX];
     uint64_t hash;  /* hash of all orders and remembered data so far */
-    uint64_t turns; /* read so far */
+    uint64_t turns; /* number of exchanges read so far */
     uint16_t sequence;
     double before_s; /* time of the last reset */
     bool failed;     /* unreadable or broken: reported */
@@ -222,7 +222,7 @@ static void print_time(const rows *r, int64_t ticks) {
     fprintf(r->out, "%.*f,", r->decimals, (double)ticks / (double)r->tape->hello.ticks_per_s);
 }
 
-/* A stamp has 32 bits: it is within half of its range of the time of the message. */
+/* Begins a row. A time stamp has 32 bits; its true time is the one nearest to the message's time. */
 static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
     print_time(r, (int64_t)r->heard + (int32_t)(stamp - r->ticks));
     print_time(r, (int64_t)r->heard);

@@ -55,7 +55,7 @@ static void read_run(const reading *r, void *run) {
 
 /* Least range, as a part of a state's size, or of the range of another state with the same unit. */
 #define LITTLE 1e-3
-/* Replaces the range, SI, if no state with this unit moves. The tube has a width even then. */
+/* Replaces the range, SI, if no state with this unit moves. Even then the tube has a width. */
 #define STILL 1e-9
 
 static const char *unit_of(const containment_wish *w, int i) {

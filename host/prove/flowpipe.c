@@ -452,8 +452,8 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
 
 static enclosure widened(enclosure a, double by) { return enclosure_add(a, (enclosure){-by, by}); }
 
-/* Does every motion from the box stay in `stay` for h_s? Assume that one first leaves it at t. Its Taylor polynomial
- * with Lagrange's remainder over `stay` up to t is inside `stay`, a contradiction. *excess: the largest remainder
+/* Does every motion from the box stay in `stay` for h_s? If one first left `stay` at t, its Taylor polynomial with
+ * Lagrange's remainder over `stay` up to t would be inside `stay`: a contradiction. *excess: the largest remainder
  * relative to REMAINDER's bound. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};

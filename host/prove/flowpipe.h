@@ -31,7 +31,7 @@ typedef struct zonotope {
 zonotope *zonotope_new(int n, int most);
 void zonotope_free(zonotope *z);
 
-/* The least box, box[n]. */
+/* Computes the smallest box, box[n], that contains the zonotope. */
 void zonotope_box(const zonotope *z, enclosure *box);
 /* Axes, the columns of axes[n * n], nearly orthogonal, the first along the longest extent; and the deviation's
  * components along them, off[n]. */

@@ -274,7 +274,8 @@ int graph_power(graph *g, int a, enclosure exponent) {
 
 /* === derivatives ============================================================================== */
 
-/* The results for the nodes visited so far. New nodes appear meanwhile, but only earlier ones are looked up. */
+/* The new nodes of the nodes visited so far. New nodes are added during the walk, but only earlier ones are looked
+ * up. */
 typedef struct rewriting {
     graph *graph;
     int *to; /* [number of nodes at the start] -1: not yet */

@@ -12,7 +12,7 @@
 
 typedef enum node_kind {
     NODE_NUMBER,   /* number */
-    NODE_VARIABLE, /* left: its number */
+    NODE_VARIABLE, /* the variable's number is in `left` */
     NODE_SUM,
     NODE_DIFFERENCE,
     NODE_PRODUCT,

@@ -56,7 +56,7 @@ static bool fails_besides(const choice_row *row, choice_limit but) {
     return false;
 }
 
-/* Keeps the row with the least value. Rows arrive by rising price, so of equal rows the cheapest stays. */
+/* Keeps the row with the smallest value. Rows come in order of rising price, so of equal rows the cheapest is kept. */
 static void keep_least(choice_row *kept, const choice_row *row, double value, double best) {
     if (kept->row < 0 || value < best) {
         *kept = *row;
@@ -268,7 +268,7 @@ static void print_load(FILE *out, const choice_wish *w, const table_row *row,
     fputc('\n', out);
 }
 
-/* With contacts: the number of steps that were counted, and the most that a step can take. */
+/* With contacts: prints the number of steps that were counted, and the most cycles that a step can take. */
 static void print_run(FILE *out, const table_row *row) {
     if (!(row->run.steps > 0.0)) {
         return;
@@ -387,7 +387,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
         print_bytes(out, made, &c->larger);
         print_options(out, t, &made->row[c->larger.row]);
     }
-    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* all limits at once */
+    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* all limits together */
         print_clock(out, w, &c->any);
         print_bytes(out, made, &c->any);
         print_options(out, t, &made->row[c->any.row]);

@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* Finer steps stop helping when the error stays above this part of the one before, twice in a row. */
+/* Finer steps stop if the error twice in succession is above this part of the error with the previous step. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -802,7 +802,7 @@ static void grow(cost_figure *f, cost_basis basis, const char *text) {
     }
 }
 
-/* Adds the whole run at one place to a row; false: the line is not valid. */
+/* Adds the whole run of one point to a row. Returns false if the line is not valid. */
 static bool enter_run(const cost_board *board, char *line, table_row *to) {
     char *column[RUN_COLUMNS];
     if (!cost_cut(line, column, RUN_COLUMNS) || strcmp(column[0], board->name) != 0) {

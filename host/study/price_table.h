@@ -73,8 +73,8 @@ bool table_pace(const table_wish *w, int rung, deviation_pace *pace);
 /* Steps a period; 0 without a rate. */
 uint64_t table_substeps(const table_wish *w, const table_row *row);
 
-/* Tries the settings in several worker processes. Each setting has its own share of the operations, so the rows do not
- * depend on the workers. Check t->stopped. */
+/* Tries the settings in several worker processes. Each setting has its own share of the allowed operations, so the rows
+ * do not depend on the number of workers. Check t->stopped. */
 table *table_new(trials *t, const table_wish *w);
 void table_free(table *made);
 /* Sorts the rows by price, and marks the front. */

@@ -626,7 +626,7 @@ typedef struct counted {
     double most; /* most evaluations in one step */
 } counted;
 
-/* One step. With contacts their cost varies; a step as one matrix evaluates one list. */
+/* Makes one step. With contacts the cost of a step varies; a step by one matrix evaluates one list. */
 static bool take_step(const engine_kind *kind, void *run, const image *im, counted *c) {
     uint64_t declared;
     const bool matrix = im->list[IMAGE_MATRIX] != NULL;

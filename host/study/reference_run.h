@@ -125,10 +125,12 @@ typedef struct reference {
     reference_column *column; /* [columns] */
     double
         limit; /* a record is trusted while no column differs by more than this part of its largest value */
-    char *how;   /* the two settings, in words */
-    char *why;   /* the reason for an early end of the trust, or for no reference at all; else "" */
-    bool broken; /* the trust ends early for lack of small steps, not because the motions diverge */
-    bool still;  /* no quantity moves, so there is no reference */
+    char *how; /* the two settings, in words */
+    char *why; /* the reason for an early end of the trust, or for no reference at all; else "" */
+    /* the reference is not trusted to the end because its steps are not small enough, not because the motions
+     * diverge */
+    bool broken;
+    bool still;   /* no quantity moves, so there is no reference */
     bool stopped; /* interrupted: it is of no use */
 } reference;
 

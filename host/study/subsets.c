@@ -19,7 +19,8 @@ static uint64_t bit(int k) { return (uint64_t)1 << (unsigned)k; }
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The instance keeps the parameters of the effects that are left out, so `set` and --set stay valid. */
+/* The scene without some effects. The instance keeps the parameters of these effects, so that `set` and --set stay
+ * valid. */
 static image *image_without(const subsets *s, uint64_t out, diags *errors) {
     instance *inst = instance_make(s->of, s->in, s->changes, errors);
     for (int k = 0; inst != NULL && k < s->effects; k++) {

@@ -42,7 +42,8 @@ typedef struct subsets {
     int count;
 } subsets;
 
-/* Makes the full scene's image. False, reported: it has no image, or too many effects. subsets_close() in any case. */
+/* Makes the image of the full scene. Returns false, and reports the reason, if there is no image, or too many effects.
+ * Call subsets_close() in any case. */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
 /* Runs the full scene, together with those without one effect. Returns false, and reports the reason, if the full run

@@ -22,7 +22,7 @@
 static const struct {
     const char *word;
     const char *run;    /* additional options of `whirl run` */
-    const char *derive; /* options of both */
+    const char *derive; /* options that `whirl derive` and `whirl run` share */
     const char *form;   /* options of `whirl derive` only */
     const engine_kind *kind;
     bool compensated;

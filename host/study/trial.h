@@ -37,7 +37,7 @@ setting setting_at(int i); /* 0 <= i < setting_count() */
 /* Is its method requested? NULL: the default ones, rk4 and nystroem3 to 5. Over the points of docs/figures/price.csv
  * the others save nothing in the median. A matrix replaces the default method. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
-/* The setting's place among all, and the place of its number type: float, float compensated, double, fixed. */
+/* The index of the setting among all settings, and that of its number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
 enum { SETTING_NUMBERS = 4 };
 int setting_number(const setting *s);
@@ -46,8 +46,8 @@ cost_number setting_cost_number(const setting *s);
 /* May a scene refuse this form without an error? A matrix requires a linear scene, tables one turn angle. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Does this setting give another step than the earlier ones? `im` was made with it. False if the method does not take the system,
- * or if the angles cannot turn, because they are then looked up in any case. */
+/* Does this setting give another step than the earlier ones? `im` was made with it. Returns false if the method does
+ * not take the system, or if the sines cannot be rotated and are looked up in any case. */
 bool setting_is_own(const setting *s, const image *im);
 /* Is the number type fixed point? Then a scene may have no step, or no step of this length (host/fixed). */
 bool setting_is_fixed(const setting *s);
@@ -65,11 +65,12 @@ const char *setting_form(const setting *s);
 /* The source of images: the scene, varied. */
 typedef struct trial_source {
     void *context;
-    int points; /* the scene itself, or this many places of its ranges and the scene's own values */
+    /* number of points: 1 for the scene itself; or points of its ranges and the scene's own values */
+    int points;
     /* The image of a place, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees it.
      * NULL without an image: reported, unless the scene refuses the setting (setting_may_be_refused()). */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
-    /* A place as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
+    /* A point as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
     const char *(*name)(void *context, int point);
 } trial_source;
 

@@ -236,7 +236,8 @@ TEST(chip_motor, break) {
     }
 }
 
-/* A voltage ordered while stop is pressed has no effect on release. The motor must be switched off and started again. */
+/* A voltage that is set while stop is pressed has no effect, also after stop is released. The motor must be switched
+ * off and started again. */
 TEST(chip_motor, ordered_while_pressed) {
     chip_on(7);
     chip_pass_us(10000);

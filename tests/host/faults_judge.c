@@ -274,7 +274,7 @@ static void take_notes(judge *j, const wh_orders *orders) {
     }
 }
 
-/* The longest step between two answers, after a late one. */
+/* Counts the longest step between two answers, if the last answer was late. */
 static void count_step(judge *j, double time_s, const wh_orders *orders) {
     const double instructions = (double)orders->step_timer * j->per_count;
     const double loop = (double)orders->busy_timer * j->per_count;

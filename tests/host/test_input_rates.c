@@ -37,7 +37,8 @@ static void set_course(motion *m, const course *c, int telling, double h, double
 
 /* --- stops --------------------------------------------------------------------------------------------------- */
 
-/* A ball between two walls at constant speeds leaves each at V - e (v - V). */
+/* Reference: a ball between two walls of constant speed V. After a hit with the speed v the ball leaves a wall at V - e
+ * (v - V). */
 static void exact_ball(const double *wall, const double *speed, double e, double until_s, double *x,
                        double *v) {
     double t = 0.0;

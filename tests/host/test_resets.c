@@ -131,7 +131,7 @@ TEST(resets, what_is_lost) {
     }
     run_with("reset=0.15@0.07"); /* two arrive during it */
     TEST_ASSERT_EQUAL_INT(2, h.edges);
-    run_with("orders-lost=1@0.397,reset@0.4"); /* no last order remains either */
+    run_with("orders-lost=1@0.397,reset@0.4"); /* the orders before the reset are lost, too */
     TEST_ASSERT_TRUE(h.push[200] > 0.0 && h.push[210] == 0.0);
     run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* orders not yet in effect never are */
     TEST_ASSERT_TRUE(h.resets == 1 && h.push[200] > 0.0 && h.push[201] == 0.0);

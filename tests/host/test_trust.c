@@ -146,7 +146,8 @@ static void expect_ratio(const char *what, const horizons *h, double least, doub
     TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(h) >= least && horizons_ratio(h) <= most, what);
 }
 
-/* The error grows evenly in these runs, so an omitted part of it would show in proportion. */
+/* In these runs the error grows proportionally to time, so an estimate that omits a part of the error is too late in
+ * proportion. */
 TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
     static const struct {
         wh_method method;

@@ -94,7 +94,8 @@ static float float_of(uint32_t bits) {
     return value;
 }
 
-/* 1 over the spacing of floats at this size, for sizes from 0 to the largest float: a power of two, made from bits. */
+/* 1 over the spacing of floats at this size, for sizes from 0 to the largest float: a power of two, computed from the
+ * bits. */
 static double per_unit(double size) {
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
