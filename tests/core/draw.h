@@ -24,6 +24,11 @@ static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
            draw_whole(seed, 1, 1023) / WH_R(1048576.0);
 }
 
+/* One of 10001 evenly spaced numbers, both bounds included. */
+static inline wh_real draw_between(uint64_t *seed, wh_real least, wh_real most) {
+    return least + (most - least) * draw_whole(seed, 0, 10000) / WH_R(10000.0);
+}
+
 /* A random index below `count`; zero if `count` is zero. */
 static inline unsigned draw_one_of(uint64_t *seed, unsigned count) {
     return count > 0 ? (unsigned)(draw_bits(seed) % count) : 0U;

@@ -97,22 +97,6 @@ TEST(contact, a_rest_at_the_last_moment_is_counted) {
     }
 }
 
-/* The sine and cosine of 10 degrees. */
-static void build_block(wh_real coefficient) {
-    const wh_real normal = HAND_G * WH_R(0.984807753);
-    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
-    hand_now.load[0] = HAND_G * WH_R(0.173648178);
-    hand_add(WH_FRICTION, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), coefficient * normal,
-             coefficient * normal);
-}
-
-TEST(contact, block_sticks_on_the_incline) {
-    build_block(WH_R(0.5));
-    hand_start(false);
-    hand_steps(60000);
-    TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.0) && hand_state.real[1] == WH_R(0.0));
-}
-
 /* A load that moves the body out of bounds: the step is refused, and state, modes and ledger stay unchanged. */
 TEST(contact, a_refused_step_changes_nothing) {
     hand_build_ball(WH_R(0.5));

@@ -155,37 +155,6 @@ TEST(contact_search, the_first_of_several_is_found) {
     told(&sum, 870, 645, 14);
 }
 
-/* Contacts that are beyond zero at the begin all have their event at once, and no others do. A sliding contact begins
- * at rate zero. */
-TEST(contact_search, what_is_beyond_already_comes_at_once) {
-    uint64_t seed = 202;
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        wh_contact_work w;
-        wh_contact_state from = {.real = {WH_R(0.0)}};
-        unsigned at_once = 0;
-        draw_ways(&seed, 2, &from);
-        const unsigned count = 1U + draw_one_of(&seed, BENCH_FORCED);
-        for (unsigned k = 0; k < count; k++) {
-            const unsigned i = draw_one_of(&seed, 2U);
-            const wh_real side = from.real[2 + i] > WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
-            (void)add_along(&seed, k < 2 ? WH_STOP : WH_WHEN, i, side);
-            const bool beyond = draw_one_in(&seed, 3);
-            const wh_real gap = beyond ? WH_R(-0.125) : -side * place_at(&from, i, share_of(&seed));
-            bench_now.signal[2 * k] = gap;
-            at_once |= beyond ? 1U << k : 0U;
-        }
-        bench_work(&seed, false, &w);
-        for (unsigned k = 0; k < count; k++) {
-            w.mode[k] = k < 2 ? WH_FREE : 1;
-        }
-        unsigned events = 0;
-        const wh_real found = locate(&w, &from, WH_R(1.0), &events);
-        TEST_ASSERT_TRUE((found == WH_R(0.0)) == (at_once != 0));
-        TEST_ASSERT_TRUE(at_once == 0 || events == at_once);
-        TEST_ASSERT_TRUE(at_once == 0 || bench_now.looks == 1U);
-    }
-}
-
 /* A friction that slides against a force comes to rest at the time v/a. It begins with a nonzero rate, or with rate
  * zero in a mode that ends at once. */
 TEST(contact_search, sliding_ends_where_the_rate_does) {

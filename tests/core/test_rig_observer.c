@@ -19,10 +19,6 @@ static void begin(uint64_t seed, wh_real speed_rpm) {
     TEST_ASSERT_TRUE(fed_rotor_start(&fed, speed_rpm) == WH_OK);
 }
 
-static wh_real between(uint64_t *seed, wh_real least, wh_real most) {
-    return least + (most - least) * draw_whole(seed, 0, 10000) / WH_R(10000.0);
-}
-
 static void check_below(wh_real bound, wh_real value) { TEST_ASSERT_TRUE(value < bound); }
 
 /* --- the nominal rotor ------------------------------------------------------------------------------ */
@@ -118,17 +114,17 @@ TEST(rig_observer, drawn_rotors_are_followed) {
     for (unsigned i = 0; i < draws; i++) {
         fed_rotor_standard(&fed, seed);
         rotor_kind *kind = &fed.kind;
-        kind->inertia_kgm2 *= i % 2U == 0 ? between(&seed, WH_R(0.5), WH_R(1.5))
-                                          : between(&seed, WH_R(1.5), WH_R(6.0));
-        kind->weight_Nm *= between(&seed, WH_R(0.7), WH_R(1.3));
-        kind->friction_Nm = between(&seed, WH_R(0.0), WH_R(0.2));
+        kind->inertia_kgm2 *= i % 2U == 0 ? draw_between(&seed, WH_R(0.5), WH_R(1.5))
+                                          : draw_between(&seed, WH_R(1.5), WH_R(6.0));
+        kind->weight_Nm *= draw_between(&seed, WH_R(0.7), WH_R(1.3));
+        kind->friction_Nm = draw_between(&seed, WH_R(0.0), WH_R(0.2));
         kind->jitter_s = JITTER_S;
         for (unsigned k = 0; k < 2; k++) {
-            kind->pulse_rad[k] += between(&seed, WH_R(-3.0), WH_R(3.0)) * DEG;
+            kind->pulse_rad[k] += draw_between(&seed, WH_R(-3.0), WH_R(3.0)) * DEG;
         }
         kind->freewheels = draw_one_in(&seed, 2);
         fed.observing.freewheels = kind->freewheels && draw_one_in(&seed, 2);
-        const wh_real rpm = between(&seed, WH_R(80.0), WH_R(400.0));
+        const wh_real rpm = draw_between(&seed, WH_R(80.0), WH_R(400.0));
         const wh_real first = rpm > WH_R(150.0) ? rpm : WH_R(150.0);
         fed.by = rpm < WH_R(170.0) ? FED_BY_TRUTH : (fed_by)draw_one_of(&seed, 3);
         TEST_ASSERT_TRUE(fed_rotor_start(&fed, first) == WH_OK);

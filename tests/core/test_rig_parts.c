@@ -16,10 +16,6 @@
 
 static uint64_t seed;
 
-static wh_real drawn_between(wh_real least, wh_real most) {
-    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
-}
-
 /* --- angles ------------------------------------------------------------------------------------------- */
 
 /* An angle less than a turn outside is wrapped into -pi ... pi; one further away becomes 0. */
@@ -40,8 +36,8 @@ TEST(rig_parts, free_angles) {
 TEST(rig_parts, polar_of_every_size) {
     seed = 2;
     for (unsigned i = 0; i < 2000U; i++) {
-        const wh_real angle = drawn_between(WH_R(-3.1), WH_R(3.1));
-        wh_real size = drawn_between(WH_R(1.0), WH_R(10.0));
+        const wh_real angle = draw_between(&seed, WH_R(-3.1), WH_R(3.1));
+        wh_real size = draw_between(&seed, WH_R(1.0), WH_R(10.0));
         for (unsigned k = draw_one_of(&seed, 7); k > 0; k--) {
             size *= WH_R(0.1);
         }
@@ -72,18 +68,18 @@ TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
         wh_rotor_config rotor = wh_rig_standard.measure.rotor;
-        rotor.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
+        rotor.inertia_kgm2 *= draw_between(&seed, WH_R(0.5), WH_R(2.0));
         rotor.gravity_mps2 *=
-            draw_one_in(&seed, 5) ? WH_R(0.0) : drawn_between(WH_R(0.5), WH_R(1.0));
-        rotor.pulse_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
-        rotor.pulse_rad[1] = rotor.pulse_rad[0] + drawn_between(WH_R(1.4), WH_R(1.7));
+            draw_one_in(&seed, 5) ? WH_R(0.0) : draw_between(&seed, WH_R(0.5), WH_R(1.0));
+        rotor.pulse_rad[0] = draw_between(&seed, WH_R(-0.1), WH_R(0.1));
+        rotor.pulse_rad[1] = rotor.pulse_rad[0] + draw_between(&seed, WH_R(1.4), WH_R(1.7));
         wh_turn_angle angle;
         wh_turn_angle_start(&rotor, &angle);
         wh_turn_angle_compensate(&angle, draw_one_in(&seed, 2), WH_R(0.0625));
         angle.drive_V = WH_R(24.0);
         for (unsigned turn = 0; turn < 3U; turn++) {
-            wh_turn_angle_shape(&rotor, &angle, drawn_between(WH_R(25.0), WH_R(40.0)));
-            const wh_real ratio = drawn_between(WH_R(0.22), WH_R(0.28));
+            wh_turn_angle_shape(&rotor, &angle, draw_between(&seed, WH_R(25.0), WH_R(40.0)));
+            const wh_real ratio = draw_between(&seed, WH_R(0.22), WH_R(0.28));
             const wh_real off = rotor.pulse_rad[1] - wh_turn_angle_at(&angle, ratio);
             TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)off,
                                      (float)wh_turn_angle_by_ratio(&rotor, &angle, ratio));
@@ -110,7 +106,7 @@ TEST(rig_parts, normal_equations_hold) {
         wh_real misfit = WH_R(0.0);
         for (unsigned j = 0; j < rows; j++) {
             off[j] = draw_broken(&seed, -2, 2);
-            weight[j] = drawn_between(WH_R(0.1), WH_R(4.0));
+            weight[j] = draw_between(&seed, WH_R(0.1), WH_R(4.0));
             for (unsigned k = 0; k < N; k++) {
                 row[j][k] = draw_broken(&seed, -1, 1);
             }
@@ -149,7 +145,7 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
             for (unsigned k = 0; k < N; k++) {
                 row[k] = draw_broken(&seed, -1, 1);
             }
-            wh_normal_add(&normal, row, WH_R(0.0), drawn_between(WH_R(0.1), WH_R(20.0)));
+            wh_normal_add(&normal, row, WH_R(0.0), draw_between(&seed, WH_R(0.1), WH_R(20.0)));
         }
         wh_normal_factor(&normal);
         for (unsigned which = 0; which < N; which++) {
@@ -171,7 +167,7 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
 TEST(rig_parts, the_last_interval_bounds_what_coasts) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
-        const wh_real speed = drawn_between(WH_R(5.0), WH_R(40.0));
+        const wh_real speed = draw_between(&seed, WH_R(5.0), WH_R(40.0));
         const uint32_t quarter =
             (uint32_t)(WH_R(0.25) * TURN / speed * (wh_real)WH_RIG_TICKS_PER_S);
         const unsigned sensor = draw_one_of(&seed, 2);
@@ -181,7 +177,7 @@ TEST(rig_parts, the_last_interval_bounds_what_coasts) {
         wh_pulses_start(&pulses, wh_rig_standard.impossible_radps);
         wh_pulses_take(&pulses, 1U - sensor, last);
         const int32_t after = i % 3U == 0 ? 0 : (int32_t)draw_whole(&seed, -3, 3) * (int32_t)i;
-        const wh_real before_radps = drawn_between(WH_R(1.0), WH_R(60.0));
+        const wh_real before_radps = draw_between(&seed, WH_R(1.0), WH_R(60.0));
         wh_run run = {.phase = WH_PHASE_OFF,
                       .off_radps = before_radps,
                       .since_ticks = last + (uint32_t)after};
@@ -230,8 +226,8 @@ TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
     for (unsigned i = 0; i < 500U; i++) {
         const unsigned sensor = draw_one_of(&seed, 2);
         const wh_real part = sensor == 0 ? WH_R(0.25) : WH_R(0.75);
-        const wh_real bound_radps = drawn_between(WH_R(10.0), WH_R(30.0));
-        const wh_real times = drawn_between(WH_R(0.5), WH_R(1.5));
+        const wh_real bound_radps = draw_between(&seed, WH_R(10.0), WH_R(30.0));
+        const wh_real times = draw_between(&seed, WH_R(0.5), WH_R(1.5));
         const wh_real passed_s = part * TURN / (bound_radps * times);
         const uint32_t ticks = (uint32_t)draw_bits(&seed) * 2U;
         wh_pulses pulses;
@@ -266,7 +262,7 @@ TEST(rig_parts, first_and_last_turn_of_those_that_count) {
         for (unsigned i = 0; i < 12U; i++) {
             turn.turn_ticks = 200000U + draw_one_of(&seed, 1000);
             turn.fault = draw_one_in(&seed, 3) ? WH_TURN_GAP : WH_TURN_OK;
-            turn.force_N.at[1] = drawn_between(WH_R(40.0), WH_R(44.0));
+            turn.force_N.at[1] = draw_between(&seed, WH_R(40.0), WH_R(44.0));
             wh_merge_add(config, rotor, &merge, &turn, &angle);
             if (turn.fault == WH_TURN_OK) {
                 first = counted++ == 0 ? turn.turn_ticks : first;

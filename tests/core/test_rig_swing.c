@@ -32,20 +32,16 @@ static uint32_t passed_ticks[PASSED_MOST];
 static wh_real passed_radps[PASSED_MOST];
 static unsigned passed;
 
-static wh_real drawn_between(wh_real least, wh_real most) {
-    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
-}
-
 static drawn draw_rotor(wh_real friction_least_Nm, wh_real friction_most_Nm) {
     drawn rotor = {.kind = rotor_nominal()};
     rotor.kind.stall_Nm = WH_R(0.0);
-    rotor.kind.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
-    rotor.kind.drag_Nms = drawn_between(WH_R(0.0), WH_R(0.002));
-    rotor.kind.friction_Nm = drawn_between(friction_least_Nm, friction_most_Nm);
+    rotor.kind.inertia_kgm2 *= draw_between(&seed, WH_R(0.5), WH_R(2.0));
+    rotor.kind.drag_Nms = draw_between(&seed, WH_R(0.0), WH_R(0.002));
+    rotor.kind.friction_Nm = draw_between(&seed, friction_least_Nm, friction_most_Nm);
     rotor.kind.slot_rad = WH_R(2.0) * DEG;
     rotor.kind.jitter_s = WH_R(104e-6);
     for (unsigned i = 0; i < 2; i++) {
-        rotor.place_rad[i] = drawn_between(WH_R(-3.0), WH_R(3.0)) * DEG;
+        rotor.place_rad[i] = draw_between(&seed, WH_R(-3.0), WH_R(3.0)) * DEG;
         rotor.kind.pulse_rad[i] += rotor.place_rad[i];
     }
     return rotor;
@@ -82,8 +78,8 @@ static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *s
 static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool rests) {
     rotor_state state = {.ticks = UINT32_MAX - 3000000U,
                          .seed = seed,
-                         .angle_rad = drawn_between(WH_R(0.0), WH_RIG_TWO_PI),
-                         .speed_radps = drawn_between(WH_R(19.0), WH_R(24.0))};
+                         .angle_rad = draw_between(&seed, WH_R(0.0), WH_RIG_TWO_PI),
+                         .speed_radps = draw_between(&seed, WH_R(19.0), WH_R(24.0))};
     unsigned pulses = 0;
     uint32_t quiet = 0;
     swing = (wh_swing){.free = false};

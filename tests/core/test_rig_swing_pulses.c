@@ -13,10 +13,6 @@
 static uint64_t seed;
 static wh_swing swing;
 
-static wh_real drawn_between(wh_real least, wh_real most) {
-    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
-}
-
 static bool near(wh_real found, wh_real wanted, wh_real most) {
     return WH_ABS(found - wanted) <= most;
 }
@@ -132,7 +128,7 @@ static wh_real swing_out(const rotor_kind *kind) {
     const wh_real over_radps = WH_R(2.0) * WH_SQRT(kind->weight_Nm / kind->inertia_kgm2);
     rotor_state state = {.ticks = UINT32_MAX - 3000000U,
                          .seed = seed,
-                         .speed_radps = over_radps * drawn_between(WH_R(1.15), WH_R(1.4))};
+                         .speed_radps = over_radps * draw_between(&seed, WH_R(1.15), WH_R(1.4))};
     uint32_t quiet = 0;
     wh_real first_radps = WH_R(0.0);
     swing = (wh_swing){.free = false};
@@ -161,9 +157,9 @@ TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
         rotor_kind kind = rotor_nominal();
         kind.stall_Nm = WH_R(0.0);
         kind.slot_rad = WH_R(2.0) / WH_RIG_DEG_PER_RAD;
-        kind.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
-        kind.drag_Nms = drawn_between(WH_R(0.0), WH_R(0.001));
-        kind.friction_Nm = drawn_between(WH_R(0.002), WH_R(0.05));
+        kind.inertia_kgm2 *= draw_between(&seed, WH_R(0.5), WH_R(2.0));
+        kind.drag_Nms = draw_between(&seed, WH_R(0.0), WH_R(0.001));
+        kind.friction_Nm = draw_between(&seed, WH_R(0.002), WH_R(0.05));
         const wh_real first_radps = swing_out(&kind);
         if (!swing.swings || swing.passed < 4U) {
             continue;
@@ -205,14 +201,14 @@ static wh_real longer_by(wh_real k2) {
 TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
-        const wh_real near_top = drawn_between(WH_R(0.03), WH_R(0.2));
-        const wh_real sine =
-            i % 2U == 0 ? drawn_between(WH_R(0.42), WH_R(0.96)) : WH_R(1.0) - near_top * near_top;
+        const wh_real near_top = draw_between(&seed, WH_R(0.03), WH_R(0.2));
+        const wh_real sine = i % 2U == 0 ? draw_between(&seed, WH_R(0.42), WH_R(0.96))
+                                         : WH_R(1.0) - near_top * near_top;
         /* the table has eight points, with linear interpolation */
         const wh_real part = sine > WH_R(0.96)   ? WH_R(0.009)
                              : sine > WH_R(0.55) ? WH_R(0.017)
                                                  : WH_R(0.045);
-        const wh_real root = drawn_between(WH_R(5.0), WH_R(10.0));
+        const wh_real root = draw_between(&seed, WH_R(5.0), WH_R(10.0));
         const wh_real half_s = WH_R(0.5) * WH_RIG_TWO_PI / root;
         swing = (wh_swing){.swings = true, .passed = 20, .kept = 20};
         wh_real passed_s = WH_R(0.0);
@@ -260,8 +256,8 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
         rotor_kind kind = rotor_nominal();
         kind.stall_Nm = WH_R(0.0);
         kind.slot_rad = WH_R(2.0) / WH_RIG_DEG_PER_RAD;
-        kind.inertia_kgm2 *= drawn_between(WH_R(0.5), WH_R(2.0));
-        kind.friction_Nm = drawn_between(WH_R(0.01), WH_R(0.03));
+        kind.inertia_kgm2 *= draw_between(&seed, WH_R(0.5), WH_R(2.0));
+        kind.friction_Nm = draw_between(&seed, WH_R(0.01), WH_R(0.03));
         (void)swing_out(&kind);
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, true);
         for (uint32_t k = 0; k < 100000U && wh_swing_works(&swing); k++) {
@@ -303,10 +299,11 @@ TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
     for (unsigned i = 0; i < 400U; i++) {
         const wh_real h = i % 2U == 0 ? WH_R(0.004) : WH_R(-0.004);
         const wh_real way = i % 4U < 2U ? WH_R(1.0) : WH_R(-1.0);
-        const wh_real cause[WH_FREE_CAUSES] = {
-            way * drawn_between(WH_R(0.0), WH_R(1.5)),
-            way * h * drawn_between(WH_R(2.0), WH_R(30.0)), drawn_between(WH_R(40.0), WH_R(80.0)),
-            drawn_between(WH_R(0.0), WH_R(24.0)), drawn_between(WH_R(0.0), WH_R(0.5))};
+        const wh_real cause[WH_FREE_CAUSES] = {way * draw_between(&seed, WH_R(0.0), WH_R(1.5)),
+                                               way * h * draw_between(&seed, WH_R(2.0), WH_R(30.0)),
+                                               draw_between(&seed, WH_R(40.0), WH_R(80.0)),
+                                               draw_between(&seed, WH_R(0.0), WH_R(24.0)),
+                                               draw_between(&seed, WH_R(0.0), WH_R(0.5))};
         wh_free_rotor one;
         wh_free_rotor many;
         wh_free_rotor_start(&one, cause[WH_FREE_Q], cause[WH_FREE_RATE]);

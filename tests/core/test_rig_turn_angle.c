@@ -11,10 +11,6 @@
 
 static uint64_t seed;
 
-static wh_real drawn_between(wh_real least, wh_real most) {
-    return least + (most - least) * draw_whole(&seed, 0, 10000) / WH_R(10000.0);
-}
-
 /* A turn: the nominal rotor, its speed, and its inertia or uncompensated part of gravity. */
 typedef struct turn {
     wh_rotor_config rotor;
@@ -88,13 +84,14 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
         turn of = {.rotor = wh_rig_standard.measure.rotor, .fed = i % 2U == 1U};
-        const wh_real about = of.fed ? drawn_between(WH_R(-0.3), WH_R(0.3))
-                                     : of.rotor.inertia_kgm2 * drawn_between(WH_R(1.0), WH_R(2.0));
-        of.speed_radps = drawn_between(WH_R(28.0), WH_R(42.0));
+        const wh_real about =
+            of.fed ? draw_between(&seed, WH_R(-0.3), WH_R(0.3))
+                   : of.rotor.inertia_kgm2 * draw_between(&seed, WH_R(1.0), WH_R(2.0));
+        of.speed_radps = draw_between(&seed, WH_R(28.0), WH_R(42.0));
         of.rotor.gravity_rad = WH_R(0.25) * WH_RIG_TWO_PI * draw_whole(&seed, 0, 3) +
-                               drawn_between(WH_R(-0.25), WH_R(0.25));
-        of.rotor.pulse_rad[0] = drawn_between(WH_R(-0.1), WH_R(0.1));
-        of.rotor.pulse_rad[1] = of.rotor.pulse_rad[0] + drawn_between(WH_R(1.5), WH_R(1.65));
+                               draw_between(&seed, WH_R(-0.25), WH_R(0.25));
+        of.rotor.pulse_rad[0] = draw_between(&seed, WH_R(-0.1), WH_R(0.1));
+        of.rotor.pulse_rad[1] = of.rotor.pulse_rad[0] + draw_between(&seed, WH_R(1.5), WH_R(1.65));
         wh_real ratio = WH_R(0.25);
         for (unsigned k = 0; k < 30U; k++) {
             ratio -= beyond(&of, about, ratio) / WH_RIG_TWO_PI;
@@ -123,9 +120,10 @@ TEST(rig_turn_angle, a_shape_is_found_at_once) {
     wh_real worst = WH_R(0.0);
     for (unsigned i = 0; i < 500U; i++) {
         turn of = {.rotor = wh_rig_standard.measure.rotor,
-                   .speed_radps = drawn_between(WH_R(170.0), WH_R(360.0)) * WH_RIG_RADPS_PER_RPM};
-        of.rotor.gravity_rad = drawn_between(WH_R(-3.0), WH_R(3.0));
-        of.rotor.inertia_kgm2 *= drawn_between(WH_R(0.7), WH_R(1.5));
+                   .speed_radps =
+                       draw_between(&seed, WH_R(170.0), WH_R(360.0)) * WH_RIG_RADPS_PER_RPM};
+        of.rotor.gravity_rad = draw_between(&seed, WH_R(-3.0), WH_R(3.0));
+        of.rotor.inertia_kgm2 *= draw_between(&seed, WH_R(0.7), WH_R(1.5));
         wh_turn_angle once;
         wh_turn_angle often;
         wh_turn_angle_start(&of.rotor, &once);

@@ -123,23 +123,6 @@ static void test_pulses_stand_at_their_angles(void) {
     TEST_ASSERT_TRUE(pulses >= 21U && pulses <= 23U); /* two per turn, at 5.5 turns per second */
 }
 
-/* Pulses are lost in the middle of the record. Each costs its turn and, for sensor 1, also the next one. */
-static void test_lost_pulses_do_not_spoil_the_run(void) {
-    for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
-        plant_begin(&on, 330.0f);
-        plant_go_on_until(&on, WH_PHASE_RECORD);
-        for (unsigned i = 0; i < 250U; i++) {
-            plant_control(&on);
-        }
-        hal_virtual_rig_instance()->faults.lose_pulses[lost == 1 ? 0 : 1] = lost;
-        plant_go_on_to_the_end(&on);
-        check_measurement(330.0f);
-        TEST_ASSERT_EQUAL_UINT32(lost, on.rig.result.lost);
-        TEST_ASSERT_EQUAL_UINT32(lost == 1 ? 8 : 10, on.rig.result.force.turns);
-        TEST_ASSERT_EQUAL_UINT32(lost == 1 ? 2 : 0, on.rig.result.force.left_out);
-    }
-}
-
 static void test_slowest_and_fastest_set_points_run(void) {
     static const wh_real targets_rpm[] = {WH_RIG_TARGET_MIN_RPM, WH_RIG_TARGET_MAX_RPM};
     for (unsigned i = 0; i < 2; i++) {
@@ -195,7 +178,6 @@ SUITE(virtual_rig) {
     RUN_TEST(test_gravity_shows_in_the_peaks_and_spikes);
     RUN_TEST(test_a_noisy_cell_is_no_fault);
     RUN_TEST(test_pulses_stand_at_their_angles);
-    RUN_TEST(test_lost_pulses_do_not_spoil_the_run);
     RUN_TEST(test_slowest_and_fastest_set_points_run);
     RUN_TEST(test_data_sheet_agrees_with_the_model);
     RUN_TEST(test_a_foreign_scene_is_refused);
