@@ -227,10 +227,7 @@ TEST(effect_parts, inertia_of_effects) {
     }
 }
 
-/* --- noise and inputs of effects -------------------------------------------------------------- */
-
-/* Noise acts on the records alone, the same everywhere; inputs of effects. */
-#define SMALL 1e-9 /* far above the round-off of a parabola in 1000 steps of RK4 */
+/* Noise acts on the records alone, the same everywhere. */
 
 /* --- noise ------------------------------------------------------------------------------------------------------ */
 
@@ -280,27 +277,4 @@ TEST(effect_parts, noise_is_on_the_records_only) {
     compare_noise("eccentric", "cell_noise", "pin_force", 2, 0.07);
     compare_noise("eccentric_coupled", "sensor_noise", "cell_force", 1, 0.07);
     compare_noise("eccentric_coupled", "sensor_noise", "speed", 1, 0.05);
-}
-
-/* --- an effect's input ------------------------------------------------------------------------------------------- */
-
-/* An inactive effect leaves no trace, nor does its input; when active, its input acts. */
-TEST(effect_parts, inputs_of_effects) {
-    static const char start[] = "mechanism t\ncoordinate X [m]\nT = 2 [kg]*X'^2/2\n"
-                                "effect push { input f = 6 [N]; Q(X) += f }\n"
-                                "input h = 1 [N]\nQ(X) = h\n";
-    char with[sizeof start + 40];
-    motion m;
-    snprintf(with, sizeof with, "%sscene t { until 1 [s] }\n", start);
-    motion_open_text(&m, with, IN_DOUBLE_STEP(1e-3));
-    TEST_ASSERT_EQUAL_INT(1, m.image->inputs);
-    motion_to(&m, 1.0);
-    TEST_ASSERT_DOUBLE_WITHIN(SMALL, 0.25, motion_value(&m, "X"));
-    motion_close(&m);
-    snprintf(with, sizeof with, "%sscene t { with push }\n", start);
-    motion_open_text(&m, with, IN_DOUBLE_STEP(1e-3));
-    TEST_ASSERT_EQUAL_INT(2, m.image->inputs);
-    motion_to(&m, 1.0);
-    TEST_ASSERT_DOUBLE_WITHIN(SMALL, 1.75, motion_value(&m, "X"));
-    motion_close(&m);
 }

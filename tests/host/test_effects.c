@@ -98,21 +98,6 @@ TEST(effects, fall_reaches_the_terminal_velocity) {
     motion_close(&m);
 }
 
-/* Without gravity the direction stays and the speed 13 m/s falls hyperbolically. */
-TEST(effects, drag_is_along_the_velocity) {
-    motion m;
-    motion_open_more(&m, "cartesian_particle.whirl",
-                     "scene t { with air_drag; set c = 0.1 [kg/m], g = 0\n"
-                     "start x' = 3 [m/s], y' = -4 [m/s], z' = 12 [m/s] }\n",
-                     IN_DOUBLE_STEP(1e-3));
-    motion_to(&m, 2.0);
-    const double part = 1.0 / (1.0 + 0.1 * 13.0 * 2.0);
-    TEST_ASSERT_DOUBLE_WITHIN(SMALL, 3.0 * part, motion_value(&m, "x'"));
-    TEST_ASSERT_DOUBLE_WITHIN(SMALL, -4.0 * part, motion_value(&m, "y'"));
-    TEST_ASSERT_DOUBLE_WITHIN(SMALL, 12.0 * part, motion_value(&m, "z'"));
-    motion_close(&m);
-}
-
 TEST(effects, drag_is_the_same_in_spherical_coordinates) {
     static const char *const names[] = {"x", "y", "z"};
     motion a;

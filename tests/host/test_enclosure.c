@@ -219,32 +219,6 @@ static void test_sines(void) {
 #endif
 }
 
-/* Against the C library in long double, with an error of some 1e-19. */
-static void test_exponentials(void) {
-    const long double known = 4.0L * (long double)LDBL_EPSILON;
-    if (LDBL_MANT_DIG < 64) {
-        TEST_IGNORE_MESSAGE("no long double of more bits here");
-    }
-    for (unsigned i = 0; i < dice_cases(20000); i++) {
-        const double x = dice_between(&die, -300.0, 300.0);
-        const double y = ldexp(dice_between(&die, 1.0, 2.0), (int)dice_one_of(&die, 200) - 100);
-        const double e = dice_between(&die, -3.0, 3.0);
-        const enclosure exponential = enclosure_exp(enclosure_of(x));
-        const enclosure logarithm = enclosure_log(enclosure_of(y));
-        const enclosure power = enclosure_power(enclosure_of(y), enclosure_of(e));
-        const long double wanted[] = {expl((long double)x), logl((long double)y),
-                                      powl((long double)y, (long double)e)};
-        const enclosure got[] = {exponential, logarithm, power};
-        for (int k = 0; k < 3; k++) {
-            const long double slack = known * fabsl(wanted[k]);
-            TEST_ASSERT_TRUE((long double)got[k].low <= wanted[k] + slack);
-            TEST_ASSERT_TRUE((long double)got[k].high >= wanted[k] - slack);
-        }
-        expect_narrow("an exponential", exponential, 20000.0);
-        expect_narrow("a power", power, 100000.0);
-    }
-}
-
 /* For each function of the language: values between the ends are mapped between the bounds, and a point to a narrow
  * interval. */
 static void test_functions(void) {
@@ -283,6 +257,5 @@ void suite_enclosure(void) {
     RUN_TEST(test_whole_range);
     RUN_TEST(test_not_finite);
     RUN_TEST(test_sines);
-    RUN_TEST(test_exponentials);
     RUN_TEST(test_functions);
 }

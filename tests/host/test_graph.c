@@ -302,8 +302,13 @@ TEST(graph, numbers) {
         expect_number("a sign", graph_neg(g_graph, i), -p);
         expect_number("a sine", graph_sine(g_graph, i), sinl(p));
         expect_number("a cosine", graph_cosine(g_graph, i), cosl(p));
-        expect_number("an exponential", graph_exp(g_graph, i), expl(p));
-        expect_number("a logarithm", graph_log(g_graph, k), logl(q));
+        const double wide = 60.0 * a;
+        const double far = ldexp(b, (int)(20.0 * a));
+        expect_number("an exponential",
+                      graph_exp(g_graph, graph_number(g_graph, enclosure_of(wide))),
+                      expl((long double)wide));
+        expect_number("a logarithm", graph_log(g_graph, graph_number(g_graph, enclosure_of(far))),
+                      logl((long double)far));
         expect_number("a power", graph_power(g_graph, k, enclosure_of(a)), powl(q, p));
         const int variable = graph_variable(g_graph, 0);
         const int shared = graph_mul(g_graph, k, graph_mul(g_graph, variable, i));
