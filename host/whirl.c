@@ -53,7 +53,7 @@ enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 static void print_usage(FILE *out) {
     static const char *const why[EXITS] = {
-        "", "a run did, or an output could not be written whole (a full disk)", "", ""};
+        "", "a run failed, or an output could not be written (full disk)", "", ""};
     fputs("usage: whirl COMMAND ...\n"
           "\n"
           "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"

@@ -97,10 +97,10 @@ static inline void put_result(const wh_rig_config *config, const wh_rig_result *
     put_value("its phase to the masses", force->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
     put_interval("  known to within", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 3, "deg");
     put_verdict(force);
-    put_force("expected of masses and speed", force->expected_N);
+    put_force("expected from masses, speed", force->expected_N);
     put_value("residual of the load, rms", force->residual_N, 3, "N");
     put_value("  repeats each turn", force->repeats_N, 3, "N");
-    put_value("  noise lets expect, at most", force->repeats_limit_N, 3, "N");
+    put_value("  largest expected from noise", force->repeats_limit_N, 3, "N");
     put_value("samples left out", (float)force->outliers, 0, "");
     put_value("turns left out", (float)force->left_out, 0, "");
     put_force("mean force", force->mean_N);
@@ -108,7 +108,7 @@ static inline void put_result(const wh_rig_config *config, const wh_rig_result *
     put_force("highest peak", result->high_N);
     put_force("load at sensor 1's spikes", force->at_pulse_N[0]);
     put_force("load at sensor 2's spikes", force->at_pulse_N[1]);
-    put_force("tare taken off", result->tare_N);
+    put_force("tare subtracted", result->tare_N);
     put_value("motor voltage", result->volts, 2, "V");
     put_value("slot pulses lost", (float)result->lost, 0, "");
     put_value("slot pulses rejected", (float)result->rejected, 0, "");
@@ -143,7 +143,7 @@ static inline void put_carriage(const wh_rig_config *config, const wh_carriage *
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;
     const float lever_m = config->measure.rotor.unbalance_kgm / WH_RIG_ECCENTRIC_KG;
-    put("On a carriage: force as a part of that on a fixed mount, 1/(1 + ratio)\n");
+    put("On a carriage: force divided by that on a fixed mount, 1/(1 + ratio)\n");
     put_value("eccentric / carriage weight", carriage->ratio, 4, "");
     put_value("radius of the discs", 1e3f * carriage->disc_m, 1, "mm");
     put_value("1/(1 + ratio)", 100.0f * part, 2, "%");

@@ -140,13 +140,13 @@ typedef enum wh_swing_piece {
 #define WH_SWING_ROWS(X) \
     X(WH_SWING_NONE, "no run has ended in a free swing") \
     X(WH_SWING_SWINGS, "the rotor is not at rest yet") \
-    X(WH_SWING_WORKS, "its pulses are being looked at") \
+    X(WH_SWING_WORKS, "the pulses of the swing are being analysed") \
     X(WH_SWING_FOUND, "found") \
     X(WH_SWING_NOT_FREE, "the rotor did not come to rest freely") \
     X(WH_SWING_FEW, "too few swings: friction stops the rotor") \
     X(WH_SWING_MISFIT, "the pulses are not those of a free swing") \
-    X(WH_SWING_SIDES, "nothing tells right from left: sensor 2 was not passed") \
-    X(WH_SWING_WIDE, "the swings do not tell it: the interval is too wide")
+    X(WH_SWING_SIDES, "right and left cannot be distinguished: sensor 2 was not passed") \
+    X(WH_SWING_WIDE, "the swings do not determine the angles: the interval is too wide")
 
 #define WH_SWING_NAME(name, words) name,
 typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swing_why;

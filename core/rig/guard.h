@@ -16,19 +16,19 @@ extern "C" {
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
     X(WH_TRIP_PULSES, 3, "slot pulses are missing, too many or out of order") \
-    X(WH_TRIP_STALLED, 4, "the rotor does not start, or is not seen") \
+    X(WH_TRIP_STALLED, 4, "the rotor does not start, or the sensors do not see it") \
     X(WH_TRIP_LOAD_CELL, 5, "the load cell is silent, stuck, overloaded or disconnected") \
     X(WH_TRIP_WATCHDOG, 6, "the watchdog cut the motor") \
     X(WH_TRIP_MOVING, 7, "the rig was not at rest for the tare") \
-    X(WH_TRIP_UNSETTLED, 8, "the speed does not settle or stay") \
+    X(WH_TRIP_UNSETTLED, 8, "the speed does not settle, or does not stay settled") \
     X(WH_TRIP_RECORD, 9, "the record lacks load samples or counted turns") \
     X(WH_TRIP_RUNS_ON, 10, \
       "the rotor turns with the motor off: the stage ignores its enable, or somebody turns the rotor") \
     X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed") \
     X(WH_TRIP_UNBRAKED, 12, \
-      "the rotor does not slow as the motor brakes: the stage ignores its voltage, or cannot brake") \
+      "the rotor does not slow when the motor brakes: the stage ignores its duty, or cannot brake") \
     X(WH_TRIP_FASTER, 14, \
-      "faster than the motor's settings: check no_load_speed, rated_voltage, the supply's divider") \
+      "faster than the motor can turn: check no_load_speed, rated_voltage, the supply's divider") \
     X(WH_TRIP_ORDER, 15, \
       "slot pulses in the wrong order: the motor runs backwards, or the sensors are swapped")
 

@@ -28,7 +28,7 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
 
 /* Reasons, the strongest first: X(name, quality, words). */
 #define WH_WHY_ROWS(X) \
-    X(WH_WHY_NONE, WH_GOOD, "nothing against it") \
+    X(WH_WHY_NONE, WH_GOOD, "no reason to doubt it") \
     X(WH_WHY_FEW_TURNS, WH_REFUSED, "less than three turns could be used") \
     X(WH_WHY_POLARITY, WH_REFUSED, \
       "the force is opposite to the masses: check the cell's polarity and the sensors") \
@@ -39,19 +39,19 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_UNSURE, WH_REFUSED, "the interval is wider than a quarter of the force") \
     X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, \
       "the force differs a little from the value expected from masses, speed and mount") \
-    X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force is a little off the line of the masses") \
+    X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force is slightly out of line with the masses") \
     X(WH_WHY_PLACE, WH_DOUBTFUL, "sensor 1 is not where the arms hang: the phase has an error") \
     X(WH_WHY_LEFT_OUT, WH_DOUBTFUL, "more than a quarter of the turns could not be used") \
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
-    X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise or other orders than the first are large") \
-    X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's marks do not fit the rotor") \
+    X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise, or orders other than the first, are large") \
+    X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's pulses do not fit the rotor's motion") \
     X(WH_WHY_FED, WH_DOUBTFUL, \
       "gravity compensation leaves a seventh of gravity's torque or more") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
     X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
-    X(WH_WHY_SWING, WH_DOUBTFUL, "the load shows another speed within the turn than the rotor's") \
+    X(WH_WHY_SWING, WH_DOUBTFUL, "within a turn, the load's speed differs from the rotor's") \
     X(WH_WHY_REPEATS, WH_DOUBTFUL, \
-      "the residual repeats each turn: clipping, play, a bent gain, or a torque twice a turn")
+      "the residual repeats each turn: clipping, play, a nonlinear gain, or a torque twice per turn")
 
 #define WH_WHY_NAME(name, quality, words) name,
 typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;

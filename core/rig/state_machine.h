@@ -50,7 +50,7 @@ extern "C" {
     X(WH_REFUSED_CLOCK, 10, "the clock runs on its fallback, and speeds would be wrong") \
     X(WH_REFUSED_TURNING, 11, "the rotor is not at rest") \
     X(WH_REFUSED_LOAD_CELL, 12, "the load cell gives no good samples") \
-    X(WH_REFUSED_WATCHDOG, 13, "the watchdog has cut the drive: only a reset brings it back") \
+    X(WH_REFUSED_WATCHDOG, 13, "the watchdog has cut the drive: reset the board") \
     X(WH_REFUSED_TARGET, 14, \
       "the set-point is below what the loop can hold or above what the shaft carries") \
     X(WH_REFUSED_VOLTAGE, 15, "the supply is too low for the set-point") \

@@ -44,80 +44,81 @@
     X(mass_moment, 1, WH_CONF_REAL, KGM, 1e-4, 10.0, ROTOR, measure.rotor.unbalance_kgm, \
       "sum of mass times radius") \
     X(inertia, 2, WH_CONF_REAL, KGM2, 1e-5, 10.0, ROTOR, measure.rotor.inertia_kgm2, \
-      "of all that turns") \
+      "moment of inertia of all rotating parts") \
     X(damping, 3, WH_CONF_REAL, NMS, 0.0, 1.0, ALONE, measure.rotor.damping_Nms, \
-      "the motor's torque line and the bearings") \
+      "damping by the motor's torque-speed line and the bearings") \
     X(damping_tolerance, 4, WH_CONF_REAL, ONE, 0.0, 1.0, ALONE, measure.rotor.damping_tolerance, \
-      "it may be off by this part, 95 %") \
+      "relative 95 % uncertainty of damping") \
     X(gravity, 5, WH_CONF_REAL, MPS2, 0.0, 20.0, ROTOR, measure.rotor.gravity_mps2, \
-      "in the arms' plane; 0: it lies level") \
+      "in the arms' plane; 0: that plane is level") \
     X(gravity_angle, 6, WH_CONF_REAL, DEG, -180.0, 180.0, ROTOR, measure.rotor.gravity_rad, \
-      "at which the arms hang") \
+      "angle at which the arms hang at rest") \
     X(mount_factor, 7, WH_CONF_REAL, ONE, 0.01, 1.0, ROTOR, measure.result.mount_factor, \
-      "force as a part of that on a fixed mount; carriage: 1/(1 + ratio)") \
+      "force divided by the force on a fixed mount; carriage: 1/(1 + ratio)") \
     X(sensor1, 8, WH_CONF_REAL, DEG, -30.0, 30.0, SENSORS, measure.rotor.pulse_rad[0], \
-      "where it stands, from the loading-train axis") \
+      "angle of sensor 1 from the loading-train axis") \
     X(sensor2, 9, WH_CONF_REAL, DEG, 60.0, 120.0, SENSORS, measure.rotor.pulse_rad[1], \
-      "where it stands, from the loading-train axis") \
+      "angle of sensor 2 from the loading-train axis") \
     X(slot_lead, 10, WH_CONF_REAL, DEG, 0.0, 20.0, SENSORS, swing.lead_rad, \
-      "pulses come so far before a sensor") \
+      "angle by which a pulse precedes its sensor") \
     X(cell_scale, 11, WH_CONF_REAL, MILLINEWTON, 1e-4, 1000.0, CELL, \
-      measure.cell.newton_per_count, "of one count") \
+      measure.cell.newton_per_count, "force of one count") \
     X(cell_reversed, 12, WH_CONF_SWITCH, ONE, 0.0, 1.0, CELL, measure.cell.newton_per_count, \
-      "mounted the other way round") \
+      "whether the load cell is mounted in reverse") \
     X(cell_offset, 13, WH_CONF_REAL, NEWTON, -1000.0, 1000.0, ALONE, measure.cell.offset_N, \
-      "shown without any force") \
+      "force that the load cell shows without load") \
     X(cell_delay, 14, WH_CONF_WHOLE, MICROSECOND, 0.0, 100000.0, ALONE, measure.cell.delay_ticks, \
-      "of filter and converter") \
+      "delay of the cell's filter and converter") \
     X(amplitude_floor, 15, WH_CONF_REAL, ONE, 0.0, 0.5, ALONE, measure.result.amplitude_floor, \
-      "calibration of the force, 95 %, as a part of it; 0: uncalibrated, 0.005") \
+      "relative 95 % uncertainty of the force; 0: uncalibrated, 0.005") \
     X(phase_floor, 16, WH_CONF_REAL, DEG, 0.0, 45.0, ALONE, measure.result.phase_floor_rad, \
-      "calibration of the phase, 95 %; 0: uncalibrated, 0.5") \
+      "95 % uncertainty of the phase; 0: uncalibrated, 0.5") \
     X(record_time, 17, WH_CONF_REAL, SECOND, 0.2, 20.0, ALONE, measure.record_s, \
-      "of whole turns that are measured, at least") \
+      "least duration of the record") \
     X(record_turns, 18, WH_CONF_REAL, ONE, 3.0, 100.0, ALONE, measure.record_turns, \
-      "in the time of so many, at least") \
+      "least duration of the record, in turns") \
     X(settle_time, 19, WH_CONF_REAL, SECOND, 0.1, 30.0, ALONE, run.settle_s, \
-      "with the mean of four turns within the band, before the record") \
+      "time before the record with the mean of four turns within settle_band") \
     X(settle_band, 20, WH_CONF_REAL, RPM, 0.05, 20.0, ALONE, run.settle_band_radps, \
-      "of speed, either way") \
+      "allowed deviation of the speed, up or down") \
     X(ramp, 21, WH_CONF_REAL, RPM_S, 5.0, 200.0, ALONE, run.drive.ramp_radps2, \
       "fastest change of the set-point") \
     X(gain, 22, WH_CONF_REAL, VOLT_SECOND, 0.01, 5.0, ALONE, run.drive.proportional_V_per_radps, \
-      "volts per rad/s of error") \
+      "proportional gain: volts per rad/s of error") \
     X(gain_integral, 23, WH_CONF_REAL, VOLT, 0.0, 20.0, ALONE, run.drive.integral_V_per_rad, \
-      "volts a second per rad/s of error") \
+      "integral gain: volts per second per rad/s of error") \
     X(spin_up, 24, WH_CONF_REAL, VOLT, 0.5, 60.0, ALONE, run.spin_up_V, \
-      "with which the rotor starts") \
+      "voltage that starts the rotor") \
     X(speed_least, 25, WH_CONF_REAL, RPM, 50.0, 400.0, ALONE, guard.target_min_radps, \
       "smallest set-point") \
     X(speed_most, 26, WH_CONF_REAL, RPM, 60.0, 400.0, ALONE, guard.target_max_radps, \
       "largest set-point") \
     X(speed_limit, 27, WH_CONF_REAL, RPM, 70.0, 400.0, ALONE, guard.limit_radps, \
-      "a faster turn trips: what the shaft carries") \
+      "a faster turn trips; set what the shaft carries") \
     X(supply_least, 28, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_min_V, \
-      "a lower one trips") \
+      "a lower supply voltage trips") \
     X(supply_most, 29, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_max_V, \
-      "a higher one trips") \
+      "a higher supply voltage trips") \
     X(armed_time, 30, WH_CONF_REAL, SECOND, 1.0, 600.0, ALONE, armed_max_s, \
       "time in which a start is allowed after arm") \
     X(rest_time, 31, WH_CONF_REAL, SECOND, 5.0, 600.0, ALONE, rest_max_s, \
-      "in which the rotor comes to rest") \
+      "longest time until the rotor is at rest") \
     X(stop_brakes, 32, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, stop_brakes, \
-      "the motor, at a run's end and after stop; else it coasts") \
+      "brake at a run's end and after stop; off: coast") \
     X(swings, 33, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, swings, \
-      "a run ends in a free swing, which tells where the sensors stand") \
+      "end a run in a free swing, which measures the sensors' angles") \
     X(host_loss_stops, 34, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, host_loss_stops, \
-      "a run, when the host is lost") \
-    X(feeds, 35, WH_CONF_FEEDS, ONE, 0.0, 2.0, ALONE, feeds, "gravity's torque to the motor") \
+      "stop a run when the host is lost") \
+    X(feeds, 35, WH_CONF_FEEDS, ONE, 0.0, 2.0, ALONE, feeds, "gravity compensation by the motor") \
     X(yields, 36, WH_CONF_REAL, KGM2, 0.0, 10.0, ALONE, measure.rotor.yields_kgm2, \
-      "by which a mount that gives way lets the inertia vary; with gravity 0") \
+      "variation of the inertia on a yielding mount; only with gravity 0") \
     X(no_load_speed, 45, WH_CONF_REAL, RPM, 200.0, 2000.0, ALONE, run.no_load_radps, \
-      "the motor's, without load at the rated voltage") \
-    X(rated_voltage, 46, WH_CONF_REAL, VOLT, 3.0, 60.0, ALONE, run.rated_V, "the motor's") \
+      "speed of the motor without load at its rated voltage") \
+    X(rated_voltage, 46, WH_CONF_REAL, VOLT, 3.0, 60.0, ALONE, run.rated_V, \
+      "rated voltage of the motor") \
     X(stall_torque, 47, WH_CONF_REAL, NM, 0.05, 50.0, ALONE, compensation.stall_Nm, \
-      "the motor's, at standstill and the rated voltage") \
+      "torque of the motor at standstill and its rated voltage") \
     X(host, 48, WH_CONF_WHOLE, SECOND, 0.0, 3600.0, ALONE, host_max_s, \
-      "it is lost when nothing is heard for so long; 0: never")
+      "the host is lost after this time without a byte from it; 0: never")
 
 #endif

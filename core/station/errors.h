@@ -13,25 +13,26 @@ extern "C" {
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
     X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \
     X(WH_STATION_WORDS, 102, "too many words") \
-    X(WH_STATION_NO_NUMBER, 103, "a number is wanted, such as 330 or 330.5") \
+    X(WH_STATION_NO_NUMBER, 103, "give a number, such as 330 or 330.5") \
     X(WH_STATION_NO_RESULT, 104, "the last run has given no result") \
-    X(WH_STATION_ON_OFF, 105, "on or off is wanted") \
-    X(WH_STATION_SECONDS, 106, "0 or a number of seconds from 1 to 3600 is wanted") \
-    X(WH_STATION_BUSY, 107, "only while the rig is idle") \
-    X(WH_STATION_CONF_HOW, 108, "no such words; help conf has them") \
-    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list has them") \
-    X(WH_STATION_CONF_VALUE, 110, "no value for this setting; conf get tells its type") \
-    X(WH_STATION_CONF_RANGE, 111, "outside its range; conf get tells it") \
+    X(WH_STATION_ON_OFF, 105, "give on or off") \
+    X(WH_STATION_SECONDS, 106, "give 0, or a number of seconds from 1 to 3600") \
+    X(WH_STATION_BUSY, 107, "this works only while the rig is idle") \
+    X(WH_STATION_CONF_HOW, 108, "conf has no such subcommand; help conf shows them") \
+    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list shows all") \
+    X(WH_STATION_CONF_VALUE, 110, "not a value of this setting; conf get shows its type") \
+    X(WH_STATION_CONF_RANGE, 111, "outside the setting's range; conf get shows it") \
     X(WH_STATION_CONF_AGAINST, 112, \
-      "it goes against another setting: least, most and limit, or the motor") \
-    X(WH_STATION_CONF_FAILED, 113, "the memory for settings failed; what was saved before stays") \
-    X(WH_STATION_NOT_HERE, 114, "this program has none") \
-    X(WH_STATION_TEL_HOW, 115, "no such words; help tel has them") \
+      "conflict with another setting: least, most and limit, or the motor") \
+    X(WH_STATION_CONF_FAILED, 113, \
+      "the settings memory failed; the settings saved before are kept") \
+    X(WH_STATION_NOT_HERE, 114, "this program does not support it") \
+    X(WH_STATION_TEL_HOW, 115, "tel has no such subcommand; help tel shows them") \
     X(WH_STATION_TEL_RATE, 116, \
-      "samples a second that part the cell's rate are wanted; with text 100 at most") \
-    X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list has them") \
-    X(WH_STATION_TEL_FORMAT, 118, "frames, teleplot or arduino is wanted") \
-    X(WH_STATION_TEL_RING, 119, "the ring has nothing to be read yet")
+      "give samples per second that divide the cell's rate; as text at most 100") \
+    X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list shows all") \
+    X(WH_STATION_TEL_FORMAT, 118, "give frames, teleplot or arduino") \
+    X(WH_STATION_TEL_RING, 119, "the ring has no records yet")
 
 #define WH_STATION_NAME(name, number, words) name = (number),
 typedef enum wh_station_error {

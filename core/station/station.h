@@ -34,23 +34,23 @@ extern "C" {
 
 /* The commands: X(name, most words after it, arguments, words) */
 #define WH_COMMAND_ROWS(X) \
-    X(help, 1, " [COMMAND]", "the commands, or what one does") \
+    X(help, 1, " [COMMAND]", "list the commands, or explain one") \
     X(id, 0, "", "program, board, version of this dialogue") \
     X(arm, 0, "", "allow a start, for a minute") \
     X(start, 1, " RPM", "a test run at this set-point") \
-    X(set, 1, " RPM", "another set-point, while it runs") \
+    X(set, 1, " RPM", "change the set-point during a run") \
     X(stop, 0, "", "motor off; also the Escape key, at once") \
     X(status, 0, "", "state, speeds, voltage, trip, verdict, losses, run and its end") \
     X(measure, 0, "", "the last run's result, its intervals, its verdict") \
-    X(fault, 0, "", "the trip that is latched, what was then, how the last run ended") \
-    X(clear, 0, "", "a trip whose cause is gone") \
+    X(fault, 0, "", "the latched trip, the values at that moment, and how the last run ended") \
+    X(clear, 0, "", "release a trip whose cause is gone") \
     X(conf, 3, " list [FROM]|get NAME|set NAME VALUE|save|default", \
       "the settings; written while the rig is idle") \
-    X(tel, 2, WH_TEL_FOLLOWS, "telemetry beside this text; off at first") \
-    X(selftest, 0, "", "what can be known while it rests: arithmetic, cell, supply, stop") \
+    X(tel, 2, WH_TEL_FOLLOWS, "telemetry on the same line; off after a reset") \
+    X(selftest, 0, "", "test at rest: arithmetic, cell, supply, stop input") \
     X(host, 1, " SECONDS", \
-      "the setting host, until a reset: a run ends when nothing is heard for so long") \
-    X(talk, 1, " on|off", "echo what is typed, tell of each new state")
+      "the setting host, until a reset: a run ends after this time without a byte") \
+    X(talk, 1, " on|off", "echo typed characters, report each new state")
 
 /* 0 (possible in a small chip's build): station->tel stays NULL, and no telemetry is linked. */
 #ifndef WH_STATION_TELEMETRY

@@ -194,7 +194,7 @@ static void print_momenta(FILE *out, const books *b) {
     if (!any) {
         fprintf(
             out,
-            "no single coordinate's momentum is conserved; whirl examine finds those of sums and rotations\n");
+            "no single coordinate's momentum is conserved; whirl examine finds momenta of sums and rotations\n");
     }
 }
 
@@ -248,7 +248,7 @@ static void print_momentum(FILE *out, const image *im, const kept_account *kept,
     print_entries(out, kept, u->name);
     account_print_end(out, change, kept->left);
     if (u->is_length && time_s > 0.0) {
-        fprintf(out, "  change divided by the run's length, along %s: %.9g N; closes to %.1e N\n",
+        fprintf(out, "  change divided by the run's length, along %s: %.9g N; residual %.1e N\n",
                 u->name, change / time_s, fabs(kept->left) / time_s);
     }
 }

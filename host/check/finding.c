@@ -7,10 +7,10 @@
 
 const finding_row finding_rows[FINDINGS] = {
     [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
-                      "the rounding of the matrix alone: steps are more accurate",
+                      "an upper bound from rounding the matrix: steps are more accurate",
                       "have a mass matrix that is nearly singular"},
     [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
-                           "rounded otherwise, one of the file's numbers is beyond all bounds",
+                           "rounded differently, one of the file's numbers is not finite",
                            "have constants in which a small number is lost beside a large one"},
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",

@@ -345,7 +345,7 @@ static void print_invariants(FILE *out, const horizon *h) {
     fputs("; only the balances are meaningful, to t = ", out);
     fprintf(out, "%.9g s:\n", h->of->end_s);
     if (!balance.known) {
-        fputs("  energy: its balance is not known\n", out);
+        fputs("  energy: the balance is not known\n", out);
     } else if (energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT)) {
         fprintf(
             out,

@@ -13,35 +13,36 @@
  * docs/hard_cases.md; a scene is a file of docs/hard, a built-in scene, or "". */
 
 #define HARD_ROWS(X) \
-    X("Chaos", "thomson_a", "a further digit buys the time in which one digit grows", \
-      "told: the time until which a run is trusted") \
+    X("Chaos", "thomson_a", "each further digit adds the same trusted time", \
+      "warning: the time until which a run is trusted") \
     X("The pole and the origin", "polar", "no fixed step resolves every distance", \
-      "right, or told with a step that resolves it") \
+      "right, or a warning that names a step") \
     X("Mass matrices that are nearly singular", "disc masses soft_spring", \
-      "no digit is left at a ratio of 1e16, in float of 1e7", "right, or told, or refused") \
-    X("Dead centres", "dead_centre", "rigid bodies do not share a redundant load", "right") \
-    X("Springs too stiff for the step", "stiff_spring", "Runge-Kutta 4 grows above h w = 2.83", \
-      "told before 1 % of the energy is lost") \
-    X("A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is chance", \
-      "told; right with a stop") \
-    X("Resonance without damping", "resonance", "the phase error is (h w)^4/120 of w t", \
+      "no correct digit at a ratio of 1e16 (in float 1e7)", "right, or a warning, or an error") \
+    X("Dead centres", "dead_centre", "rigid bodies leave a redundant load undetermined", "right") \
+    X("Springs too stiff for the step", "stiff_spring", \
+      "Runge-Kutta 4 is unstable above h w = 2.83", "warning before 1 % of the energy is lost") \
+    X("A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is arbitrary", \
+      "warning; right with a stop") \
+    X("Resonance without damping", "resonance", "relative phase error (h w)^4/120", \
       "right: order 4") \
-    X("A motor too weak for a resonance", "sommerfeld", "none but that of the method", "right") \
+    X("A motor too weak for a resonance", "sommerfeld", "only the error of the method", "right") \
     X("Friction under a load that vanishes", "pulsating_load", \
       "a step across a kink is of second order", "right: order 4, kinks are events") \
     X("Bounces that end", "moving_floor", "infinitely many impacts in a finite time", "right") \
     X("Contacts that repeat each other", "redundant", "only the moment of release is determined", \
       "right") \
-    X("Newton's cradle", "cradle", "rigid bodies do not give the order of the waves", "right") \
-    X("Rotation", "rotor", "the direction is lost at half a turn a step", \
-      "right, or told, or refused") \
+    X("Newton's cradle", "cradle", "rigid bodies leave the order of impacts undetermined", \
+      "right") \
+    X("Rotation", "rotor", "the direction is ambiguous at half a turn per step", \
+      "right, or a warning, or an error") \
     X("Very long runs", "long", "no explicit step keeps the energy", "right with --stabilized") \
-    X("Very large and very small numbers", "scales", "float keeps nothing below 1.4e-45", \
-      "right, or told, or refused") \
+    X("Very large and very small numbers", "scales", "float has no numbers below 1.4e-45", \
+      "right, or a warning, or an error") \
     X("Inputs that jump", "jump", "an input stands still within a step", \
       "right between steps and in a `when`") \
-    X("Poles that a step jumps over", "used_up", "no error estimate sees between the stages", \
-      "told, and not trusted")
+    X("Poles that a step jumps over", "used_up", \
+      "no error estimate sees the motion between the stages", "warning, and not trusted")
 
 /* === the command ============================================================================== */
 
@@ -59,8 +60,7 @@ static const command_usage usage = {
         "                       `holds` lists terms, contacts, noise and conserve.\n"
         "  --units              every unit: its name, its SI unit and its value in that SI unit, with tabs\n"
         "                       between them\n"
-        "  --hard               the hard cases of docs/hard_cases.md. 'told' means a warning, 'refused' an\n"
-        "                       error.\n"
+        "  --hard               the hard cases of docs/hard_cases.md, and their results\n"
         "  --figures            the figures that `whirl figure` draws: name and title\n",
     .tail = ""};
 
@@ -233,7 +233,8 @@ static const form *form_of(const char *word) {
             return &forms[i];
         }
     }
-    fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: text or table\n", word);
+    fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: --as text or --as table\n",
+            word);
     return NULL;
 }
 
@@ -267,7 +268,8 @@ static int list_file(const char *file, const form *as, bool first) {
     source_model from;
     int code = source_open(&from, file);
     if (code == EXIT_DONE && from.name[0] != '\0') {
-        fprintf(stderr, "whirl list: error: %s is no file\nhint: FILE, of which all is listed\n",
+        fprintf(stderr,
+                "whirl list: error: %s names a part of a file\nhint: name the whole file: FILE\n",
                 file);
         code = EXIT_BAD_INPUT;
     }

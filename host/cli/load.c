@@ -461,11 +461,11 @@ void say_float_range(const image *im) {
     if (number != 0.0) {
         fprintf(
             stderr,
-            "warning: float has no room for %.6g, a constant or an input of '%s' in SI units: what "
-            "depends on it is %s\n"
+            "warning: float cannot represent %.6g, a constant or an input of '%s' in SI units: quantities that "
+            "depend on it are %s\n"
             "hint: float holds sizes from 1.2e-38 to 3.4e+38, and (s/r)^12 is computed as s^12 times r^-12: "
             "measure in larger or smaller units, or run in double\n",
-            number, im->name, fabs(number) < 1.0 ? "cut or lost" : "infinite");
+            number, im->name, fabs(number) < 1.0 ? "imprecise or zero" : "infinite");
     }
 }
 

@@ -375,8 +375,8 @@ static void tell(const monitor *m) {
     const recording_counts *c = &m->recording.counts;
     fprintf(stderr,
             "whirl monitor: %" PRIu64 " samples, %" PRIu64 " pulses in %" PRIu64
-            " frames; lost: %" PRIu64 " frames (%" PRIu64 " for want of room in the rig), %" PRIu64
-            " samples; damaged: %" PRIu64 "\n",
+            " frames; lost: %" PRIu64 " frames (%" PRIu64
+            " because the rig's buffer was full), %" PRIu64 " samples; damaged: %" PRIu64 "\n",
             c->samples, c->pulses, c->frames, c->lost, c->dropped, c->lost_samples,
             m->wire.damaged);
     if (c->strange > 0) {
@@ -384,7 +384,7 @@ static void tell(const monitor *m) {
     }
     if (m->times > 1 || c->restarts > 0) {
         fprintf(stderr,
-                "whirl monitor: the line was opened %" PRIu64 " times, the rig began anew %" PRIu64
+                "whirl monitor: the line was opened %" PRIu64 " times, the rig restarted %" PRIu64
                 " times\n",
                 m->times, c->restarts);
     }
@@ -410,7 +410,7 @@ static bool was_read(const monitor *m) {
     if (m->live || m->line.failed == 0) {
         return true;
     }
-    fprintf(stderr, "%s: error: cannot be read on: %s\n", m->o->port, strerror(m->line.failed));
+    fprintf(stderr, "%s: error: reading stopped: %s\n", m->o->port, strerror(m->line.failed));
     return false;
 }
 

@@ -121,11 +121,11 @@ static bool is_read_alone(const pil_options *o) {
                          : o->faults.count > 0 ? "--fault"
                                                : NULL;
     if (beside != NULL) {
-        fprintf(stderr, "whirl pil: error: --read takes no %s: it only shows the tape\n", beside);
+        fprintf(stderr, "whirl pil: error: --read excludes %s: it only prints the tape\n", beside);
         return false;
     }
     if (o->csv != NULL && files_same(o->read, o->csv)) {
-        fputs("whirl pil: error: --csv would be written over the tape\n", stderr);
+        fputs("whirl pil: error: --csv would overwrite the tape\n", stderr);
         return false;
     }
     return true;
@@ -142,11 +142,11 @@ static bool go_together(const pil_options *o) {
         return is_read_alone(o);
     }
     if (o->every != NULL && o->csv == NULL) {
-        fputs("whirl pil: error: --every is the spacing of --csv FILE\n", stderr);
+        fputs("whirl pil: error: --every needs --csv FILE\n", stderr);
         return false;
     }
     if (o->port == NULL && o->baud > 0.0) {
-        fputs("whirl pil: error: --baud is the speed of a --port\n", stderr);
+        fputs("whirl pil: error: --baud needs --port\n", stderr);
         return false;
     }
     if (o->port != NULL &&
@@ -154,8 +154,8 @@ static bool go_together(const pil_options *o) {
         fprintf(
             stderr,
             o->firmware != NULL || o->board != NULL
-                ? "whirl pil: error: --port takes no %s: the firmware is on its board\n"
-                : "whirl pil: error: no %s has the speed of --baud\nhint: 115200, 57600, 9600\n",
+                ? "whirl pil: error: --port excludes %s: the firmware runs on its board\n"
+                : "whirl pil: error: no %s has the speed of --baud\nhint: --baud 115200, 57600 or 9600\n",
             o->firmware != NULL ? "--firmware"
             : o->board != NULL  ? "--board"
                                 : "serial line");
@@ -168,13 +168,14 @@ static bool go_together(const pil_options *o) {
     }
     if (o->target == NULL && o->replay == NULL) {
         fprintf(stderr,
-                "whirl pil: error: no scene to be the plant\n"
+                "whirl pil: error: no scene for the plant\n"
                 "hint: whirl pil docs/plants/rig.whirl --firmware ...; or a tape: --replay TAPE\n");
         return false;
     }
     if (o->replay != NULL &&
         (o->target != NULL || o->tape != NULL || o->csv != NULL || o->faults.count > 0)) {
-        fprintf(stderr, "whirl pil: error: --replay takes no %s: the tape is the plant\n",
+        fprintf(stderr,
+                "whirl pil: error: --replay excludes %s: the tape takes the plant's place\n",
                 o->target != NULL ? "scene"
                 : o->tape != NULL ? "--tape"
                 : o->csv != NULL  ? "--csv"

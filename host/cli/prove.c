@@ -131,7 +131,7 @@ static void say_end(const containment_found *h, double end_s) {
     case CONTAINMENT_SPENT:
         fprintf(
             stderr,
-            "whirl prove: the effort is spent at t = %.15g s of %.15g s\nhint: use a larger --effort\n",
+            "whirl prove: the effort is used up at t = %.15g s of %.15g s\nhint: use a larger --effort\n",
             h->tube_s, end_s);
         break;
     case CONTAINMENT_STOPPED:
@@ -139,7 +139,7 @@ static void say_end(const containment_found *h, double end_s) {
             fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s\n", h->tube_s,
                     end_s);
         } else {
-            fputs("whirl prove: interrupted in the run that tells the range of each coordinate: "
+            fputs("whirl prove: interrupted in the run that measures the range of each coordinate: "
                   "nothing is proved yet\n",
                   stderr);
         }

@@ -196,7 +196,7 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
             trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
     }
     fprintf(stderr,
-            "whirl run: error: no step that was tried keeps the error: %s%s\n"
+            "whirl run: error: no tried step keeps the error: %s%s\n"
             "hint: %s%s; `whirl choose` tries every setting\n",
             smallest, rounds ? ", and shorter steps no longer reduce it: round-off" : early,
             rounds ? "a larger --error" : "a --method of higher order",

@@ -152,7 +152,7 @@ static bool is_whole_sweep(sweep_options *o) {
         return false;
     }
     if (o->json && o->csv != NULL && !is_standard(o->csv)) {
-        fprintf(stderr, "whirl sweep: error: --json prints the rows that --csv FILE keeps\n"
+        fprintf(stderr, "whirl sweep: error: --json prints the rows, and --csv FILE writes them\n"
                         "hint: leave one of them out\n");
         return false;
     }

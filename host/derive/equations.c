@@ -255,7 +255,7 @@ void equations_report_growth(const equations *e, diags *errors) {
         0) { /* products of parameters are separate terms, products of numbers are not */
         snprintf(
             hint, sizeof hint,
-            "write let in place of parameter: %d of them become numbers; use smaller powers of sums, too, or coordinates nearer to the joints",
+            "write let instead of parameter: %d parameters become numbers; or use smaller powers of sums, or coordinates nearer to the joints",
             m->parameter_count);
     }
     diag_error(errors, m->at, hint, "the equations of '%s' grow beyond what can be handled: %s",

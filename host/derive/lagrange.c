@@ -203,13 +203,13 @@ static void report_singular_system(const equations *e, diags *errors) {
             errors, place_of_equation(e, row),
             "a constraint between states: differentiate it until a highest derivative appears",
             "the equations of '%s' cannot be solved for the highest derivatives: "
-            "this one contains none",
+            "this equation contains none",
             e->instance->mechanism->name);
     } else {
         diag_error(errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
                    "two equations may say the same, or one may lack its highest derivative",
                    "the equations of '%s' cannot be solved for the highest derivatives: "
-                   "this one has the same combination of them as those above it",
+                   "this equation has the same combination of them as the equations above it",
                    e->instance->mechanism->name);
     }
 }
@@ -266,8 +266,8 @@ static void report_singular(const equations *e, diags *errors) {
     int negative;
     const term *taken = negative_part(e, &negative);
     if (negative == TRY_START) {
-        diag_error(errors, taken->at, "take less away, or name an effect that gives more",
-                   "singular mass matrix: this takes all inertia of '%s' away for some motion",
+        diag_error(errors, taken->at, "subtract less inertia, or select an effect that adds some",
+                   "singular mass matrix: this removes all inertia of '%s' for some motion",
                    e->instance->mechanism->name);
         return;
     }
@@ -277,7 +277,7 @@ static void report_singular(const equations *e, diags *errors) {
             if (giver != NULL) {
                 snprintf(
                     hint, sizeof hint,
-                    "the effect '%.60s' gives it one: name it in the scene: with %.60s, or add "
+                    "the effect '%.60s' adds an inertia: write `with %.60s` in the scene, or add "
                     "--with %.60s",
                     giver, giver, giver);
             }
@@ -294,8 +294,8 @@ static void report_singular(const equations *e, diags *errors) {
         if (giver != NULL) {
             snprintf(
                 hint, sizeof hint,
-                "the effect '%.60s', which adds to the kinetic energy, takes no part here: name "
-                "it in the scene: with %.60s, or add --with %.60s",
+                "the effect '%.60s' adds kinetic energy, but is not selected: write `with %.60s` "
+                "in the scene, or add --with %.60s",
                 giver, giver, giver);
             break;
         }

@@ -298,8 +298,8 @@ static void report(const image *im, const made_of *of, int node, place where, di
         snprintf(what, sizeof what, "a %s of", strchr(of_what, ' ') != NULL ? "product" : "power");
         break;
     }
-    diag_error(errors, at, "leave out --matrix: stages step what is not linear",
-               "%s %s in line %d makes '%s' not linear, so no matrix is a step of it: %s", what,
+    diag_error(errors, at, "leave out --matrix: it is only for linear equations",
+               "%s %s in line %d makes '%s' not linear, so its step is not a matrix: %s", what,
                of_what, at.line, im->name, line);
     free(of_what);
 }
@@ -338,8 +338,8 @@ static void not_linear_report(const image *im, int operation, diags *errors) {
     if (!found) {
         wanted.degree = NO_POWER;
         char *of_what = names(im, wanted);
-        diag_error(errors, im->mechanism_at, "leave out --matrix: stages step what is not linear",
-                   "the equations of '%s' are not linear in %s, so no matrix is a step of them",
+        diag_error(errors, im->mechanism_at, "leave out --matrix: it is only for linear equations",
+                   "the equations of '%s' are not linear in %s, so their step is not a matrix",
                    im->mechanism, of_what);
         free(of_what);
     }
@@ -512,7 +512,7 @@ static bool is_possible(const image *im, diags *errors) {
     if (im->contacts > 0) {
         diag_error(errors, im->contact[0].at,
                    "leave the effect out with --without EFFECT, or leave out --matrix",
-                   "a step with events is no matrix: '%s' has this %s", im->name,
+                   "--matrix is not for scenes with events: '%s' has this %s", im->name,
                    im->contact[0].word);
     } else if (im->ledger.kept) {
         diag_error(errors, im->at, "--without ledger, or leave out --matrix",
@@ -520,7 +520,7 @@ static bool is_possible(const image *im, diags *errors) {
                    im->name);
     } else if (im->settings.tables != TABLES_NONE) {
         diag_error(errors, im->at, "leave out --tables, or --matrix",
-                   "a matrix looks nothing up: --matrix %s and --tables %s",
+                   "a matrix has no place for tables: --matrix %s and --tables %s",
                    image_matrix_words[im->settings.matrix],
                    image_tables_words[im->settings.tables]);
     } else if (im->settings.method != WH_METHOD_DEFAULT) {

@@ -700,7 +700,7 @@ static bool steps_need_no_turns(const program *p, const equations *e, diags *err
                                     c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         if (lists[i] != NULL && op_list_reads_turns(lists[i])) {
-            diag_error(errors, e->instance->mechanism->at, "take smaller multiples of the angles",
+            diag_error(errors, e->instance->mechanism->at, "use smaller multiples of the angles",
                        "the equations of '%s' contain too large a multiple of an angle",
                        e->instance->mechanism->name);
             return false;
@@ -785,7 +785,7 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
 
 bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors) {
     static const char no_contacts[] =
-        "leave --tables out, or the effects that have contacts and crossings";
+        "leave out --tables, or the effects with contacts and crossings: --without EFFECT";
     refusal why = {NULL, NULL, -1};
     if (settings->tables == TABLES_NONE) {
         return true;
@@ -793,7 +793,7 @@ bool program_look_up(program *p, const equations *e, image_settings *settings, d
     settings->cells = settings->cells > 0 ? settings->cells : tables_cells(settings->tables);
     if (p->contacts != NULL) {
         diag_error(errors, p->contacts->row[0].from->at, no_contacts,
-                   "--tables: a step with events looks at more than tables hold");
+                   "--tables: a scene with events cannot use tables");
         return false;
     }
     op_list *made = tables_make(p->step, settings->tables, settings->cells, &p->tables, &why);

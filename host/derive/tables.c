@@ -308,7 +308,7 @@ static void enter(collecting *c, product_sum *sum, const unsigned char *power, i
     }
     if (sum->count == PRODUCTS_MOST) {
         refuse(c->why, "are sums of too many products of rates, inputs and reals",
-               "leave --tables out: as they stand they take fewer operations", -1);
+               "leave out --tables: without tables these equations take fewer operations", -1);
         return;
     }
     sum->product = arena_room(p->memory, sum->product, sum->count, sizeof *sum->product);
@@ -364,8 +364,8 @@ static product_sum multiplied(collecting *c, product_sum x, product_sum y) {
                 const int both = x.product[i].power[s] + y.product[k].power[s];
                 power[s] = (unsigned char)both;
                 if (both > 64) {
-                    refuse(c->why, "take a rate, an input or a real to more than its 64th power",
-                           NULL, -1);
+                    refuse(c->why, "raise a rate, an input or a real to a power above 64", NULL,
+                           -1);
                 }
             }
             enter(c, &sum, power,
@@ -379,8 +379,9 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     product_sum sum = {NULL, 0};
     int by;
     if (!is_of_angles(c, y, &by)) {
-        refuse(c->why, "are divided by what depends on a rate, an input or a real",
-               "tables take what is divided by the one turn angle's functions only", -1);
+        refuse(c->why, "have a denominator with a rate, an input or a real",
+               "leave out --tables: they allow only denominators that depend on the one turn angle",
+               -1);
         return sum;
     }
     for (int i = 0; i < x.count; i++) {
@@ -397,14 +398,15 @@ static product_sum function_of(collecting *c, const op *o) {
     int b = -1;
     if (!is_of_angles(c, c->sum[o->a], &a) ||
         (op_rows[o->code].values > 1 && o->b >= 0 && !is_of_angles(c, c->sum[o->b], &b))) {
-        refuse(c->why,
-               "hold a function (a root, a size, a sign, ...) of a rate, an input or a real",
-               "tables take products of these, no functions of them", -1);
+        refuse(
+            c->why, "contain a function (a root, abs, sign, ...) of a rate, an input or a real",
+            "leave out --tables: they allow products of these quantities, but no functions of them",
+            -1);
         return (product_sum){NULL, 0};
     }
     if (o->code == OP_ABS || o->code == OP_SIGN || o->code == OP_MIN || o->code == OP_MAX) {
-        refuse(c->why, "have a bend or a jump at some angle (a size, a sign, a least or a largest)",
-               "between the entries of a table it would be smoothed out: leave --tables out", -1);
+        refuse(c->why, "have a kink or a jump at some angle (abs, sign, min or max)",
+               "leave out --tables: a table would smooth it", -1);
         return (product_sum){NULL, 0};
     }
     return of_angles(c, o->code == OP_CALL  ? op_list_call(t, o->function, a, b)
@@ -417,8 +419,8 @@ static product_sum wave_of(collecting *c, const op *o) {
     const op *phase = &c->list->ops[o->a];
     double *multiple = NULL;
     if (phase->b >= 0 || phase->parts != NULL) {
-        refuse(c->why, "hold a sine or cosine of what is no turn angle",
-               "an angle that stands outside sines, too, is kept in radians: leave --tables out",
+        refuse(c->why, "contain a sine or cosine of a quantity that is no turn angle",
+               "leave out --tables: an angle that also stands outside sines is stored in radians",
                -1);
         return (product_sum){NULL, 0};
     }
@@ -585,13 +587,13 @@ static void find_phase(tabling *t) {
             found = true;
         } else if (!shares(t->turns, turns, c->angles)) {
             refuse(t->why, "depend on the sines of more than one turn angle",
-                   "a table is looked up by one angle, or by one sum of them: leave --tables out",
+                   "leave out --tables: a table depends on one angle, or on one sum of angles",
                    angle_of_other(t->turns, turns, c->angles));
         }
     }
     const int k = leading(t->turns, c->angles);
     if (!found) {
-        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave --tables out",
+        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave out --tables",
                -1);
         return;
     }
@@ -636,8 +638,8 @@ static void try_angles(tabling *t) {
     }
     if (!finite) {
         refuse(t->why,
-               "have no value or no slope at some angle (a division by zero, a root of nothing)",
-               "a table holds finite numbers: leave --tables out", -1);
+               "have no finite value or slope at some angle (a division by zero, a root of zero)",
+               "leave out --tables: a table holds only finite numbers", -1);
     }
     free(value);
     free(span);
@@ -869,7 +871,7 @@ static op_list *make(tabling *t, const op_list *list, image_tables form, int bit
     }
     sort_out(t);
     if (t->tables == 0) {
-        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave --tables out",
+        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave out --tables",
                -1);
         return NULL;
     }

@@ -352,7 +352,7 @@ static void put_recovered(FILE *out, const image *im) {
 static void tell_contacts(FILE *out, const image *im) {
     char text[STATEMENT_SIZE];
     if (im->contacts > 0) {
-        fprintf(out, "\ncontacts, in the order in which those of one moment are taken\n");
+        fprintf(out, "\ncontacts, in the order in which simultaneous ones are handled\n");
     }
     for (int k = 0; k < im->contacts; k++) {
         const image_contact *c = &im->contact[k];
@@ -409,7 +409,7 @@ static void tell_tables(FILE *out, const image *im) {
     fprintf(out, "\n%d tables of %d cells, %s%s:", of->count, im->settings.cells,
             image_tables_words[im->settings.tables], of->folds ? ", even or odd" : "");
     for (int k = 0; k < of->count; k++) {
-        fprintf(out, "\n  %2d up to %.4g in size, off by %.2g at most", k, of->size[k], of->off[k]);
+        fprintf(out, "\n  %2d up to %.4g in size, error at most %.2g", k, of->size[k], of->off[k]);
     }
 }
 

@@ -76,8 +76,9 @@ static bool has_offset(const image *im) {
 }
 
 static const char *motion(const image *im) {
-    return im->settings.matrix == MATRIX_EXACT ? "the motion itself, inputs held over the step"
-                                               : "what Runge-Kutta 4 makes of it";
+    return im->settings.matrix == MATRIX_EXACT
+               ? "the exact motion, with inputs constant over the step"
+               : "the step of Runge-Kutta 4";
 }
 
 void matrix_text(FILE *out, const image *im) {

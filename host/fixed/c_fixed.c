@@ -416,19 +416,18 @@ static void header_body(FILE *out, const void *of) {
     const fixed_plan *p = of;
     const image *im = p->image;
     fprintf(out,
-            "/* What wh_fixed_start() takes: bytes; words for an array of uint64_t. */\n"
+            "/* Memory of wh_fixed_start(): in bytes, and in words of a uint64_t array. */\n"
             "#define %s_MEMORY_BYTES WH_FIXED_BYTES(%d, %d)\n"
             "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
             im->name, im->angles, im->reals + im->inputs, im->name, im->name);
-    fputs(
-        "/* Numbers that wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input() take. */\nenum {\n",
-        out);
+    fputs("/* Indices for wh_fixed_angle(), wh_fixed_real(), wh_fixed_set_input(). */\nenum {\n",
+          out);
     c_header_fixed_state(out, im);
     fprintf(out, "    %s_FIXED = 1\n};\n\n", im->name);
     c_header_strings(out, im);
     c_header_values(out, im);
     fputs(
-        "/* The ranges: what is set beyond them stays at their end, and is counted in state.saturated. */\n",
+        "/* The ranges. A value beyond its range is set to the range's end and counted in state.saturated. */\n",
         out);
     for (int i = 0; i < im->reals + im->inputs; i++) {
         c_header_range(out, im, i, p->range[i].low, p->range[i].high);

@@ -388,11 +388,12 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
         good = !l->op[i].used || finish(l, &l->op[i]);
     }
     if (!good) {
-        diag_error(errors, im->at,
-                   "declare others, closer in size to what the run does: range NAME = A .. B; or "
-                   "choose --number float",
-                   "the equations of '%s' have values with no room in 32 bits within the ranges",
-                   im->name);
+        diag_error(
+            errors, im->at,
+            "declare ranges close to the run's values: range NAME = A .. B; or choose "
+            "--number float",
+            "the equations of '%s' have values within the ranges that do not fit into 32 bits",
+            im->name);
     }
     return good;
 }
@@ -572,12 +573,13 @@ static bool divides_zero_anyway(hull *h) {
 }
 
 static void say_zero(hull *h, const image *im, diags *errors) {
-    diag_error(errors, im->at,
-               divides_zero_anyway(h)
-                   ? "turn angles go all the way round and have no range that could keep it from "
-                     "that: choose --number float"
-                   : "declare narrower ranges: range NAME = A .. B; or choose --number float",
-               "a denominator of the equations of '%s' may be zero within the ranges", im->name);
+    diag_error(
+        errors, im->at,
+        divides_zero_anyway(h)
+            ? "choose --number float: a turn angle takes all values, so no range can exclude "
+              "zero"
+            : "declare narrower ranges: range NAME = A .. B; or choose --number float",
+        "a denominator of the equations of '%s' may be zero within the ranges", im->name);
 }
 
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
@@ -620,14 +622,15 @@ static const char *without_form(const op *o) {
     case OP_POW: return "a power";
     case OP_CALL: return function_name(o->function);
     case OP_PHASE:
-        return o->b >= 0 || o->parts != NULL ? "the sine of what is no turn angle" : NULL;
+        return o->b >= 0 || o->parts != NULL ? "the sine of a quantity that is no turn angle"
+                                             : NULL;
     case OP_CELL:
     case OP_LINE:
     case OP_CUBIC: return "a table";
     case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
-    case OP_NOISE: return "what only records have";
+    case OP_NOISE: return "a value that only records have";
     case OP_CONSTANT:
     case OP_LINEAR:
     case OP_RATE:

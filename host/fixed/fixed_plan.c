@@ -27,7 +27,7 @@ static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (has_noise(im)) {
         diag_error(errors, im->at, refused_part,
-                   "outputs of '%s' have noise, which fixed point has not", im->name);
+                   "outputs of '%s' have noise, which fixed point does not support", im->name);
     } else if (im->contacts > 0) {
         diag_error(errors, im->contact[0].at, refused_part,
                    "there are no events in fixed point: '%s' has this %s", im->name,
@@ -35,17 +35,17 @@ static bool fixed_has_step(const image *im, diags *errors) {
     } else if (im->drives > 0) {
         diag_error(errors, im->input[im->drive[0].input].at,
                    "leave out its rate, or choose --number float",
-                   "inputs stand still inside a step in fixed point: '%s' has a rate",
+                   "in fixed point inputs are constant within a step, but '%s' has a rate",
                    im->input[im->drive[0].input].name);
     } else if (s->stabilized) {
         diag_error(errors, im->at, "leave out --stabilized, or choose --number float",
                    "there is no --stabilized in fixed point");
     } else if (im->ledger.kept) {
         diag_error(errors, im->at, "--without ledger, or --number float",
-                   "'%s' keeps a ledger, which fixed point has not", im->name);
+                   "'%s' keeps a ledger, which fixed point does not support", im->name);
     } else if (s->method != WH_RK4) {
         diag_error(errors, im->at, "leave out --method, or choose --number float",
-                   "fixed point knows --method rk4 only, not %s", wh_methods[s->method].word);
+                   "fixed point supports only --method rk4, not %s", wh_methods[s->method].word);
     } else if (s->compensated) {
         diag_error(errors, im->at, "leave out --compensated, or choose --number float",
                    "sums in fixed point are not compensated");
@@ -170,7 +170,7 @@ static void no_room(const fixed_plan *p, diags *errors) {
     diag_error(errors, p->image->at,
                "take another --step, or declare other ranges: range NAME = A .. B; or choose "
                "--number float",
-               "rounding takes values of '%s' beyond their room", p->image->name);
+               "rounding may carry values of '%s' out of their range", p->image->name);
 }
 
 static const fixed_op *result_of(const fixed_plan *p, int i) {
@@ -472,8 +472,8 @@ void fixed_plan_say(const fixed_plan *p, FILE *out, const char *begin) {
     for (int i = 0; i < im->angles; i++) {
         if (im->angle_range[i].declared) {
             fprintf(out,
-                    "%s'%s' is a turn angle, which goes round and has no range: that declared for "
-                    "it is not used\n",
+                    "%s'%s' is a turn angle, which takes all values: its declared range is not "
+                    "used\n",
                     begin, im->angle_range[i].name);
         }
     }

@@ -775,9 +775,7 @@ static char *trust_sign(const plot_run *runs, int count) {
     return !(until_s > 0.0) ? alloc_words("%s", "")
            : count > 1
                ? alloc_words("trusted until %.6g s", until_s)
-               : alloc_words(
-                     "after %.6g s no single value is to be trusted, energy and momenta are",
-                     until_s);
+               : alloc_words("after %.6g s only energy and momenta are meaningful", until_s);
 }
 
 static int marks_in(const plot_run *runs, int count) {

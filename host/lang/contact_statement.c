@@ -248,7 +248,7 @@ static bool parse_block(parser *in, contact_statement *made) {
         }
     }
     if (made->set_count == 0 && diags_calls(in->diags) == before) {
-        diag_error(in->diags, made->at, form(), "this 'when' sets nothing");
+        diag_error(in->diags, made->at, form(), "this 'when' sets no value");
     }
     return parser_end_statement(in, "the crossing");
 }
@@ -291,7 +291,8 @@ bool read_when(parser *in, const statement_word *word) {
         return false;
     }
     if ((made.value->uses & USES_UNKNOWNS) == 0 && !made.value->dim.unknown) {
-        diag_error(in->diags, at, NULL, "what crosses must depend on a coordinate or a rate");
+        diag_error(in->diags, at, NULL,
+                   "the crossing quantity must depend on a coordinate or a rate");
     }
     if (!take_direction(in, &made)) {
         return false;

@@ -48,7 +48,7 @@ static void check_stop(const contact_statement *stop, valuation *known) {
     const double e = value_at_start(stop->restitution, known, "the restitution");
     if (e < -LAST_DIGITS || e > 1.0 + LAST_DIGITS) {
         diag_error(known->diags, stop->restitution->at,
-                   "write 0 for a body that stays, 1 for one that leaves as fast as it came",
+                   "write 0 for a body that stays at the stop, 1 for a body that keeps its speed",
                    "a restitution is from 0 to 1, and this is %g", e);
     }
 }

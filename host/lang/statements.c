@@ -463,7 +463,7 @@ void read_file(parser *in) {
 static void parse_all(parser *in, place start) {
     read_file(in);
     if (in->builder_count == 0 && in->pending_count == 0 && diags_count(in->diags) == 0) {
-        diag_error(in->diags, start, FILE_FORM, "no mechanism here");
+        diag_error(in->diags, start, FILE_FORM, "this text contains no mechanism");
     }
     for (int i = 0; i < in->builder_count; i++) {
         finish_mechanism(in, in->builders[i]);

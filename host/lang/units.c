@@ -286,7 +286,7 @@ static bool read_factor(reader *in, unit_scale *result) {
                              (is_digit(in->text[start + 1]) || in->text[start + 1] == '.'))) {
         in->at++;
     } else if (is_digit(c) || c == '.') {
-        return fail(in, start, "a unit holds no numbers but 1",
+        return fail(in, start, "a unit contains no number except 1",
                     "numbers stand before the bracket: 2.5 [m/s]");
     } else if (is_letter(c)) {
         while (in->at < in->length && (is_letter(in->text[in->at]) || is_digit(in->text[in->at]))) {

@@ -140,7 +140,7 @@ double parameter_value(valuation *known, int index) {
     const int height = known->parameter_expr[index]->height;
     if (known->depth + height > DEPTH_MAX) {
         diag_error(known->diags, at, "set some of them to numbers",
-                   "too many values are set from each other in a chain");
+                   "too many values depend on each other in a chain");
         return 0.0;
     }
     known->parameter_state[index] = 1;

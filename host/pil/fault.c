@@ -285,7 +285,7 @@ static bool find_note(fault_case *f, const wh_hello *hello) {
         at += s->kind == WH_SIGNAL_NOTE;
     }
     if (f->note[0] != '\0') {
-        fprintf(stderr, "whirl pil: error: --fault %s@%s=...: the firmware tells no '%s'\n",
+        fprintf(stderr, "whirl pil: error: --fault %s@%s=...: the firmware sends no note '%s'\n",
                 fault_rows[f->kind].word, f->note, f->note);
     }
     return f->note[0] == '\0';
@@ -577,7 +577,7 @@ static bool read_kind(words_of_fault *w, fault_case *f) {
     }
     char *hint = search.best != NULL ? alloc_words("did you mean '%s'?", search.best)
                                      : alloc_words("whirl pil --faults lists the kinds");
-    wrong(w, "no kind of fault is called so", hint);
+    wrong(w, "there is no such kind of fault", hint);
     free(hint);
     return false;
 }
@@ -590,7 +590,7 @@ static bool read_channel(words_of_fault *w, fault_case *f) {
         return true;
     }
     if (at != FAULT_EDGES && at != FAULT_SAMPLES && at != FAULT_SENSORS) {
-        return wrong(w, "it has no channels", "leave :CHANNEL out");
+        return wrong(w, "this kind has no channels", "leave :CHANNEL out");
     }
     if (!read_number(w, &number) || !(number >= 1.0 && number <= (double)WH_SIGNALS_MAX) ||
         number != number_floor(number)) {
@@ -606,7 +606,7 @@ static bool read_size(words_of_fault *w, fault_case *f) {
         return true;
     }
     if (!(row->least < row->most)) {
-        return wrong(w, "it has no size", "leave =SIZE out");
+        return wrong(w, "this kind has no size", "leave =SIZE out");
     }
     if (!(strcmp(row->unit, "s") == 0 && *w->at != '-' ? read_time(w, &f->size)
                                                        : read_number(w, &f->size)) ||
@@ -621,12 +621,12 @@ static bool read_size(words_of_fault *w, fault_case *f) {
 }
 
 static bool read_when(words_of_fault *w, fault_case *f) {
-    static const char hint[] = "@1.5s, @state=4, or @state=4~200ms: so long after that";
+    static const char hint[] = "@1.5s, @state=4, or @state=4~200ms, which is 200 ms later";
     if (!takes(w, '@')) {
         return true;
     }
     if (fault_rows[f->kind].place == FAULT_PARAMETER) {
-        return wrong(w, "it is there from the start to the end", "leave @WHEN out");
+        return wrong(w, "this fault lasts from the start to the end", "leave @WHEN out");
     }
     const size_t length = strcspn(w->at, "=,+~");
     if (w->at[length] != '=') {
@@ -663,7 +663,7 @@ static bool read_one(fault_plan *plan, words_of_fault *w) {
     }
     plan->count++;
     return w->at == w->end ||
-           wrong(w, "what is behind it?", "KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
+           wrong(w, "unknown text after the fault", "KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
 }
 
 bool fault_read(fault_plan *plan, const char *text) {

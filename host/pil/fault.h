@@ -53,7 +53,7 @@ typedef enum fault_place {
     X(FAULT_CELL_NOISE, "cell-noise", FAULT_SAMPLES, 1, 0, 1e6, "N", \
       "noise with this standard deviation is added") \
     X(FAULT_CELL_SPIKES, "cell-spikes", FAULT_SAMPLES, 50, 0, 1e6, "N", \
-      "one sample in 50 has this error, either way") \
+      "one sample in 50 has this error, of either sign") \
     X(FAULT_CELL_SATURATED, "cell-saturated", FAULT_SAMPLES, 0, 0, 0, "", \
       "samples are at the end of the range, and the converter says so") \
     X(FAULT_CELL_REPEATED, "cell-repeated", FAULT_SAMPLES, 0, 0, 0, "", "each sample comes twice") \

@@ -28,11 +28,10 @@ static void keep_heard(talk *t, const wh_frame *frame) {
 static void say_silent(const talk *t) {
     fprintf(stderr,
             "whirl pil: error: the firmware has said nothing for %g s\n"
-            "hint: %s; --patience says how long to wait\n",
+            "hint: %s; --patience S waits longer\n",
             t->guest.wish.patience_s,
-            t->wish->guest.by_line
-                ? "a frame that the line has damaged is not asked for again: reset the board"
-                : "an endless loop, or a read without an answer");
+            t->wish->guest.by_line ? "a damaged frame is not repeated: reset the board"
+                                   : "an endless loop, or a read without an answer");
 }
 
 /* Ctrl-C reaches all processes in the terminal, and the firmware may end first. */
@@ -102,7 +101,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
     t->said_end = frame->length == 4U;
     t->end_status = (int)(int32_t)wh_bytes_get(&bytes, 4);
     if (!t->said_end) {
-        return fail(t, "an end that is none");
+        return fail(t, "an invalid end");
     }
     (void)ask(t);
     t->report->end = when_ended();
@@ -123,7 +122,7 @@ static bool hear_past_remembered(talk *t, wh_frame *frame) {
             return true;
         }
         if (frame->length > WH_REMEMBER_MAX) {
-            return fail(t, "more than can be remembered");
+            return fail(t, "more remembered bytes than the limit");
         }
         keep_heard(t, frame);
         t->report->hash = talk_hash_bytes(t->report->hash, frame->payload, frame->length);
@@ -139,10 +138,10 @@ bool talk_hear(talk *t, wh_orders *orders) {
         return false;
     }
     if (frame.kind != WH_FRAME_ORDERS || frame.sequence != t->sequence) {
-        return fail(t, "a frame that is no answer");
+        return fail(t, "a frame that is not an answer");
     }
     if (!wh_orders_get(orders, frame.payload, frame.length) || orders->outputs != t->outputs) {
-        return fail(t, "orders that are none");
+        return fail(t, "invalid orders");
     }
     keep_heard(t, &frame);
     t->sequence++;
@@ -200,7 +199,7 @@ static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh
     }
     memcpy(words, frame->payload, frame->length);
     if (!wh_hello_get(hello, signal, words, frame->length) || hello->ticks_per_s == 0) {
-        return fail(t, "a hello that is none");
+        return fail(t, "an invalid hello");
     }
     keep_heard(t, frame);
     return true;
@@ -504,9 +503,9 @@ static bool time_goes_on(loop *l, double before_ticks) {
         return true;
     }
     fprintf(stderr,
-            "whirl pil: error: time stands still at t = %.9g s: the firmware has %u times asked to "
-            "be told again at once\nhint: hal_turns_wait() takes a time that is still to come, in "
-            "ticks of the firmware's timer\n",
+            "whirl pil: error: time stands still at t = %.9g s: the firmware asked %u times to be "
+            "called again at once\nhint: give hal_turns_wait() a later time, in ticks of the "
+            "firmware's timer\n",
             plant_s(l), STANDING_MOST);
     l->report->end = LOCKSTEP_FAILED;
     return false;
@@ -579,7 +578,7 @@ static bool has_places(const loop *l, unsigned places) {
     if (!has) {
         fprintf(stderr,
                 "whirl pil: error: --place has %u places, and the firmware %u edges\n"
-                "hint: one an edge, in the firmware's order\n",
+                "hint: give one place per edge, in the firmware's order\n",
                 places, l->binding.edges);
     }
     return has;
@@ -599,9 +598,9 @@ static bool has_room(const loop *l, double delay_s) {
     if (!has) {
         fprintf(
             stderr,
-            "whirl pil: error: --delay %g s: %.0f samples of this firmware would be on their way, and "
-            "there is room for %d\n"
-            "hint: a shorter delay, or --fault cell-late of one channel\n",
+            "whirl pil: error: --delay %g s: %.0f samples of this firmware would be in transit, more "
+            "than the limit of %d\n"
+            "hint: use a shorter --delay, or --fault cell-late of one channel\n",
             delay_s, most, PLANT_PENDING);
     }
     return has;

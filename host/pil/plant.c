@@ -150,7 +150,7 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     if (!is_same_unit(unit, b->signal.unit)) {
         fprintf(stderr,
                 "whirl pil: error: the firmware's '%s' is in %s, and '%s' of '%s' in %s\n"
-                "hint: what goes over the line is SI on both sides\n",
+                "hint: use SI on both sides of the line\n",
                 b->signal.name, b->signal.unit, name, im->name, unit);
         return false;
     }
@@ -166,7 +166,7 @@ static const char *against(const binding *b, const char *renames, const char *at
     }
     for (const char *before = renames; before < at; before += strcspn(before, ",") + 1U) {
         if (strncmp(before, at, name + 1U) == 0) {
-            return "the firmware's signal is renamed already";
+            return "--bind already renames this signal of the firmware";
         }
     }
     for (unsigned i = 0; i < b->count; i++) {
@@ -268,10 +268,11 @@ bool plant_read_places(const char *text, plant_wish *to) {
         const double number = decimal_read(at, &end);
         if (end == at || (*end != '\0' && *end != ',') || !isfinite(number) ||
             count == WH_SIGNALS_MAX) {
-            fprintf(stderr,
-                    "whirl pil: error: --place '%s': numbers between commas, one an edge\n"
-                    "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
-                    text);
+            fprintf(
+                stderr,
+                "whirl pil: error: --place '%s': give numbers with commas between them, one per edge\n"
+                "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
+                text);
             return false;
         }
         to->place[count++] = number;

@@ -58,7 +58,7 @@ static const char *as_on_tape(lockstep_end end) {
     case LOCKSTEP_FAILED:
     case LOCKSTEP_STOPPED: break;
     }
-    return ", as on the tape so far: its rest was not played";
+    return ", as on the tape so far; the rest was not replayed";
 }
 
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r) {

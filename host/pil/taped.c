@@ -410,9 +410,10 @@ void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_repor
         report->end = LOCKSTEP_BAD;
     } else if (talk_start(t, wish, report, NULL)) {
         if (!talk_is_same_hello(&from->hello, &t->hello)) {
-            fprintf(stderr,
-                    "%s: error: it is of '%s', whose signals are not those of the firmware '%s'\n",
-                    file, from->hello.program, t->hello.program);
+            fprintf(
+                stderr,
+                "%s: error: this tape is of '%s', whose signals differ from those of the firmware '%s'\n",
+                file, from->hello.program, t->hello.program);
             report->end = LOCKSTEP_BAD;
         } else {
             while (play(from, t)) {

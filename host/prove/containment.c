@@ -324,7 +324,7 @@ static const char *behind(const containment_found *h, const containment_state *s
     static const char *const ends[] = {[CONTAINMENT_AT_END] = "",
                                        [CONTAINMENT_RUN_ENDS] = "; there the run fails",
                                        [CONTAINMENT_NO_STEP] = "; there the tube ends",
-                                       [CONTAINMENT_SPENT] = "; there the effort is spent",
+                                       [CONTAINMENT_SPENT] = "; there the effort is used up",
                                        [CONTAINMENT_STOPPED] = "; there it was interrupted"};
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return "";
@@ -352,7 +352,7 @@ static void print_state(FILE *out, const containment_found *h, const containment
     }
     const figure off = not_less(image_shown(unit, s->off), 1);
     const figure wide = not_less(image_shown(unit, 2.0 * s->radius), 1);
-    fprintf(out, "%-12s within %s %s: off by at most %s, the tube %s wide%s\n",
+    fprintf(out, "%-12s within %s %s: error at most %s, width of the tube %s%s\n",
             s->verdict == CONTAINMENT_TO_THE_END ? "to the end" : until, within.text, shown,
             off.text, wide.text, behind(h, s));
 }
@@ -386,7 +386,8 @@ void containment_print(FILE *out, const containment_found *h, const containment_
     if (first < 0) {
         fprintf(out, "proved to the end, t = %.15g s\n", end_s);
     } else if (!h->state[first].begun) {
-        fprintf(out, "nothing is proved: %s is not within at the start\n", name_of(w, first, name));
+        fprintf(out, "nothing is proved: %s is not within its tolerance at the start\n",
+                name_of(w, first, name));
     } else {
         const containment_state *s = &h->state[first];
         fprintf(out, "proved until t = %.15g s of %.15g s", s->until_s, end_s);

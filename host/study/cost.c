@@ -389,7 +389,7 @@ static cost_figure sum_of(const cost_row *row, const cost_counts *c, cost_figure
     for (int i = 0; row != NULL && i < COST_CLASSES; i++) {
         const double count = cost_counted(c, row->quantity)[i];
         if (count > 0.0 && row->figure[i] < 0.0) {
-            *why = "this scene has an operation that no counted step has: measure it";
+            *why = "no counted step has one of this scene's operations: use --measure";
             row = NULL;
         } else {
             sum += count * row->figure[i];
@@ -428,7 +428,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     }
     cost c = {.why = "", .state_bytes = cost_known(state_bytes(im, number), COST_EXACT)};
     if (row_of(board, number, COST_OF_INSTRUCTIONS) == NULL) {
-        c.why = "no step has been counted on this board in this number";
+        c.why = "no step was counted on this board with this number type";
         return c;
     }
     const cost_counts counts = cost_count(im, board, number);

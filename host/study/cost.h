@@ -32,8 +32,8 @@
     X(COST_MEASURED, "measured", "counted in an emulator, or read off a linked image") \
     X(COST_ESTIMATED, "estimated", \
       "cycles of counted instructions by Arm's timing, no wait states") \
-    X(COST_SIMULATED, "simulated", "cycles as simavr plays the chip") \
-    X(COST_RANGE, "range", "instructions times the least and most cycles of one")
+    X(COST_SIMULATED, "simulated", "cycles of a simulation of the chip by simavr") \
+    X(COST_RANGE, "range", "instructions times the fewest and most cycles per instruction")
 #define COST_BASIS_ID(id, word, says) id,
 typedef enum cost_basis { COST_BASIS_ROWS(COST_BASIS_ID) } cost_basis;
 #undef COST_BASIS_ID

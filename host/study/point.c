@@ -156,8 +156,8 @@ static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     }
     const symbol *found = tree->op == EXPR_SYMBOL ? tree->symbol : NULL;
     if (found != NULL && found->kind == SYM_STATE && tree->primes > found->order) {
-        diag_error(in->diags, tree->at, NULL, "the equations give '%s' no more than %d prime%s",
-                   found->name, found->order, found->order == 1 ? "" : "s");
+        diag_error(in->diags, tree->at, NULL, "'%s' can have at most %d prime%s", found->name,
+                   found->order, found->order == 1 ? "" : "s");
         return false;
     }
     if (found != NULL && found->kind == SYM_LET && !let_seen[found->index]) {
@@ -180,7 +180,7 @@ static bool has_measure_inside(const source *typed, diags *errors) {
                 const size_t offset = (size_t)(at - typed->text);
                 diag_error(errors, (place){typed, 1, (int)offset + 1, offset},
                            "measure it alone, and compute with the column afterwards",
-                           "%s() must stand around the whole measure", kind_names[kind]);
+                           "%s() must enclose the whole measure", kind_names[kind]);
                 return true;
             }
             at += length;
@@ -454,7 +454,7 @@ static bool run_through(meter *m, diags *errors, FILE *reason) {
         return false;
     }
     if (keeps_samples(m->wanted) && steps >= from && steps - from >= PERIOD_SAMPLES_MAX) {
-        fprintf(reason, "period() takes at most %.0e samples: a later --from or a larger step",
+        fprintf(reason, "period() takes at most %.0e samples: use a later --from or a larger step",
                 (double)PERIOD_SAMPLES_MAX);
         return false;
     }

@@ -72,7 +72,7 @@ static int line_length(const char *text) { return (int)strcspn(text, "\n"); }
 static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s) {
     char *there = read_text(sh->beside);
     if (there == NULL) {
-        return refuse(s->path, "the file is not from a sweep: there is no FILE.sweep beside it");
+        return refuse(s->path, "the file is not from a sweep: FILE.sweep is missing beside it");
     }
     const char *old = there;
     const char *new = s->fingerprint;

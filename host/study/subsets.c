@@ -258,7 +258,7 @@ static bool run_from(subsets *s, int first, diags *errors) {
                 lane_compare(&lanes[i], s->columns);
             }
             if (lanes[i].run != NULL && first > 1 && !subsets_keeps(s, lanes[i].subset)) {
-                lane_stop(&lanes[i], "it breaks the error");
+                lane_stop(&lanes[i], "the error is too large");
             }
         }
         note_range(s, ends, ends + columns, step == 0);

@@ -572,7 +572,7 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
         }
         if (im == NULL) {
             *own = !setting_may_be_refused(&s->image) && !setting_is_fixed(s);
-            return (cost){.why = "there is no image of it"};
+            return (cost){.why = "it cannot be derived"};
         }
         *own = *own && setting_is_own(s, im);
         const cost c = *own ? price_of(t, s, im) : (cost){.why = ""};

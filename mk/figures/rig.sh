@@ -2,7 +2,7 @@
 # rig.sh WHIRL samples|spikes|ratios|speeds|radii: what the rig's firmware heard and measured, in the loop with its bench
 # (docs/plants), by the tape of the run or by what it tells. build/pil_rig and build/pil_carriage stand beside WHIRL.
 #
-#   samples   the load of 2 s of the record, the tare taken off as the firmware does: time [s], load [N]
+#   samples   the load of 2 s of the record, the tare subtracted as the firmware does: time [s], load [N]
 #   spikes    of the same 2 s a spike for each slot pulse, on the load at its time: time [s], of sensor 1 and of sensor 2
 #             as an oscilloscope shows them, which sees 6 V at 10 lbf and pulses of 10 V and of 6 V
 #   ratios    the force on carriages, of that on a mount that does not move: ratio of the weights, part

@@ -101,7 +101,7 @@ for file in core/models/*.whirl; do
     fi
 done
 prints 'no scene was named: everything starts at zero' run core/models/thomson.whirl:thomson --until 2ms
-exits 2 'no mechanism here' derive -
+exits 2 'this text contains no mechanism' derive -
 exits 2 'more than one thing to derive: thomson' derive epicyclic thomson
 exits 2 "one scene at a time, not also 'thomson_b'" run thomson_a thomson_b
 prints '^thomson_a: ' run core/models/thomson.whirl:thomson_a --until 2ms
@@ -235,7 +235,7 @@ for command in run describe "derive --as c"; do
     exits 2 'error: --cells without --tables' $command epicyclic_from_rest --cells 64
     exits 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta1' is one of them" $command thomson_a --tables cubic
 done
-exits 2 'contacts.whirl:24:3: error: --tables: a step with events' run ball_bounces --tables linear
+exits 2 'contacts.whirl:24:3: error: --tables: a scene with events cannot use tables' run ball_bounces --tables linear
 prints 'theta' derive epicyclic --as latex --tables cubic # its equations are no others
 prints '"form": "cubic",' describe epicyclic_from_rest --json --tables cubic
 prints '"cells": 256,' describe epicyclic_from_rest --json --tables linear

@@ -24,15 +24,15 @@ grep -q '^`whirl pil --faults` lists' docs/pil.md
 verdict $? "docs/pil.md names the list"
 exits 2 "did you mean 'supply'" --fault suply=2
 exits 2 'a number from 0 to 10' --fault supply=11
-exits 2 'it has no size' --fault jam,freewheel=1
+exits 2 'this kind has no size' --fault jam,freewheel=1
 exits 2 'a number from 0.01 to 1' --fault stuck=1.2
 exits 2 'no such time' --fault jam@noon
 exits 2 'no such duration' --fault jam@1+long
-exits 2 "tells no 'mood'" --fault jam@mood=3
+exits 2 "sends no note 'mood'" --fault jam@mood=3
 exits 2 'has 2 such channels' --fault edge-dead:3
 about=pil
 exits 2 "has no input 'runaway'" docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway
-exits 2 'takes no --fault' --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam
+exits 2 'excludes --fault' --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam
 
 # --- what they do -----------------------------------------------------------------------------------------------------
 # told WORD FILE: the value of the firmware's note of that name

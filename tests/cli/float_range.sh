@@ -25,23 +25,23 @@ for what in parameter input; do
         [ $exponent -ne 38 ] || wanted=0 # 3e38 is below 3.4e38
         for command in "run --number float" "run --number float --quiet" "derive --as c"; do
             "$whirl" ${command%% *} "$scratch/spring.whirl" ${command#* } >"$scratch/out" 2>"$scratch/err"
-            [ "$(grep -c 'warning: float has no room for -*3e' "$scratch/err")" -eq $wanted ] ||
+            [ "$(grep -c 'warning: float cannot represent -*3e' "$scratch/err")" -eq $wanted ] ||
                 wrong="$wrong $what:$exponent:$command"
         done
         "$whirl" run "$scratch/spring.whirl" --quiet 2>"$scratch/err" # the stiff ones diverge
-        ! grep -q 'no room' "$scratch/err" || wrong="$wrong $what:$exponent:double"
+        ! grep -q 'cannot represent' "$scratch/err" || wrong="$wrong $what:$exponent:double"
     done
 done
 echo "$wrong" >"$scratch/err"
 [ -z "$wrong" ]
-verdict $? "sizes that float has no room for are warned of, in runs and in C, and no others"
+verdict $? "sizes that float cannot represent are warned of, in runs and in C, and no others"
 
 model -44 parameter >"$scratch/spring.whirl"
 for number in float double; do
     "$whirl" sweep "$scratch/spring.whirl" --number $number --over "x=1..2:2" --measure "max(x)" --csv "$scratch/$number.csv" \
         2>"$scratch/$number.err" >"$scratch/out"
 done
-grep -q 'no room for -*3e-44' "$scratch/float.err" && ! grep -q 'no room' "$scratch/double.err"
+grep -q 'cannot represent -*3e-44' "$scratch/float.err" && ! grep -q 'cannot represent' "$scratch/double.err"
 verdict $? "and in sweeps"
 
 mkdir "$scratch/scenes"

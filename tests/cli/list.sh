@@ -103,7 +103,7 @@ for name in $names; do
 done
 verdict $bad "names of files and titles with ends of fields and lines in them (seed $seed)"
 exits 2 "there is no form 'csv'" list --as csv
-exits 2 'is no file' list core/models/cuff.whirl:cuff --as table
+exits 2 'names a part of a file' list core/models/cuff.whirl:cuff --as table
 exits 2 'unknown option' list --table
 
 # --- all effects, and none ---------------------------------------------------------------------------------
@@ -181,7 +181,7 @@ for file in docs/hard/*.whirl; do basename "$file" .whirl; done | sort | diff "$
 verdict $? "--hard: every file of docs/hard in one row" "$scratch/diff"
 tab=$(printf '\t')
 while IFS="$tab" read -r name promised; do
-    told=0
+    warned=0
     file=docs/hard/$name.whirl
     [ -f "$file" ] || file=$name
     for each in $([ -f "$file" ] && "$whirl" list "$file" | awk '$1 == "scene" { print $2 }' || echo .); do
@@ -189,14 +189,14 @@ while IFS="$tab" read -r name promised; do
         [ -f "$file" ] || scene=$name
         "$whirl" run "$scene" --strict=off $([ "$scene" = "$file:$each" ] || echo --step 1ms --number float) >"$scratch/out" 2>"$scratch/err"
         status=$?
-        if [ $status -ne 0 ]; then is=refused
-        elif grep -q '^whirl run: warning: ' "$scratch/err" || { [ "$scene" = thomson_a ] && grep -q '^trusted  *until t = ' "$scratch/out"; }; then is=told
+        if [ $status -ne 0 ]; then is=error
+        elif grep -q '^whirl run: warning: ' "$scratch/err" || { [ "$scene" = thomson_a ] && grep -q '^trusted  *until t = ' "$scratch/out"; }; then is=warning
         else is=right; fi
-        [ $is != told ] || told=1
-        case "$is of $promised" in *"of "*$is* | "right of told"*) true ;; *) false ;; esac
+        [ $is != warning ] || warned=1
+        case "$is of $promised" in *"of "*$is* | "right of warning"*) true ;; *) false ;; esac
         verdict $? "--hard: $scene is $is, of: $promised"
     done
-    case "$promised" in told*) [ $told -eq 1 ]; verdict $? "--hard: $name is told in one of its scenes" ;; esac
+    case "$promised" in warning*) [ $warned -eq 1 ]; verdict $? "--hard: $name has a warning in one of its scenes" ;; esac
 done <"$scratch/scenes"
 exits 2 'error: --units, --hard and --figures go alone' list --hard thomson_a
 exits 2 'error: --units, --hard and --figures go alone' list --units --hard

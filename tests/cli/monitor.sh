@@ -31,7 +31,7 @@ record() {
 of() { sed -n "s/.*$1 \([0-9]*\).*/\1/p" "$scratch/counts"; }
 # told: the same count in monitor's summary
 told() {
-    grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) for want of room in the rig), $(of gaps) samples; damaged: 0\$" \
+    grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) because the rig's buffer was full), $(of gaps) samples; damaged: 0\$" \
         "$scratch/said"
 }
 
@@ -130,7 +130,7 @@ exits 2 '--for takes a number from' "$scratch/raw" --for 0
 exits 2 'one line at a time' "$scratch/raw" "$scratch/csv"
 if [ -r /proc/self/mem ]; then # whose first byte nobody can read
     "$whirl" monitor /proc/self/mem --csv "$scratch/x" >/dev/null 2>"$scratch/err" </dev/null
-    [ $? -eq 1 ] && grep -q '^/proc/self/mem: error: cannot be read on: ' "$scratch/err"
+    [ $? -eq 1 ] && grep -q '^/proc/self/mem: error: reading stopped: ' "$scratch/err"
     verdict $? "a file that cannot be read to its end" "$scratch/err"
 fi
 
@@ -200,7 +200,7 @@ wait $running
 status=$?
 running=
 exec 4>&-
-[ $status -eq 0 ] && grep -q 'opened 2 times, the rig began anew 1 times' "$scratch/said" && grep -q ' lost: 0 frames .*, 0 samples; damaged: 0$' "$scratch/said"
+[ $status -eq 0 ] && grep -q 'opened 2 times, the rig restarted 1 times' "$scratch/said" && grep -q ' lost: 0 frames .*, 0 samples; damaged: 0$' "$scratch/said"
 verdict $? "nothing is taken for lost that another rig would have sent, or that nobody has asked for" "$scratch/said"
 tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1; last = $1 } END { exit bad || NR < 100 }'
 verdict $? "and time goes on in the records" "$scratch/csv"

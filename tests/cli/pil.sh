@@ -245,15 +245,15 @@ exits 2 'cannot be read' --read "$scratch/none"
 exits 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
 [ ! -c /dev/full ] || exits 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
 exits 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
-exits 2 '--read takes no --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
-exits 2 '--read takes no scene' --read "$scratch/pc.tape" $rig
-exits 2 '--read takes no --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
-exits 2 '--replay takes no --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
+exits 2 '--read excludes --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
+exits 2 '--read excludes scene' --read "$scratch/pc.tape" $rig
+exits 2 '--read excludes --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
+exits 2 '--replay excludes --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
 
 # --- what is refused --------------------------------------------------------------------------------------------------------
 exits 2 'no --firmware' rig_coupled
 exits 2 'no scene' --firmware "$build/pil_rig"
-exits 2 'takes no scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
+exits 2 'excludes scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
 exits 2 'cannot be read' rig_coupled --firmware "$scratch/none"
 exits 2 'not a firmware image' rig_coupled --firmware README.md
 exits 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
@@ -265,9 +265,9 @@ exits 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart
 exits 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
 exits 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
 exits 2 'must be NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
-exits 2 'is renamed already' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
-exits 2 'there is room for' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
-exits 2 'there is room for' $rig --delay 0.1 --firmware "$build/pil_rig"
+exits 2 'already renames this signal' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
+exits 2 'more than the limit' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
+exits 2 'more than the limit' $rig --delay 0.1 --firmware "$build/pil_rig"
 exits 2 'numbers between commas' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
 exits 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
 exits 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
@@ -323,7 +323,7 @@ for step in 1e-12s 1e-9s 10us; do # however long it is to the next exchange
     [ $got -eq 124 ] && grep -q '^exchanges' "$scratch/out"
     verdict $? "a run with steps of $step is interrupted, and told ($got)" "$scratch/err"
 done
-exits 2 'is the speed of a --port' docs/plants/rig.whirl --firmware "$build/pil_rig" --baud 9600
+exits 2 '--baud needs --port' docs/plants/rig.whirl --firmware "$build/pil_rig" --baud 9600
 
 # --- nothing is left behind ----------------------------------------------------------------------------------------------
 # Seconds of plant time in steps of 2 us: long enough to be killed in the middle.

@@ -53,8 +53,8 @@ verdict $? "a tape is replayed over the line" "$scratch/err"
 unplug
 
 # --- what is wrong with a line -------------------------------------------------------------------------------------------
-exits 2 'takes no --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
-exits 2 'takes no --board' "$plant" --port "$scratch/tty" --board mps2-an386
+exits 2 'excludes --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
+exits 2 'excludes --board' "$plant" --port "$scratch/tty" --board mps2-an386
 exits 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
 exits 2 'cannot be opened' "$plant" --port "$scratch/none"
 exits 2 "^'': error: cannot be opened" "$plant" --port ''

@@ -100,7 +100,7 @@ refused() {
 refused --every 0
 refused --every 1.03ms
 refused --every 2kg
-! run "$built" --every 2ms && grep -q 'the spacing of --csv' "$scratch/err"
+! run "$built" --every 2ms && grep -q -e '--every needs --csv' "$scratch/err"
 verdict $? "refused: --every without --csv" "$scratch/err"
 run "$built" --csv - --until 10ms && [ "$(wc -l <"$scratch/out")" -eq 12 ] && grep -q 'command stream' "$scratch/err"
 verdict $? "--csv - has standard output to itself" "$scratch/out"

@@ -26,8 +26,8 @@ ended() {
 
 # --- what is proved ------------------------------------------------------------------------------------------------------
 proved '^proved to the end, t = 1 s$' epicyclic_from_rest --until 1s
-proved '^  X  *to the end  *within 1.00e-03 m: off by at most' epicyclic_from_rest --until 1s --number float --within X=1mm
-proved "^  theta'  *to the end  *within 5.00e-01 rad/s: off by at most" epicyclic_from_rest --until 1s --within "theta'=0.5" --within=X=1mm
+proved '^  X  *to the end  *within 1.00e-03 m: error at most' epicyclic_from_rest --until 1s --number float --within X=1mm
+proved "^  theta'  *to the end  *within 5.00e-01 rad/s: error at most" epicyclic_from_rest --until 1s --within "theta'=0.5" --within=X=1mm
 proved '^proved to the end, t = 1 s$' epicyclic_conserved --until 1s --number float
 proved '^proved to the end, t = 5 s$' tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 5s
 proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
@@ -38,7 +38,7 @@ verdict $? "whirl trust --proved says the same"
 proved 'after that the error is larger: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
 # a start that float cannot have is off from the beginning
 proved '^  theta  *never  *within 1.00e-12 rad: its error is larger at the start: proved$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
-grep -q '^nothing is proved: theta is not within at the start$' "$scratch/out"
+grep -q '^nothing is proved: theta is not within its tolerance at the start$' "$scratch/out"
 verdict $? "a start that is off: nothing is proved" "$scratch/out"
 # noise is of what is recorded: the motion is the same
 cat >"$scratch/noisy.whirl" <<'END'
@@ -111,7 +111,7 @@ if [ -z "${WHIRL_FEW:-}" ]; then
 fi
 
 # --- what ends it ------------------------------------------------------------------------------------------------------------
-ended 0 '^whirl prove: the effort is spent at t = [0-9.]* s of 10 s$' 'there the effort is spent$' thomson_a --step 1ms --effort 7.5e7
+ended 0 '^whirl prove: the effort is used up at t = [0-9.]* s of 10 s$' 'there the effort is used up$' thomson_a --step 1ms --effort 7.5e7
 ended 0 '^hint: use a larger --effort' '^proved until t = [0-9.]* s of 10 s$' thomson_a --step 1ms --effort 7.5e7
 cat >"$scratch/pole.whirl" <<'END'
 mechanism pole "x'' = 2 x^3 is infinite at 1 s"
@@ -144,7 +144,7 @@ for signal in INT TERM; do
 done
 
 stop INT "has_worked 50" prove thomson_a --until 100000s --effort 1e15 --csv "$scratch/i.csv"
-[ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted in the run that tells the range' "$scratch/err" &&
+[ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted in the run that measures the range' "$scratch/err" &&
     [ ! -s "$scratch/out" ] && [ ! -e "$scratch/i.csv" ]
 verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
 

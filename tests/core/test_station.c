@@ -151,7 +151,7 @@ TEST(station, a_whole_run) {
     check_begins("OK result=good turns=1", ask("measure"));
     TEST_ASSERT_NOT_NULL(strstr(heard, " speed_rpm=330.0"));
     TEST_ASSERT_NOT_NULL(strstr(heard, " force_N=42.0"));
-    TEST_ASSERT_NOT_NULL(strstr(heard, ": nothing against it"));
+    TEST_ASSERT_NOT_NULL(strstr(heard, ": no reason to doubt it"));
     check_begins("OK state=ramp_down ", ask("status"));
     check_begins("OK", ask("stop"));
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);

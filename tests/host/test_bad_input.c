@@ -176,9 +176,9 @@ TEST(bad_input, every_bad_text_has_the_errors_it_announces) {
 }
 
 TEST(bad_input, nothing_and_next_to_nothing) {
-    expect_text("", "x.whirl:1:1: error: no mechanism here");
-    expect_text("\n\n# only a comment", "x.whirl:1:1: error: no mechanism here");
-    expect_text("\xef\xbb\xbf", "x.whirl:1:1: error: no mechanism here");
+    expect_text("", "x.whirl:1:1: error: this text contains no mechanism");
+    expect_text("\n\n# only a comment", "x.whirl:1:1: error: this text contains no mechanism");
+    expect_text("\xef\xbb\xbf", "x.whirl:1:1: error: this text contains no mechanism");
     expect_text("mechanism", "x.whirl:1:10: error: a mechanism needs a name");
     expect_text("mechanism m", "x.whirl:1:11: error: mechanism 'm' has no coordinate");
     expect_text("\"", "x.whirl:1:1: error: this text is not closed");

@@ -171,7 +171,7 @@ TEST(books_told, conserved_momenta) {
             free_ones == 0,
             strstr(
                 what.out,
-                "\nno single coordinate's momentum is conserved; whirl examine finds those of sums and rotations\n") !=
+                "\nno single coordinate's momentum is conserved; whirl examine finds momenta of sums and rotations\n") !=
                 NULL,
             what.out);
         expect_balance(&m, what.out);

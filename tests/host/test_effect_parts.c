@@ -218,7 +218,7 @@ TEST(effect_parts, inertia_of_effects) {
                 snprintf(wanted, sizeof wanted, "the kinetic energy does not contain q%d'",
                          missing);
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, wanted), d.errors);
-                snprintf(wanted, sizeof wanted, "hint: the effect 'e%d' gives it one",
+                snprintf(wanted, sizeof wanted, "hint: the effect 'e%d' adds an inertia",
                          giver[missing]);
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, wanted), d.errors);
             }

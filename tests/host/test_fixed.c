@@ -361,7 +361,7 @@ TEST(fixed_runs, refusals) {
     } tried[] = {
         {"V = 1 [J]*sqrt(1 + (x/1 [m])^2)", "", "a square root"},
         {"V = 1 [J]*exp(x/1 [m])", "", "hold exp, which"},
-        {"V = 1 [J]*cos(x/1 [m])", "", "the sine of what is no turn angle"},
+        {"V = 1 [J]*cos(x/1 [m])", "", "the sine of a quantity that is no turn angle"},
         {"Q(x) = -1 [N]*(2 + x/1 [m])^2.5", "", "hold"},
         {"output o = x\nnoise o deviation 1 [mm] seed 7", "", "outputs of 's' have noise"},
         {"stop x >= -1 [m] restitution 0.5", "", "there are no events in fixed point"},

@@ -95,7 +95,7 @@ static bool warns(const char *text) {
     const char *const words[] = {model_keep(text), "--number", "float", "--quiet", NULL};
     command_say(command_run, words, &what);
     model_drop();
-    return what.status == said_owes(what.err) && strstr(what.err, "float has no room") != NULL;
+    return what.status == said_owes(what.err) && strstr(what.err, "float cannot represent") != NULL;
 }
 
 /* Range of the units, powers of two up to `most`, and the results of the runs with them. */

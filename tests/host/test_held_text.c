@@ -91,7 +91,7 @@ static const char *said_behind(const char *at, const containment_state *s) {
     case CONTAINMENT_AT_END: return said_exactly(at, "\n");
     case CONTAINMENT_RUN_ENDS: return said_exactly(at, "; there the run fails\n");
     case CONTAINMENT_NO_STEP: return said_exactly(at, "; there the tube ends\n");
-    case CONTAINMENT_SPENT: return said_exactly(at, "; there the effort is spent\n");
+    case CONTAINMENT_SPENT: return said_exactly(at, "; there the effort is used up\n");
     case CONTAINMENT_STOPPED: return said_exactly(at, "; there it was interrupted\n");
     }
     return at;
@@ -125,11 +125,10 @@ static const char *said_state(const char *at, int i, const char *name) {
                                     ? "its error is larger at the start: proved\n"
                                     : "its start is not known that accurately\n");
     }
-    at = said_exactly(at, "off by at most ");
+    at = said_exactly(at, "error at most ");
     at = read_not_less(at, unit, s->off, 1);
-    at = said_exactly(at, ", the tube ");
+    at = said_exactly(at, ", width of the tube ");
     at = read_not_less(at, unit, 2.0 * s->radius, 1);
-    at = said_exactly(at, " wide");
     return said_behind(at, s);
 }
 
@@ -167,7 +166,7 @@ static const char *said_end(const char *at, double end_s) {
     if (!found.state[first].begun) {
         at = said_exactly(at, "nothing is proved: ");
         at = said_exactly(at, name_of(first, name));
-        return said_exactly(at, " is not within at the start\n");
+        return said_exactly(at, " is not within its tolerance at the start\n");
     }
     at = said_exactly(at, "proved until t = ");
     at = read_time(at, found.state[first].until_s);

@@ -343,8 +343,8 @@ static const char *read_names(const char *at, int first, int end, bool units) {
 
 static const char *said_motion(const char *at) {
     return said_exactly(at, drawn.im.settings.matrix == MATRIX_EXACT
-                                ? "the motion itself, inputs held over the step"
-                                : "what Runge-Kutta 4 makes of it");
+                                ? "the exact motion, with inputs constant over the step"
+                                : "the step of Runge-Kutta 4");
 }
 
 /* Columns `first` to before `end`, at most five side by side. All lines of a block have equal length. */
@@ -778,7 +778,8 @@ TEST(matrix_runs, what_has_no_matrix_is_refused) {
     static const char mass[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "scene s { step 1 [s]; until 9 [s] }\n";
     const char *const none[] = {NULL};
-    expect_refused(ball, none, ":5:1: error: a step with events is no matrix: 's' has this stop");
+    expect_refused(ball, none,
+                   ":5:1: error: --matrix is not for scenes with events: 's' has this stop");
     expect_refused(grows, none, ":5:7: error: the matrix of 's' has numbers that are too large");
     expect_refused(mass, (const char *const[]){"--method", "heun", NULL},
                    "--matrix exact and --method heun");

@@ -429,7 +429,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
         const cost none = trial_any_cost(&p.trial, &rk4, rows[i].from, &own);
         TEST_ASSERT_EQUAL_INT(1, p.asked - asked);
         TEST_ASSERT_TRUE(own && none.instructions.basis == COST_NOT_KNOWN);
-        TEST_ASSERT_EQUAL_STRING("there is no image of it", none.why);
+        TEST_ASSERT_EQUAL_STRING("it cannot be derived", none.why);
         priced_close(&p);
     }
 }

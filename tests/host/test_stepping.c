@@ -157,7 +157,7 @@ TEST(stepping, failed) {
     list.kind = MEASURE_PERIOD;
     w.from_s = 0.0;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
-                  "period() takes at most 1e+08 samples: a later --from or a larger step", "");
+                  "period() takes at most 1e+08 samples: use a later --from or a larger step", "");
     /* 1/x of x = 1 - t: the step to 0 is the last good one, and the output is undefined there */
     list = (gauged){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"

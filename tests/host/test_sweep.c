@@ -202,7 +202,7 @@ TEST(sweep, measures_inside_are_told) {
         diags_flush(heard, out);
         fclose(out);
         snprintf(wanted, sizeof wanted,
-                 "<measure>:1:%d: error: %s() must stand around the whole measure\n",
+                 "<measure>:1:%d: error: %s() must enclose the whole measure\n",
                  (int)strlen(before[c / 3U]) + 1, word);
         TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
         TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);

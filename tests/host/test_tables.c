@@ -369,23 +369,23 @@ static const struct {
      "more than one turn angle", "2:12"},
     {"mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
      "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2 + 1 [kg]*x^2*a'^2/2\nV = 1 [J]*cos(a)\n",
-     "are divided by what depends on a rate, an input or a real", "1:11"},
+     "have a denominator with a rate, an input or a real", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*cos(a)\n"
      "Q(a) = -0.1 [N*m]*sign(a')\n",
-     "hold a function", "1:11"},
+     "contain a function", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*(cos(a) + a^2)\n",
-     "hold a sine or cosine of what is no turn angle", "1:11"},
+     "contain a sine or cosine of a quantity that is no turn angle", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*abs(cos(a))\n",
-     "have a bend or a jump", "1:11"},
+     "have a kink or a jump", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*tan(a)\n",
-     "have no value or no slope at some angle", "1:11"},
+     "have no finite value or slope at some angle", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*(1 - cos(a))*a'^2\nV = 1 [J]*cos(a)\n",
-     "have no value or no slope at some angle", "1:11"},
+     "have no finite value or slope at some angle", "1:11"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [N/m]*x^2\n",
      "there is nothing to look up", "1:11"},
     {"mechanism m\ncoordinate a [rad]\ncoordinate x [m]\nT = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2\n"
      "V = 1 [J]*cos(a)\nstop x >= 0 [m] restitution 0.5\n",
-     "a step with events looks at more than tables hold", "6:1"}};
+     "a scene with events cannot use tables", "6:1"}};
 
 TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {

@@ -134,31 +134,32 @@ TEST(talk, wrong_words) {
         case 0:
             talk_put_orders(&talk_line, 1, 2);
             expect_unheard(LOCKSTEP_FAILED,
-                           "error: the firmware sent a frame that is no answer in exchange 1\n",
+                           "error: the firmware sent a frame that is not an answer in exchange 1\n",
                            true);
             break;
         case 1:
             talk_put(&talk_line, WH_FRAME_READINGS, 1, 0, payload, length);
-            expect_unheard(LOCKSTEP_FAILED, "a frame that is no answer in exchange 1\n", true);
+            expect_unheard(LOCKSTEP_FAILED, "a frame that is not an answer in exchange 1\n", true);
             break;
         case 2:
             talk_put(&talk_line, WH_FRAME_ORDERS, 1, 0, payload, length - 1U);
-            expect_unheard(LOCKSTEP_FAILED, "orders that are none in exchange 1\n", true);
+            expect_unheard(LOCKSTEP_FAILED, "invalid orders in exchange 1\n", true);
             break;
         case 3:
             talk_drawn.orders[1].outputs++;
             talk_put_orders(&talk_line, 1, 1);
-            expect_unheard(LOCKSTEP_FAILED, "orders that are none in exchange 1\n", true);
+            expect_unheard(LOCKSTEP_FAILED, "invalid orders in exchange 1\n", true);
             break;
         case 4:
             talk_put(&talk_line, WH_FRAME_REMEMBER, 1, 0, talk_drawn.remembered[1],
                      WH_REMEMBER_MAX + 1U);
             talk_put_orders(&talk_line, 1, 1);
-            expect_unheard(LOCKSTEP_FAILED, "more than can be remembered in exchange 1\n", true);
+            expect_unheard(LOCKSTEP_FAILED, "more remembered bytes than the limit in exchange 1\n",
+                           true);
             break;
         case 5:
             talk_put_end(&talk_line, 0, talk_one_of(2) == 0 ? 3 : 5);
-            expect_unheard(LOCKSTEP_FAILED, "an end that is none in exchange 1\n", true);
+            expect_unheard(LOCKSTEP_FAILED, "an invalid end in exchange 1\n", true);
             break;
         case 6:
             expect_unheard(LOCKSTEP_FAILED, "whirl pil: error: the line is gone\n", true);
@@ -172,7 +173,7 @@ TEST(talk, wrong_words) {
             break;
         case 8:
             talk_put_hello(&talk_line, &talk_drawn.hello);
-            expect_unheard(LOCKSTEP_FAILED, "a frame that is no answer in exchange 1\n", true);
+            expect_unheard(LOCKSTEP_FAILED, "a frame that is not an answer in exchange 1\n", true);
             break;
         case 9:
             talk_put_end(&talk_line, 3, 4);
@@ -193,10 +194,10 @@ TEST(talk, hellos) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
         static stream heard;
-        static const char *const words[] = {
-            "no hello has come over the line in 0.05 s\n",
-            "the firmware sent a hello that is none in exchange 0\n",
-            "the firmware sent a hello that is none in exchange 0\n", "", ""};
+        static const char *const words[] = {"no hello has come over the line in 0.05 s\n",
+                                            "the firmware sent an invalid hello in exchange 0\n",
+                                            "the firmware sent an invalid hello in exchange 0\n",
+                                            "", ""};
         static const lockstep_end why[] = {LOCKSTEP_BAD, LOCKSTEP_FAILED, LOCKSTEP_FAILED,
                                            LOCKSTEP_DONE, LOCKSTEP_STOPPED};
         talk_draw();

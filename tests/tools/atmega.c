@@ -40,12 +40,12 @@ static bool boots(unsigned times) {
         {"start 330", "ERR 1 "},
         {"conf list", "OK settings="},
         {"conf get inertia",
-         "OK inertia=0.0057679 type=real unit=kgm2 least=0.00001 most=10 default=0.0057679: of"},
+         "OK inertia=0.0057679 type=real unit=kgm2 least=0.00001 most=10 default=0.0057679: moment"},
         {"conf get feeds", "OK feeds=never "},
-        {"conf set feeds always", "ERR 114 this program has none"},
-        {"conf set swings on", "ERR 114 this program has none"},
-        {"tel list", "ERR 114 this program has none"},
-        {"help talk", "OK talk on|off: echo what is typed"},
+        {"conf set feeds always", "ERR 114 this program does not support it"},
+        {"conf set swings on", "ERR 114 this program does not support it"},
+        {"tel list", "ERR 114 this program does not support it"},
+        {"help talk", "OK talk on|off: echo typed"},
         {"measure", "ERR 104 the last run has given no result"},
         {"nonsense", "ERR 100 no such command"}};
     (void)times;

@@ -40,8 +40,8 @@ static bool converses(unsigned times) {
                 {"measure", "ERR 104 the last run has given no result"},
                 {"set 20", "ERR 7 the rig is not running"},
                 {"nonsense", "ERR 100 no such command; help lists them"},
-                {"start much", "ERR 103 a number is wanted, such as 330 or 330.5"},
-                {"help clear", "OK clear: a trip whose cause is gone"}};
+                {"start much", "ERR 103 give a number, such as 330 or 330.5"},
+                {"help clear", "OK clear: release a trip whose cause is gone"}};
     char line[300];
     char many[900] = "";
     for (unsigned i = 0; i < times; i++) {
