@@ -253,7 +253,7 @@ docs-all: docs-programs ##- the commands of all pages, also the slow ones, print
 
 docs-renew: docs-programs ##- all pages with what their commands print now: DOC_PAGES=docs/pil.md
 	@sh tests/docs.sh renew $(DOC_PAGES)
-	@sh mk/commands.sh page >build/commands.md && cp build/commands.md docs/commands.md
+	@for p in commands commands_bench; do sh mk/commands.sh page $$p >build/$$p.md && cp build/$$p.md docs/$$p.md || exit 1; done
 
 # --- one arithmetic everywhere ----------------------------------------------------------------------
 # Boards in the gate, and in `make hashes-all`.

@@ -1,15 +1,16 @@
 #!/bin/sh
-# commands.sh page: docs/commands.md with its part below the mark made from the program's help texts, on standard output.
-# commands.sh man FOLDER: that page as man pages, whirl.1 and whirl-COMMAND.1.
+# commands.sh page commands|commands_bench: that page of docs, its part below the mark made from the help texts, on standard output.
+# commands.sh man FOLDER: both pages as man pages, whirl.1 and whirl-COMMAND.1.
 set -u
 whirl=${WHIRL:-build/whirl}
 
 page() {
-    sed '/^<!-- generated/q' docs/commands.md
-    "$whirl" help | awk '
+    sed '/^<!-- generated/q' "docs/$1.md"
+    [ "$1" = commands ] && cut='/^@bench/,$d' || cut='1,/^@bench/d'
+    { "$whirl" help | awk '
         BEGIN { print "\n| command | does |\n|---|---|" }
         /^  whirl / { head = substr($0, 3, 36); text = substr($0, 40); sub(/ +$/, "", head); gsub(/[|]/, "\\|", head)
-                      print "| [`" head "`](#whirl-" $2 ") | " text " |" }'
+                      print "| [`" head "`](" ($2 ~ /^(pil|monitor|firstlight)$/ ? "commands_bench.md" : "") "#whirl-" $2 ") | " text " |" }'
     for command in $("$whirl" help | sed -n 's/^  whirl \([a-z]*\) .*/\1/p'); do
         echo "@$command"
         "$whirl" "$command" --help
@@ -32,7 +33,7 @@ page() {
         }
         function flush(   word, of) { # the paragraph or the option that is read
             if (kind == "text") { print ""; wrapped(links(text)) }
-            if (kind == "option" && text !~ /^as for/ && (head text) in from && length(text) > 50) {
+            if (kind == "option" && text !~ /^as for/ && (head text) in from && length(text) > 30) {
                 split(head, word, " ")
                 of = from[head text]
                 if (!(of in same)) { owner[++owners] = of }
@@ -51,7 +52,7 @@ page() {
         }
         function ended() { flush(); shared(); if (ends != "") { print ""; wrapped(ends ".") } ends = "" }
         function option(at, next_at) { kind = "option"; head = substr($0, 3, at - 3); text = substr($0, next_at); sub(/ +$/, "", head); sub(/^ +/, "", text) }
-        sub(/^@/, "") { ended(); now = $0; printf "\n## `whirl %s`\n\n", now; next }
+        sub(/^@/, "") { ended(); now = $0; if (now == "pil") { print "@bench" } printf "\n## `whirl %s`\n\n", now; next }
         /^usage: / || /^       whirl/ || (used && /^ /) { used = 1; more = 0; print "    " substr($0, 8); next }
         { used = 0 }
         /^$/ { flush(); next }
@@ -74,11 +75,11 @@ page() {
         }
         kind != "" && (kind == "text" || /^      /) { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0; next }
         { flush(); if (table) { shared() } kind = "text"; text = $0 }
-        END { ended() }'
+        END { ended() }'; } | sed "$cut"
 }
 
 man() {
-    mkdir -p "$1" && sed '1,/^<!-- generated/d' docs/commands.md | awk -v folder="$1" -v version="$("$whirl" version)" '
+    mkdir -p "$1" && for page in commands commands_bench; do sed '1,/^<!-- generated/d' "docs/$page.md"; done | awk -v folder="$1" -v version="$("$whirl" version)" '
         function plain(text) { gsub(/\\[|]/, "|", text); gsub(/\\[*]/, "*", text); gsub(/\[`|`\]\([^)]*\)|`|\]\([a-z_\/]*[.]md\)/, "", text)
                                while (match(text, /\[[a-z_\/]+[.]md/)) { text = substr(text, 1, RSTART - 1) substr(text, RSTART + 1) }
                                gsub(/\\/, "\\e", text); gsub(/-/, "\\-", text); return (text ~ /^[.\047]/ ? "\\&" : "") text }

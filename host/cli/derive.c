@@ -155,7 +155,7 @@ static const command_usage usage = {
 static const command_usage options_of_derive = {.head = "",
                                                 .groups = OPTIONS_CHANGE | OPTIONS_STEP |
                                                           OPTIONS_ENGINE | OPTIONS_NUMBER,
-                                                .tail = "Numbers in formulas are SI. "};
+                                                .tail = "Formulas are in SI. "};
 
 static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
                          const char *what) {
@@ -184,8 +184,8 @@ static void print_usage(FILE *out) {
     fprintf(
         out,
         "The method and --number fixed change only %s.\n"
-        "All other code is the same for float and double. With --matrix every form shows the matrix;\n"
-        "with --as octave it replaces the equations.\n",
+        "All other code is the same for float and double. With --matrix all forms show the matrix, and\n"
+        "--as octave only the matrix.\n",
         forms_with(has_steps, said));
 }
 

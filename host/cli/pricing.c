@@ -734,8 +734,7 @@ static int choose_scene(pricing *p) {
 int command_choose(int count, char **words) {
     static const pricing_command choose = {
         "choose", PRICING_CHOOSE, choose_head,
-        "no setting fits (the output says which limits exclude how many), or no reference\n"
-        "       is accurate enough",
+        "no setting fits (the output has the reasons), or no reference is accurate enough",
         choose_scene};
     return run_command(&choose, count, words);
 }

@@ -27,9 +27,8 @@ static const command_usage usage = {
     .head =
         "usage: whirl run SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
         "\n"
-        "Runs a scene and prints a summary: the final state, the energy and momentum balance, the hash of\n"
-        "the state. Without a scene, a mechanism starts at zero, at rest. If a FILE has several scenes, name\n"
-        "one.\n"
+        "Runs a scene and prints a summary: final state, energy and momentum balance, hash of the state.\n"
+        "Without a scene, a mechanism starts at zero, at rest. If a FILE has several scenes, name one.\n"
         "\n",
     .groups = OPTIONS_SCENE,
     .described = true,

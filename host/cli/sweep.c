@@ -37,7 +37,7 @@ static const command_usage sweep_usage = {
         "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
         "                   [options]\n"
         "\n"
-        "Runs a scene at every point of a grid, and writes a row of measures for each (docs/sweeps.md).\n"
+        "Runs a scene at every point of a grid, and writes a row of measures each (docs/sweeps.md).\n"
         "\n"
         "  --over RANGE         COUNT values of a parameter, an input, a start value or the step: \"r=10..60\n"
         "                       [mm]:11\", \"theta'=1..4 [rpm]:7\", \"step=0.1..10 [ms]:9,log\". A bare number is\n"

@@ -11,8 +11,10 @@ verdict $? "whirl --help"
 sed -n 's/^  whirl \([a-z-]*\) .*/\1/p' "$scratch/help" | diff "$scratch/commands" - >"$scratch/err"
 verdict $? "whirl --help lists every command, and no other"
 
-WHIRL=$whirl sh mk/commands.sh page 2>&1 | diff docs/commands.md - >"$scratch/err"
-verdict $? "docs/commands.md is what make docs-renew DOC_PAGES=docs/commands.md writes"
+for page in commands commands_bench; do
+    WHIRL=$whirl sh mk/commands.sh page $page 2>&1 | diff docs/$page.md - >"$scratch/err"
+    verdict $? "docs/$page.md is what make docs-renew DOC_PAGES=docs/commands.md writes"
+done
 sh mk/commands.sh man "$scratch/man" 2>"$scratch/err"
 find "$scratch/man" -name '*-*.1' | sed 's/.*whirl-//; s/[.]1$//' | sort >"$scratch/paged"
 sort "$scratch/commands" | diff - "$scratch/paged" >"$scratch/err" &&
@@ -37,7 +39,7 @@ while read -r command; do
     # the text reads every option at the start of a line; these commands have none
     case $command in accel | new | check) true ;; *) [ -s "$scratch/options" ] ;; esac
     verdict $? "its options are read"
-    sed -n "/^## .whirl $command\`/,/^Exit status/p" docs/commands.md >"$scratch/documents"
+    sed -n "/^## .whirl $command\`/,/^Exit status/p" docs/commands*.md >"$scratch/documents"
     while read -r word value; do
         "$whirl" "$command" $word >"$scratch/out" 2>"$scratch/err" </dev/null
         if [ -n "$value" ]; then
