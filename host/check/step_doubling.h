@@ -119,7 +119,7 @@ int step_doubling_order(const image *im);
 
 /* Runs both from the start to the end, or until one fails. The images must outlive the result. */
 step_doubling *step_doubling_run(const step_doubling_wish *w);
-/* The same for a run that the caller steps: call step_doubling_enter() at its start and after each step. `w` is
+/* As above, for a run that the caller steps: call step_doubling_enter() at its start and after each step. `w` is
  * copied. */
 step_doubling *step_doubling_open(const step_doubling_wish *w, void *run);
 void step_doubling_enter(step_doubling *t);

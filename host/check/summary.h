@@ -21,9 +21,9 @@ const char *step_text(double step_s, char text[STEP_WORD]);
 /* === about ==================================================================================== */
 /* The settings of a run as lines of TOML, for the file next to its records (host/io/plot.h). */
 
-/* Version, scene, step, method, state hash. Free it. */
+/* Version, scene, step, method, state hash. The caller frees the result. */
 char *about_facts(const image *im, const engine_kind *kind, const void *run);
-/* Parameters and inputs, SI. Free it. */
+/* Parameters and inputs, SI. The caller frees the result. */
 char *about_tables(const image *im);
 
 /* === the opening sentence ===================================================================== */

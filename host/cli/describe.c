@@ -14,7 +14,7 @@
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 
-/* False, reported, if a word is an option; "-" is a file. */
+/* Returns false, and reports the reason, if a word is an option; "-" is a file. */
 static bool has_no_options(const char *command, int count, char **words) {
     for (int i = 0; i < count; i++) {
         if (words[i][0] == '-' && words[i][1] != '\0') {

@@ -405,7 +405,7 @@ static bool has_source(const monitor *m) {
     return false;
 }
 
-/* False, reported, if a file had more data. */
+/* Returns false, and reports the reason, if a file had more data. */
 static bool was_read(const monitor *m) {
     if (m->live || m->line.failed == 0) {
         return true;

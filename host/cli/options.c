@@ -196,8 +196,8 @@ static bool is_in(const char *const *list, int count, const char *name) {
     return false;
 }
 
-/* Adds each name of "E, E,...", with optional blanks. False, reported, if a name is missing, or repeated in the list or on
- * the command line. */
+/* Adds each name of "E, E,...", with optional blanks. Returns false, and reports the reason, if a name is missing, or
+ * repeated in the list or on the command line. */
 static bool push_names(change_options *c, const char ***list, int *count, const char *option,
                        const char *text) {
     static const char blank[] = " \t\r\n";

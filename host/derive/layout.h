@@ -50,8 +50,8 @@ typedef struct layout {
     const int *record;  /* operations of recorded outputs, or NULL */
 } layout;
 
-/* Arrange the state. An angle that `dynamics` [count] contain only inside sines and cosines becomes a turn angle. False
- * if there are too many components. */
+/* Arrange the state. An angle that `dynamics` [count] contain only inside sines and cosines becomes a turn angle.
+ * Returns false if there are too many components. */
 bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
                     const poly *const *dynamics, int count);
 void layout_free(layout *map);

@@ -470,8 +470,8 @@ static void drop_least(twofold *step, int states, int columns) {
 /* On entry step[states * columns] has the rates A | B | c times the step. On return it has exp([A B c; 0 0 0] h) - 1
  * without its lower rows: the change of the states in one step. The method is scaling and squaring of the exponential
  * minus one, which keeps the digits of small changes. (Moler & Van Loan, Nineteen Dubious Ways to Compute the
- * Exponential of a Matrix, method 3.) The matrix is balanced first. False if a number overflows, or if the scaled steps
- * are so small that digits would be lost: step[] is then invalid. */
+ * Exponential of a Matrix, method 3.) The matrix is balanced first. Returns false if a number overflows, or if the
+ * scaled steps are so small that digits would be lost: step[] is then invalid. */
 static bool exponential_exact(twofold *step, int states, int columns) {
     const int count = states * columns;
     double *unit = alloc(states, sizeof *unit);

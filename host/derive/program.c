@@ -458,7 +458,7 @@ static const char no_stabilized[] = "leave out --stabilized";
 
 /* The check before the ledger exists. The scene needs an energy, a method of stages, and no contacts, which would not
  * notice a correction of the rates after a step. `contacts` may be NULL, and `integral` is NULL if the energy is T + V.
- * False if impossible, reported with its place. */
+ * Returns false if impossible, reported with its place. */
 static bool stabilizing_possible(const layout *map, const contact_lists *contacts,
                                  const poly *integral, const image_settings *settings,
                                  diags *errors) {

@@ -78,7 +78,8 @@ static void conditions_add(conditions *c, const conditions *more) {
     free(row);
 }
 
-/* One Jacobi rotation that makes columns p and q of m orthogonal, applied to v as well. False if they already are. */
+/* One Jacobi rotation that makes columns p and q of m orthogonal, applied to v as well. Returns false if they already
+ * are. */
 static bool make_orthogonal(double *m, double *v, int n, int p, int q) {
     double pp = 0.0;
     double qq = 0.0;

@@ -16,7 +16,7 @@
 typedef struct turn_value {
     double value;
     double slope; /* slope per turn */
-    double size;  /* sum of absolute addends; round-off is 1e-16 of it */
+    double size;  /* sum of the absolute addends; the round-off is 1e-16 of this */
 } turn_value;
 
 #define TURN_RAD 6.283185307179586477
@@ -67,8 +67,8 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
                               multiple != 0 ? 1.0 : fabs(cosine)};
 }
 
-/* Evaluate all operations of the list to value[t->count] at an angle of `turns`. Phase i takes multiple[i] of it;
- * entries of other operations are unused. All operations are functions of that angle: no rates or reals. */
+/* Evaluates all operations of the list to value[t->count] at an angle of `turns`. Phase i is multiple[i] times this
+ * angle; entries of other operations are unused. All operations are functions of that angle: no rates or reals. */
 static void turn_evaluate(const op_list *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -191,8 +191,7 @@ static void find_mirrors(op_list_tables *of) {
     }
 }
 
-/* Finds the error of each table by trying TRIED places a cell, including the middle and the knots. The largest errors are
- * at or near these. */
+/* Finds the largest error of each table from TRIED points per cell, including the middle and the knots. */
 static void set_errors(const table_functions *f, op_list_tables *of) {
     enum { TRIED = 16 };
     const op_list *c = f->list;
@@ -239,7 +238,7 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
                 write_cubic(&value[k * n], &slope[k * n], n, i, number);
             }
             for (int term = 0; term < into->terms; term++) {
-                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* only one zero */
+                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* never a negative zero */
             }
         }
     }
@@ -280,7 +279,7 @@ static void find_symbols(collecting *c) {
     }
 }
 
-/* At least one byte, so that every product has its own address. */
+/* At least one byte is allocated, so that every product has its own address. */
 static unsigned char *powers_new(const products *p) {
     return arena_alloc(p->memory, (size_t)p->symbols + 1U);
 }
@@ -504,7 +503,7 @@ enum { TRIES = 4096 };
 /* Relative to the sum of absolute addends: smaller values count as zero, smaller differences as equal. */
 #define ALIKE 1e-13
 
-/* A divisor closer to zero than this part of its maximum counts as reaching zero. */
+/* A denominator whose size falls below this part of its maximum counts as reaching zero. */
 #define POLE 1e-6
 
 typedef enum coefficient_kind { IS_NOTHING, IS_CONSTANT, IS_TABLE } coefficient_kind;
@@ -522,7 +521,7 @@ typedef struct tabling {
     products *from;
     refusal *why;
     int *turns;               /* [angles] of the looked-up phase */
-    int *multiple;            /* [coefficients->count] multiple of that phase, by phase */
+    int *multiple;            /* [coefficients->count] the multiple of that phase */
     coefficient *coefficient; /* [count] of the products, result after result */
     int count;
     int *table; /* [tables] operations of the coefficients' list */
@@ -736,7 +735,7 @@ static int product_of(const writing *w, const part *p) {
     return op_list_mul(w->made, p->coefficient, made);
 }
 
-/* The symbol in the most parts, if it is in more than one; or -1. */
+/* The symbol that occurs in the most parts, if it occurs in more than one; otherwise -1. */
 static int commonest(const writing *w, const part *parts, int count) {
     int best = -1;
     int most = 1;
@@ -767,7 +766,8 @@ static int sum_up(const writing *w, part *parts, int count) {
         }
     }
     if (with > 0) {
-        const int inner = sum_up(w, parts, with); /* one power less in each */
+        /* in each of these parts the power is lower by one */
+        const int inner = sum_up(w, parts, with);
         sum = op_list_mul(w->made, symbol_of(w, common), inner);
         return op_list_add(w->made, sum, sum_up(w, parts + with, count - with));
     }

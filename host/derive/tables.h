@@ -34,7 +34,7 @@ typedef struct products {
 typedef struct refusal {
     const char *reason;
     const char *hint;
-    int angle; /* the turn angle concerned, or -1 */
+    int angle; /* the turn angle that the message names, or -1 */
 } refusal;
 
 /* Default number of cells of a table, for one turn. */
@@ -47,7 +47,7 @@ enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
                      refusal *why);
 
-/* The default number of cells of that form. */
+/* The default number of cells of a table of that form. */
 int tables_cells(image_tables form);
 
 #endif

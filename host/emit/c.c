@@ -230,7 +230,7 @@ static void c_contacts_include(FILE *out, const image *im) {
 static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
 #undef KIND_TEXT
 
-/* A table of small numbers, if there are any. */
+/* Writes a table of small numbers, unless it is empty. */
 static void write_bytes(FILE *out, const char *name, const int *number, int count) {
     for (int i = 0; i < count; i++) {
         if (i == 0) {
@@ -399,7 +399,7 @@ static void write_observer(FILE *out, const image *im) {
     c_list_body(out, t, C_PHASES, "output");
 }
 
-/* A table of numbers, if there are any. */
+/* Writes a table of numbers, unless it is empty. */
 static void write_reals(FILE *out, const char *name, const double *number, int count) {
     char hex[HEX_SIZE];
     for (int i = 0; i < count; i++) {
@@ -436,7 +436,7 @@ static bool has_ahead(const image *im) {
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    /* declared here: further up it would hide names in functions */
+    /* declared here, because before the functions it would hide names in them */
     c_header_link(out, "wh_scene", im->name, c_header_of_image, im);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -612,7 +612,7 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
-/* With space for fewer than four stages gcc spills other values, not fewer. */
+/* The number of stages for which memory is reserved. With fewer than four, gcc spills other values, not fewer. */
 static int most_stages(const image *im) {
     const int stages = wh_methods[im->settings.method].stages;
     return stages > 4 ? stages : 4;

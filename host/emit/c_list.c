@@ -54,12 +54,14 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
 
 /* === the list ================================================================================= */
 
-/* A longer list is called at each stage and not inlined. On the Cortex-M4F this costs 7 to 12 % more instructions and
- * saves half of the flash or more. Examples: seven links of a pendulum take 8 and not 15 KB, ten take 14 and not 33. */
+/* A list with more operations is called at each stage and not inlined. On the Cortex-M4F this costs 7 to 12 % more
+ * instructions and saves half of the flash or more: seven links of a pendulum take 8 instead of 15 KB, ten take 14
+ * instead of 33. */
 enum { INLINED_MOST = 150 };
 
-/* From so many operations on, the compiler should keep their order (WH_LONG_LIST of core/step.h). On the Cortex-M4F,
- * this saves 1 % of the instructions of 67 operations but costs 2 % more cycles; of 131 it saves 4 % and 2 %. */
+/* From this number of operations on, the compiler should keep their order (WH_LONG_LIST of core/step.h). On the
+ * Cortex-M4F, a list of 67 operations then takes 1 % fewer instructions but 2 % more cycles; for 131 operations it is 4
+ * % and 2 % less. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
@@ -88,7 +90,7 @@ static void write_part(FILE *out, int angle, double multiple) {
             angle, hex_write(multiple, hex), whole, part);
 }
 
-/* The phase without its part in radians; returns the sign before the next term. */
+/* Writes the phase without its part in radians. Returns the sign before the next term. */
 static const char *write_turns(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {

@@ -8,7 +8,7 @@
 
 /* === the right-hand side of an operation from its row (host/image/op_list.h) ================== */
 
-/* The language-dependent parts of the rows. */
+/* The parts of the rows that depend on the language. */
 typedef struct op_style {
     void (*operand)(FILE *out, const op_list *t, int a);
     /* Writes the number of a leaf: `what` is l, r or u, `a` its index. NULL if no row needs it. */
@@ -23,7 +23,7 @@ bool c_list_uses(const op_list *t, op_code code);
 bool c_list_uses_phase(const op_list *t);
 /* Has the list so many operations that the compiler should keep their order? */
 bool c_list_is_long(const op_list *t);
-/* "(void)NAME;" unless it is used. */
+/* Writes "(void)NAME;", unless NAME is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
 /* The input of a generated list for its sines: phases to look up, or pairs. */
 typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
@@ -39,10 +39,10 @@ void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *n
 /* "step_matrix", the function that wh_step_matrix() calls. It is called at one place only, so inlining it takes no
  * flash on any processor. */
 void c_list_matrix(FILE *out, const op_list *t);
-/* "cells", the tables of a list; nothing without tables. */
+/* Writes "cells", the tables of a list; nothing if there are none. */
 void c_list_cells(FILE *out, const op_list *t);
 
-/* "waves", the wh_waves of a list that takes pairs, and their data. */
+/* Writes "waves", the wh_waves of a list that takes pairs, and their data. */
 void c_list_waves(FILE *out, const op_list *t);
 
 #endif

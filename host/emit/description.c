@@ -31,7 +31,7 @@ static void put_hex(json *j, const char *key, uint64_t value) {
     json_text(j, key, text);
 }
 
-/* The place in the file, and the statement there. */
+/* Writes the place in the file, and the statement at that place. */
 static void put_place(json *j, place at) {
     char text[STATEMENT_SIZE];
     statement_text(at, text, sizeof text);
@@ -211,7 +211,7 @@ static void put_lists(json *j, const image *im) {
     json_close(j, '}');
 }
 
-/* The table look-ups of a step; null if it computes all functions of angles. */
+/* Writes the table look-ups of a step; null if the step computes all functions of angles. */
 static void put_tables(json *j, const image *im) {
     const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     if (of->count == 0) {
@@ -376,7 +376,7 @@ static void tell_ledger(FILE *out, const image *im) {
     }
 }
 
-/* Declared ranges only; fixed point measures the others in a run. */
+/* Writes the declared ranges only; fixed point finds the others in a run. */
 static void put_ranges(FILE *out, const image *im) {
     bool any = false;
     for (int i = 0; i < im->reals + im->inputs; i++) {

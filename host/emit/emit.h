@@ -23,7 +23,7 @@ void emit_octave_end(FILE *out, const image *im);
  * and no name of the core or the generated file. */
 bool emit_c_name_is_free(const char *name);
 
-/* Is the name free of the words that only C++ reserves? */
+/* Is the name free in C++, which reserves more words than C? */
 bool emit_c_name_is_free_in_cpp(const char *name);
 
 /* Can a function file of Octave and of Matlab have that name? It must be no keyword or constant of theirs, and no name
@@ -32,10 +32,10 @@ bool emit_octave_name_is_free(const char *name);
 /* Can a variable there have that name? A variable may hide constants such as e and I. */
 bool emit_octave_variable_is_free(const char *name);
 
-/* The scene's header, for C and C++: names of its components, inputs and outputs, their units, its memory. */
+/* Writes the scene's header, for C and C++: names of its components, inputs and outputs, their units, its memory. */
 void emit_c_header(FILE *out, const image *im, const char *file);
 
-/* The scene as C for the core: constants, start, straight-line right-hand side, one step. */
+/* Writes the scene as C for the core: constants, start, straight-line right-hand side, one step. */
 void emit_c(FILE *out, const image *im, const char *file);
 
 #endif

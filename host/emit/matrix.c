@@ -3,7 +3,7 @@
 
 #include "emit.h"
 
-/* Columns of a table next to each other. */
+/* Most columns of a table that are printed next to each other. */
 enum { BESIDE = 5, NAME_WIDTH = 14, NUMBER_WIDTH = 17 };
 
 /* The label of column or row k, a state or an input: its name with primes, in text[size]. */

@@ -7,7 +7,7 @@
 #include "host/base/alloc.h"
 #include "host/emit/c_list.h"
 
-/* y(k), k from 1: values first, then rates, and so on. */
+/* The index k of y(k), from 1: first the values, then the rates, and so on. */
 static int y_number(const image *im, component of) {
     int number = 1;
     for (int level = 0; level <= of.primes; level++) {
@@ -185,7 +185,7 @@ static bool is_one_of(const char *name, const char *const *list) {
 
 bool emit_octave_variable_is_free(const char *name) {
     static const char *const taken[] = {
-        /* keywords of either */
+        /* keywords of Octave or of Matlab */
         "arguments", "break", "case", "catch", "classdef", "continue", "do", "else", "elseif",
         "end", "end_try_catch", "end_unwind_protect", "endarguments", "endclassdef",
         "endenumeration", "endevents", "endfor", "endfunction", "endif", "endmethods", "endparfor",

@@ -44,7 +44,7 @@ typedef struct engine_kind {
     void (*outputs)(void *run, double *output);
     uint64_t (*hash)(const void *run);
     uint64_t (*steps)(const void *run);
-    /* Component that diverged, angles first, or -1. */
+    /* The component that diverged, angles first, or -1. */
     int (*fault)(const void *run);
     /* Events since the start, and steps with more than WH_EVENTS_MAX moments. */
     uint64_t (*events)(const void *run, uint64_t *overruns);
@@ -60,7 +60,7 @@ typedef struct engine_kind {
      * the start. *span is the sum of the exact increments. Both are SI. Without unit() only turn angles count, which
      * move by 2^-32 turn in float. 0 in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
-    /* Values that were clamped to their range since the start; NULL: this number has no ranges. */
+    /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
     /* The unit of component i; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
@@ -70,9 +70,9 @@ typedef struct engine_kind {
 } engine_kind;
 
 /* Operations of lists that this process has evaluated so far: the same on every machine. Other work counts as the
- * number of operations that takes as long, to a third. */
+ * number of operations that would take as long, accurate to a third. */
 extern uint64_t engine_operations;
-/* Operations of one evaluation of the accelerations, including its share of the method and the contacts. */
+/* Number of operations of one evaluation of the accelerations, including its share of the method and the contacts. */
 uint64_t engine_evaluation(const image *im);
 
 extern const engine_kind engine_float;

@@ -12,8 +12,8 @@
 typedef struct budget {
     uint64_t own;   /* operations of the run's steps so far */
     uint64_t spent; /* operations of completed checks */
-    uint64_t since; /* engine_operations when the present one began */
-    int depth;      /* open checks: they may nest */
+    uint64_t since; /* engine_operations at the begin of the present check */
+    int depth;      /* number of open checks, which may be nested */
 } budget;
 
 #define BUDGET_LEAST 2.4e8 /* operations in about a second */

@@ -66,7 +66,7 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
     case OP_NEG:
     case OP_ABS: return a;
-    case OP_SIGN: return 0.0; /* except at its jump */
+    case OP_SIGN: return 0.0; /* the error is zero, except at its jump */
     case OP_MIN:
     case OP_MAX: return v == x ? a : b;
     case OP_ADD:

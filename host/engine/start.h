@@ -18,14 +18,15 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
  * rates, follow after semicolons. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
-/* False, with a report for each error: a stop that is passed at the start by more than round-off, an undefined gap, an
- * angle outside the range of this number type. */
+/* Returns false, and reports each error: a stop that is passed at the start by more than round-off, an undefined gap,
+ * or an angle outside the range of this number type. */
 bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
-/* The same for angles only: false, reported, if float, as in generated C, cannot represent one. */
+/* As above, for angles only: false, reported, if float, as in generated C, cannot represent one. */
 bool start_angles_are_held(const image *im, diags *errors);
 
-/* False, reported, if the method (core/method.h) does not support the image's form, or accelerations that depend on rates. */
+/* Returns false, and reports the reason, if the method (core/method.h) does not support the image's form, or
+ * accelerations that depend on rates. */
 bool start_has_method(const image *im, wh_method method, diags *errors);
 
 #endif

@@ -8,8 +8,8 @@
 #include "host/fixed/fixed_list.h"
 
 /* === a list in fixed point as C =============================================================== */
-/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written out, so that
- * a compiler folds them. */
+/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written as constants, so that a
+ * compiler folds them. */
 
 /* A list with more operations than this is called at each stage and not inlined. */
 enum { INLINED_MOST = 80 };
@@ -134,7 +134,7 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
     }
 }
 
-/* Constants are written in place, unless they are results. */
+/* Has the operation a statement? A constant has none, unless it is a result. */
 static bool is_stated(const fixed_list *l, int i) {
     bool result = false;
     for (int k = 0; k < l->results; k++) {
@@ -210,7 +210,7 @@ static void limits(FILE *out, const fixed_plan *p, int at) {
     fputs(", &saturated);\n", out);
 }
 
-/* The increment of a place at a stage. */
+/* Writes the increment of a position at a stage. */
 static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
     fputs("wh_fixed_round(", out);
     if (stage == 1) {
@@ -307,7 +307,7 @@ static void end_first(FILE *out, const fixed_plan *p) {
     }
 }
 
-/* An array needs at least one element. */
+/* The length of an array, which C requires to be at least one. */
 static int at_least_one(int count) { return count > 0 ? count : 1; }
 
 static void begin_step(FILE *out, const fixed_plan *p) {

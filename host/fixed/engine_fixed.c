@@ -80,7 +80,7 @@ static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const int angles = p->image->angles;
     const int moved = p->second
                           ? p->coordinates
-                          : 0; /* components with a rate as their slope; the rates follow them */
+                          : 0; /* first the components whose slope is a rate, then the rates */
     for (int i = 0; i < moved; i++) {
         slope[i] = at[moved + i];
     }

@@ -23,7 +23,7 @@ static enclosure twice(enclosure seen) {
                        seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
-/* Shows the progress, often enough to be seen and rarely enough to cost little. */
+/* Shows the progress, at intervals that are short for a reader and cost little time. */
 static void show(uint64_t step, uint64_t steps) {
     if ((step & 0x3fffU) == 0x3fffU) {
         fprintf(stderr, "\rranges, from a run in double: %5.1f %%",
@@ -100,7 +100,7 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
 
 /* === binary points and shifts ================================================================= */
 
-/* Limits of the binary point. Values beyond them occur in no mechanism. */
+/* Limits of the binary point, which no mechanism reaches. */
 enum { BITS_LEAST = -60, BITS_MOST = 90 };
 #define ROUNDED (1.0 - 0x1p-40)
 
@@ -180,7 +180,8 @@ static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Lets products and quotients round only once, directly to the digits of their sums. */
+/* Changes the digits of products and quotients to those of the sums that use them, so that they are rounded only
+ * once. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -420,7 +421,7 @@ typedef struct hull {
     fixed_list *list;
     const fixed_leaves *leaves;
     bool bits_known;
-    enclosure *now;   /* [count] ranges in this cell */
+    enclosure *now;   /* [count] ranges in the present cell */
     enclosure *angle; /* [angles] */
     int *cell;        /* [angles] */
     bool *cut;        /* [angles] does any phase depend on it? */
@@ -522,7 +523,7 @@ static void enclose(hull *h, bool first) {
     }
 }
 
-/* Goes to the next cell; false after the last. */
+/* Goes to the next cell. Returns false after the last. */
 static bool next(hull *h) {
     for (int k = 0; k < h->list->angles; k++) {
         if (h->cut[k]) {

@@ -106,7 +106,7 @@ bool fixed_fits(const fixed_list *list);
 
 /* Digits after the point with which `size` fills at most `digits` binary digits; the largest for zero. */
 int fixed_point_of(double size, int digits);
-/* The same for a constant factor: with 31 binary digits, the last of them rounded. */
+/* As above, for a constant factor: with 31 binary digits, the last of them rounded. */
 int fixed_factor_bits(double value);
 
 #endif

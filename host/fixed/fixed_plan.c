@@ -22,7 +22,7 @@ static bool has_noise(const image *im) {
 static const char refused_part[] =
     "--number float; or put it into an effect, and leave that out: --without EFFECT";
 
-/* False, reported, for contacts, a ledger, noise, and other methods and settings. */
+/* Returns false, and reports the reason, for contacts, a ledger, noise, and other methods and settings. */
 static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (has_noise(im)) {
@@ -89,7 +89,8 @@ static bool ranges_are_bounded(const image *im, const enclosure *range, diags *e
     return good;
 }
 
-/* False, reported, if a range of a real or an input is too large, or a start is outside its range. */
+/* Returns false, and reports the reason, if a range of a real or an input is too large, or a start is outside its
+ * range. */
 static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
 }
@@ -147,7 +148,7 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* The same for results of the list, with 15 digits: for stage increments of second order. */
+/* As above, for results of the list, with 15 digits: for stage increments of second order. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
@@ -192,7 +193,7 @@ static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     return m->to_kept >= 1 && make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept);
 }
 
-/* Sets the mover of a second-order coordinate, which its rate and acceleration move. */
+/* Sets the mover of a second-order coordinate, whose position changes by its rate and acceleration. */
 static bool move_place(fixed_plan *p, int i) {
     const image *im = p->image;
     fixed_mover *m = &p->mover[i];

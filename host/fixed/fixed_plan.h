@@ -42,19 +42,20 @@ typedef struct fixed_plan {
     wh_fixed_format *format; /* [reals + inputs] as the scene has them */
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
-    bool *declared; /* [reals + inputs] the range is declared; else it is from a reference run */
+    /* [reals + inputs] the range is declared; otherwise it is from a reference run */
+    bool *declared;
     bool second;
     int coordinates;    /* for first order the number of components */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
-    int cells; /* cells a turn with which no denominator was zero */
+    int cells; /* number of cells per turn with which no denominator was zero */
     int64_t *start_angle;
     int32_t *start_real;
     int32_t *start_input;
 } fixed_plan;
 
-/* For an image made with the default method. NULL, reported, if the scene has no such step, or after an interrupt. `progress` is
- * shown on standard error. */
+/* For an image made with the default method. Returns NULL, and reports the reason, if the scene has no such step, or
+ * after an interrupt. `progress` is shown on standard error. */
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 

@@ -258,7 +258,7 @@ typedef struct image_blame {
     int nodes;
     diagnostics_question *question; /* [questions]: those of terms, of sets, then of contacts */
     int questions;
-    int terms; /* energies, losses, forces, equations, and their derivatives */
+    int terms; /* number of energies, losses, forces, equations, and their derivatives */
     int sets;  /* values that crossings set */
 } image_blame;
 

@@ -72,7 +72,7 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-/* The code's number in hashes of models, fixed since there were 14 functions. */
+/* The number of such a code in hashes of models, fixed since there were 14 functions. */
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t op_list_op_hash(const op_list *t, const op *o) {

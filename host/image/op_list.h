@@ -169,7 +169,7 @@ int op_list_add(op_list *t, int a, int b);
 int op_list_sub(op_list *t, int a, int b);
 int op_list_mul(op_list *t, int a, int b);
 int op_list_div(op_list *t, int a, int b);
-/* A function of operations a and b (or -1), as the operation of its own or a call. */
+/* Enters a function of operations a and b (or -1), as its own operation or as a call. */
 int op_list_call(op_list *t, function_id function, int a, int b);
 int op_list_pow(op_list *t, int base, int exponent);
 /* base to a fixed power, by products and square roots if possible. */

@@ -71,7 +71,7 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Does a constant operand absorb any factor? Then there is no equation. */
+/* Is an operand a constant, which can absorb any factor? Then there is no equation. */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -187,7 +187,7 @@ typedef struct chosen {
     int count;
 } chosen;
 
-/* Does this solution multiply at each of these places, and does it change anything? */
+/* Does this solution multiply the values at each of these uses, and does it change anything? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -265,7 +265,7 @@ static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c,
     free(m.at);
 }
 
-/* Also choose the places of raw value `raw` whose bits are set. */
+/* As `chosen`, with the uses of raw value `raw` whose bits are set in addition. */
 static chosen choose(const unknowns *u, chosen c, int raw, unsigned which) {
     int first = -1;
     int seen = 0;
@@ -350,7 +350,7 @@ static int constant(op_list *t, double value) {
     return op_list_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
 }
 
-/* Operation i multiplied by `times`, for its users. */
+/* Operation i multiplied by `times`, for the operations that use it. */
 static int taken(const multiplied *m, int i, double times) {
     const op *o = &m->from->ops[i];
     double number;
@@ -375,7 +375,7 @@ static int make_phase(const multiplied *m, const op *o) {
     return made;
 }
 
-/* The factor of an operand: for a raw value, the factor of that place. */
+/* The factor of an operand; for a raw value, the factor of that use. */
 static double times_of(const multiplied *m, int i, int which) {
     const op *o = &m->from->ops[i];
     const int operand = which == 0 ? o->a : o->b;
@@ -540,7 +540,8 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
  * nothing depends on. The error of such a result does not grow; that of other results grows with the motion. */
 #define UNREAD (1.0 / 64.0)
 
-/* For each result: does the list depend on its component? Both orders: angles, then reals. */
+/* For each result: does the list depend on the component that it changes? Both are in the same order: angles, then
+ * reals. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -604,10 +605,10 @@ enum {
     FIVES = 6,     /* largest exponent of each prime */
     THREES = 3,
     SEVENS = 1,
-    REALS = 512,      /* tried numbers between one and two */
-    VANISHING = 24,   /* tried numbers that turn a constant into one */
+    REALS = 512,      /* number of tried factors between one and two */
+    VANISHING = 24,   /* number of tried factors that turn a constant into one */
     ROUNDS = 3,       /* each starts from the result of the previous one */
-    PATIENCE = 150000 /* total operations of tried lists; then a round ends */
+    PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
 /* For a clear improvement the bias must fall to half; for any improvement, by a hundredth. */

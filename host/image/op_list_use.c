@@ -26,7 +26,7 @@ typedef struct op_list_needs {
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
 
-/* The operations that must precede operation i; returns their number. */
+/* The operations that must come before operation i; returns their number. */
 static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED_MOST]) {
     int count = op_list_operands(&n->t->ops[i], found);
     if (n->before[i] >= 0) {
@@ -163,8 +163,8 @@ typedef struct registers {
     int carried;
 } registers;
 
-/* Give value v a register, if necessary that of the value with the latest next use. (Operands of the current operation
- * are in use now.) */
+/* Gives value v a register. If none is free, it is that of the value with the latest next use. (Operands of the current
+ * operation are in use.) */
 static void hold(const wanted *w, registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
@@ -269,7 +269,7 @@ typedef struct schedule {
     bool *done; /* [ops] */
 } schedule;
 
-/* Value v has one user less: its last user ends its life. */
+/* Value v has one user less; the last user is the end of its life. */
 static void use_up(schedule *s, int v) {
     const op_list_needs *n = s->needs;
     if (--s->uses[v] != 1) {
@@ -331,7 +331,7 @@ static void schedule_free(schedule *s) {
     free(s->done);
 }
 
-/* The order of operations that end equally many lives. */
+/* Which operation comes first of those that end equally many lives. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
 /* Does operation i come before operation j? */
@@ -387,7 +387,7 @@ typedef struct placing {
     int count;
 } placing;
 
-/* Place operation i, after its operands that are not placed yet. */
+/* Puts operation i next in the sequence, after those of its operands that are not in it yet. */
 static void put_next(placing *p, int i) {
     int found[NEEDED_MOST];
     const int count = p->number[i] >= 0  ? 0
@@ -463,7 +463,8 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* *half: the sum like i, but with the doubled part only once; *part: that part. False if the list has no such sum. */
+/* *half: the sum like i, but with the doubled part only once; *part: that part. Returns false if the list has no such
+ * sum. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);
@@ -512,7 +513,7 @@ void op_list_share_sums(op_list *t) {
     }
     free(uses);
     if (shared) {
-        reorder(t, NULL, NULL, 0); /* a half may come after its new user */
+        reorder(t, NULL, NULL, 0); /* the half may come after the operation that now uses it */
         op_list_prune(t);
     }
 }

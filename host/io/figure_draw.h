@@ -11,12 +11,13 @@ typedef struct figure_data {
     double trusted_s; /* end of the trusted time; 0: the whole time, or unknown */
 } figure_data;
 
-/* The remaining text of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. Free it. */
+/* The remaining text of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. The
+ * caller frees the result. */
 char *figure_line(const char **at, const char *word);
 
 /* Draw it. `varied` has the options that change its runs, or "". With options the title names them, and the caption,
- * which describes the original, is omitted. False, reported, if the description is wrong (`where` names it) or the
- * picture cannot be drawn. */
+ * which describes the original, is omitted. Returns false, and reports the reason, if the description is wrong (`where`
+ * names it) or the picture cannot be drawn. */
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied);
 

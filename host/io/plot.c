@@ -16,7 +16,7 @@
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 
-/* der(der(x)) as x''. Free it. */
+/* der(der(x)) as x''. The caller frees the result. */
 static char *shown_name(const char *name) {
     size_t length = strlen(name);
     static const char primes[] = "'''''''''''''''";
@@ -74,7 +74,8 @@ static bool same_unit(const char *a, const char *b) {
 
 static const char *unit_words(const char *unit) { return unit == NULL ? "an unknown unit" : unit; }
 
-/* The quantity's columns and its unit. False, reported, if no run has it, or the runs' units differ. */
+/* The quantity's columns and its unit. Returns false, and reports the reason, if no run has the quantity, or the runs'
+ * units differ. */
 static bool find_columns(const char *command, const char *name, const plot_run *runs, int count,
                          int *column, const char **unit) {
     int first = -1;
@@ -145,7 +146,8 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     return true;
 }
 
-/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. Free it. */
+/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. The caller
+ * frees the result. */
 static char *panels_next(const char **list) {
     if (*list == NULL) {
         return NULL;
@@ -169,7 +171,7 @@ static bool add_list(panels *p, const char *command, const char *list, const plo
     return good;
 }
 
-/* All coordinates and outputs of all runs, each once. */
+/* Adds all coordinates and outputs of all runs, each once. */
 static bool add_all(panels *p, const char *command, const plot_run *runs) {
     for (int k = 0; k < p->runs; k++) {
         for (int i = 1; i < runs[k].columns; i++) {
@@ -394,7 +396,7 @@ bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *comman
     return good;
 }
 
-/* The string at *at, which advances past it; NULL if it is missing. Free it. */
+/* The string at *at, which advances past it; NULL if it is missing. The caller frees the result. */
 static char *string_at(const char **at) {
     char *made = alloc_words("%s", *at);
     size_t length = 0;
@@ -665,7 +667,7 @@ static void write_axis(FILE *to, const char *axis, const char *name, const char 
     fputs("\"\n", to);
 }
 
-/* A curve counts as flat below this part of its size: the tics could not show its range. */
+/* A curve counts as flat if its range is below this part of its size: the tics could not show the range. */
 #define FLAT 1e-10
 
 /* The range of an axis with one value or no value, which would cause warnings or errors in gnuplot. */
@@ -716,8 +718,8 @@ static int quantities_in(const panels *p, int panel) {
     return count;
 }
 
-/* The names of a panel's quantities, or of all (-1), separated by commas. If they are too long for an axis, the number of
- * quantities. Free it. */
+/* The names of a panel's quantities, or of all (-1), separated by commas. If they are too long for an axis, the number
+ * of quantities. The caller frees the result. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names = alloc_words("%s", "");
     int count = 0;
@@ -768,8 +770,8 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* The legend's entry for the shade; "" if all is trusted. It is short for several runs, because a legend's columns are as wide as
- * its longest entry. */
+/* The legend's entry for the shaded time; "" if the whole time is trusted. The entry is short for several runs, because
+ * a legend's columns are as wide as its longest entry. */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? alloc_words("%s", "")
@@ -895,7 +897,7 @@ static void write_data(FILE *to, const plot_run *run, int number) {
     fputs("EOD\n", to);
 }
 
-/* The picture's title: the requested one, the run's, or its axes in words. Free it. */
+/* The picture's title: the requested one, the run's, or its axes in words. The caller frees the result. */
 static char *title_of(const panels *p, const plot_choice *choice, const plot_run *runs) {
     bool alike = true;
     for (int k = 1; k < p->runs; k++) {

@@ -21,7 +21,7 @@ typedef struct plot_run {
     int columns;
     double *data; /* [rows * columns] row by row; a single row is drawn as points */
     int rows;
-    double trusted_s; /* the picture is shaded after it; no shade if not above 0 */
+    double trusted_s; /* the picture is shaded after this time; below or at 0: no shade */
     double *mark_s;   /* [marks] times of events */
     int marks;
 } plot_run;
@@ -44,7 +44,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene);
 
-/* A TOML string, in quotes. Free it. */
+/* A TOML string, in quotes. The caller frees the result. */
 char *plot_run_quoted(const char *text);
 
 /* === a choice of quantities, resolved to panels and curves ==================================== */

@@ -20,7 +20,7 @@ static int state_columns(const image *im) {
     return columns;
 }
 
-/* All values first, then all rates, and so on; then the outputs. */
+/* Names the columns: all values first, then all rates, and so on; then the outputs. */
 static void name_columns(records *r) {
     const image *im = r->image;
     int column = 1;
@@ -148,7 +148,7 @@ void records_read(records *r, void *run, double time_s) {
 
 static bool write_row(const records *r, FILE *out, const layout *l) {
     for (int i = 0; i < r->columns; i++) {
-        /* time is a whole number of steps: it carries its own digits */
+        /* the time is a whole number of steps, and has as many digits as it needs */
         if (i == 0) {
             fprintf(out, "%.15g", r->row[i]);
         } else {
@@ -180,7 +180,7 @@ struct traces {
     FILE *out;
     whole_ratio step; /* the step in units */
     double units_per_s;
-    int *signal;   /* [columns] signal of a column; the time has none */
+    int *signal;   /* [columns] signal of each column; the time has none */
     int *mode_of;  /* [contacts] wire of a contact */
     int *event_of; /* [contacts] event signal of a contact, or -1 */
     int *mode;     /* [contacts] scratch */

@@ -38,7 +38,7 @@ char *records_name(const record_column *c);
 void records_header(records *r);
 /* Reads the run's state into r->row. The caller gives the time: steps * step, which is exact. */
 void records_read(records *r, void *run, double time_s);
-/* Write r->row to both files. False if writing failed. */
+/* Write r->row to both files. Returns false if writing failed. */
 bool records_write(const records *r);
 
 /* === waves of a run =================================================================================== */
@@ -62,7 +62,7 @@ typedef struct traces traces;
 traces *traces_open(FILE *out, const records *form, uint64_t every);
 /* Enters the contacts' events of the last step, after this many steps. */
 void traces_step(traces *w, const void *run, uint64_t steps);
-/* Enters the record in r->row after this many steps; call traces_step() first. False if writing failed. */
+/* Enters the record in r->row after this many steps; call traces_step() first. Returns false if writing failed. */
 bool traces_record(traces *w, uint64_t steps);
 /* Writes the end time, and frees it. NULL is fine. */
 void traces_close(traces *w);

@@ -48,7 +48,7 @@ static bool is_simple(char c) {
            c == '$';
 }
 
-/* Some viewers also take colons as vectors. */
+/* Writes a name without colons, which some viewers read as vectors. */
 static void write_name(FILE *out, const char *name) {
     char *copy = alloc_words("%s", name);
     char *to = copy;
@@ -65,7 +65,7 @@ static void write_name(FILE *out, const char *name) {
     free(copy);
 }
 
-/* A comment without its end mark. */
+/* Writes a comment, in which the comment's end mark is removed. */
 static void write_comment(FILE *out, const char *text) {
     fputs("$comment ", out);
     for (const char *at = text; *at != '\0'; at++) {

@@ -253,7 +253,7 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* False if the token is neither a direction nor a brace, nor similar to a direction. */
+/* Returns false if the token is neither a direction nor a brace, nor similar to a direction. */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;

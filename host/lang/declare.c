@@ -48,7 +48,7 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* The recorded output; noises of several effects on one output share it. */
+/* The recorded output. Noises of several effects on one output have the same record. */
 static const symbol *record_of(parser *in, const symbol *output) {
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->noise_count; i++) {
@@ -224,7 +224,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     named *entry = made == NULL ? NULL : (named *)made;
     if (entry != NULL) {
         entry->is_open = true;
-        made->dim.unknown = true; /* until its expression is known */
+        made->dim.unknown = true; /* until the dimension of its expression is known */
     }
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {
@@ -274,7 +274,7 @@ static bool parse_rate(parser *in, symbol *made) {
     }
     if (found == NULL) {
         found = names_add(in->builder->names, name.text, name.length);
-        found->is_placeholder = true; /* until it is declared */
+        found->is_placeholder = true; /* until the name is declared */
         found->symbol.kind = SYM_INPUT;
         found->symbol.at = name.at;
     }

@@ -299,7 +299,7 @@ static bool is_rate(const mechanism *made, const symbol *s) {
     return is;
 }
 
-/* Add the coordinate that follows the input. */
+/* Adds the coordinate that has the value of the input. */
 static void drive(parser *in, mechanism *made, named *input) {
     named *coordinate = arena_alloc(in->arena, sizeof *coordinate);
     named *rate = (named *)input->symbol.rate;
@@ -339,7 +339,7 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* A hold fixes a value, so it needs the rates of the inputs in it. */
+/* A hold fixes a value, so the rates of the inputs in the value must be known. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

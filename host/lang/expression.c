@@ -114,7 +114,7 @@ static void report_reserved(parser *in, const token *name) {
                "'%.*s' is a reserved word", (int)name->length, name->text);
 }
 
-/* Is a symbol of this kind with so many primes allowed here? `written` is its name in the text. */
+/* Is a symbol of this kind, with this number of primes, allowed here? `written` is its name in the text. */
 static bool allowed_here(parser *in, const token *name, const symbol *found, const token *written) {
     const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
     const bool by_let = found->kind == SYM_LET && found->value != NULL;
@@ -202,7 +202,7 @@ static const expr *unknown_value(expr *made) {
     return made;
 }
 
-/* Height, order and uses of a name: for a let or an output, those of its expression. */
+/* Copies height, order and uses of a name to its node: for a let or an output, those of its expression. */
 static const expr *take_properties(parser *in, expr *made, const token *name) {
     const symbol *found = made->symbol;
     switch (found->kind) {
@@ -267,7 +267,7 @@ static const expr *expr_name(parser *in, const token *name) {
         return unknown_value(made);
     }
     if (found->is_placeholder) {
-        if (found->symbol.kind == SYM_INPUT) { /* only a `rate` has named it */
+        if (found->symbol.kind == SYM_INPUT) { /* so far only a `rate` has named this input */
             report_unknown(in, name);
             found->symbol.kind = SYM_LET;
         }

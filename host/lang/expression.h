@@ -18,7 +18,7 @@ bool parse_unit(parser *in, unit_scale *result, const char **text);
 int name_declared_later(const token *name);
 /* Report an unknown coordinate, with the nearest known name as a hint. */
 void no_such_coordinate(parser *in, const token *name);
-/* The same for a name that a scene or the command line changes. */
+/* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
 /* The coordinate of that name, or NULL (reported). Messages name the owner with `whose`. */
@@ -43,7 +43,7 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 /* Report at `at` a nonzero value without a unit if the declared unit of the symbol (or its derivative) is not SI. The
  * current token is the one after the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* The same for the limit in a stop or a crossing, if `of` is a single symbol. */
+/* As above, for the limit in a stop or a crossing, if `of` is a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 /* "SUBJECT is mass [kg]": the rule for a quantity of known dimension. */
 enum { RULE_SIZE = 300 };

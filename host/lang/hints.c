@@ -5,11 +5,11 @@
 #include "host/base/alloc.h"
 #include "host/lang/value.h"
 
-/* A rate far below any rate of interest, SI. A force that vanishes with the rate is ten times smaller at a tenth of it.
- */
+/* A rate near zero, SI, far below any rate of interest. At a tenth of it, a force that vanishes with the rate is ten
+ * times smaller. */
 #define NEAR_REST 1e-6
 
-/* Does the tree name a coordinate other than `own`, or `own` without a prime? The walk enters lets; EXPR_HEIGHT_MAX
+/* Does the tree name a coordinate other than `own`, or `own` without a prime? Lets are searched, too; EXPR_HEIGHT_MAX
  * bounds the recursion. */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {

@@ -143,8 +143,8 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Report values out of range in `made`, whose parameters are `known`. Inputs count with their initial value; a program
- * that changes them while running is responsible for the new values. */
+/* Report values out of range in `made`, whose parameters are `known`. Inputs are checked with their initial values; a
+ * program that changes them during a run is responsible for the new values. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -240,7 +240,7 @@ typedef struct given {
     place at;
 } given;
 
-/* The values of the scene and the command line; the later one wins. */
+/* The values from the scene and from the command line; the later one counts. */
 typedef struct plan {
     valuation values;
     given *input;  /* [input_count] */
@@ -513,7 +513,7 @@ static void allocate(instance *made) {
     }
 }
 
-/* An instance without numbers, and the plan for computing them. */
+/* An instance whose numbers are not computed yet, and the plan for computing them. */
 static instance *begin(const mechanism *of, const scene *from, const overrides *changes, diags *all,
                        plan *what) {
     struct arena *memory = arena_new();

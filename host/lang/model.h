@@ -27,7 +27,7 @@ typedef struct symbol {
     const char *text;    /* the description in quotes, or "" */
     const char *unit;    /* the declared unit, without blanks, or ""; for a parameter or input, the
                        * unit after the only number of its value */
-    unit_scale declared; /* the scale of that unit; divisor 0 without a unit */
+    unit_scale declared; /* scale of the declared unit; divisor 0 if no unit is declared */
     dimension dim;       /* dimension of the symbol without primes */
     bool is_angle;       /* declared [rad] (or [deg], [rev]): coordinate or state */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
@@ -77,7 +77,7 @@ struct expr {
     const expr *right;
     place at; /* the operator's or the operand's place, for messages */
     dimension dim;
-    int height;          /* 1 for a leaf; a let or output counts with its expression */
+    int height;          /* 1 for a leaf; a let or output has the height of its expression */
     int order;           /* most primes on any coordinate or state, also within lets */
     unsigned uses;       /* USES_ bits of its dependencies, through lets too */
     const symbol *angle; /* a symbol in it that is an angle not declared in SI, or NULL */
@@ -91,7 +91,7 @@ enum {
     USES_UNIT = 16 /* a number in it has a unit */
 };
 
-/* Greatest height of an expression tree, lets included: recursive readers rely on it. */
+/* Greatest height of an expression tree, lets included. Recursive functions rely on this limit. */
 #define EXPR_HEIGHT_MAX 1000
 
 /* --- mechanisms -------------------------------------------------------------------------------- */
@@ -102,7 +102,7 @@ typedef struct term {
     const symbol *coordinate; /* the coordinate of a Q, else NULL */
     const expr *value;        /* T, V, F, Q; left side of an equation */
     const expr *right;        /* right side of an equation, else NULL */
-    int effect;               /* index of the effect it belongs to, or -1 */
+    int effect;               /* index of the effect that contains the statement, or -1 */
     place at;
 } term;
 
@@ -137,7 +137,7 @@ typedef struct contact_statement {
     int direction;          /* when: +1 rising, -1 falling, 0 both */
     const assignment *sets; /* when: coordinates and rates, all evaluated before any is set */
     int set_count;
-    int effect; /* index of the effect it belongs to, or -1 */
+    int effect; /* index of the effect that contains the statement, or -1 */
     place at;
 } contact_statement;
 
@@ -176,7 +176,7 @@ typedef struct mechanism {
     const symbol **outputs;
     int output_count;
     const symbol **lets;
-    int let_count; /* each names only earlier ones */
+    int let_count; /* each let names only earlier ones */
     const term *terms;
     int term_count;
     const contact_statement *contacts;
@@ -240,7 +240,7 @@ typedef struct overrides {
     const char *const *starts;
     int start_count; /* --start: coordinates and rates */
     const char *const *values;
-    int value_count; /* either kind, depending on the name (`accel`) */
+    int value_count; /* number of values of either kind, depending on the name (`accel`) */
     const char *const *with;
     int with_count; /* effect names added, or "ledger"; "all": every effect */
     const char *const *without;

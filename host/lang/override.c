@@ -82,7 +82,7 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
     return made;
 }
 
-/* Can this symbol be changed this way? */
+/* May this symbol be changed by this option? */
 static bool check_target(parser *in, override_kind kind, const token *name, const symbol *target) {
     const bool moves = target->kind == SYM_COORDINATE || target->kind == SYM_STATE;
     const bool is_constant = target->kind == SYM_PARAMETER || target->kind == SYM_INPUT;

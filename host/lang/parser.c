@@ -323,7 +323,8 @@ bool statement_unknown(parser *in, unsigned where) {
     }
     const token word = in->token;
     parser_next(in);
-    if (in->builder != NULL && !in->all_effects) { /* do not report names that it may declare */
+    if (in->builder != NULL && !in->all_effects) {
+        /* names that this statement may declare are not reported */
         const token *declared = in->token.kind == TOKEN_NAME ? &in->token : &word;
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;

@@ -54,7 +54,7 @@ typedef struct builder {
     bool has_equations; /* has a state or an equation */
     bool mixed;         /* mixing energies with equations was reported */
     bool nameless;      /* replaces a missing `mechanism` line */
-    bool broken;        /* a statement failed: report nothing as missing */
+    bool broken;        /* a statement failed: do not report anything as missing */
 } builder;
 
 /* The current scene. */
@@ -63,7 +63,7 @@ typedef struct draft {
     bool *with;
     bool *conserve;
     builder *of;
-    int number;       /* the scene's number, from 1: a mark on the symbols that are set */
+    int number;       /* the scene's number, from 1; symbols that the scene sets get this number */
     bool has_content; /* has a statement other than `use` */
     place step_at;    /* line 0: no step yet */
     place until_at;

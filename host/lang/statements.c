@@ -228,7 +228,7 @@ static void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
     made->is_system = done->has_equations;
     if (done->nameless || done->broken || done->mixed) {
-        return; /* the failed lines may contain the missing part */
+        return; /* the missing part may be in the lines that failed */
     }
     if (made->is_system) {
         finish_system(in, done);
@@ -250,7 +250,7 @@ static void finish_mechanism(parser *in, builder *done) {
 static bool read_statement(parser *in, unsigned where);
 
 static bool parse_name(parser *in, effect *made) {
-    /* words that begin a list of effects elsewhere */
+    /* words that begin a list of effects in other languages */
     static const struct {
         word_id word;
         const char *as;
@@ -363,7 +363,7 @@ static bool read_mechanism(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the mechanism's title");
 }
 
-/* Note the place of the scene and skip it: it may name later effects. */
+/* Stores the place of the scene and skips the scene: it may name later effects. */
 static bool read_scene(parser *in, const statement_word *word) {
     (void)word;
     if (in->pending_count == SCENES_MAX) {

@@ -66,7 +66,7 @@ dimension dim_energy(void); /* also the dimension of torque */
 bool dim_fits(dimension a, dimension b);
 bool dim_is_none(dimension dim); /* dimensionless, zero or unknown */
 
-/* a*b, a/b, base^exponent. False if an exponent leaves the range +-99 or is not a multiple of 1/12. */
+/* a*b, a/b, base^exponent. Returns false if an exponent leaves the range +-99 or is not a multiple of 1/12. */
 bool dim_multiply(dimension a, dimension b, dimension *product);
 bool dim_divide(dimension a, dimension b, dimension *quotient);
 bool dim_power(dimension base, double exponent, dimension *power);

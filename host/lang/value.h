@@ -19,7 +19,7 @@ char *shown_si_name(const symbol *s, int primes);
 /* The text of a value in the file or on the command line, "0.72 [lb]", with single blanks. NULL without a text. The
  * caller frees it. */
 char *shown_written(const expr *given);
-/* The same for a formula; NULL for a single number, with or without a unit. */
+/* As above, for a formula; NULL for a single number, with or without a unit. */
 char *shown_formula(const expr *given);
 
 /* "theta'=3 [rad/s]" for a number in SI, in the form of an option. The unit is included if the declared unit is not SI.

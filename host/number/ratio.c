@@ -141,7 +141,7 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* The decimal of fewest digits within the error; *said is 10 to the power of their number. False if it needs
+/* The decimal of fewest digits within the error; *said is 10 to the power of their number. Returns false if it needs
  * more than 15 digits, or more than 60 bits as a fraction. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];

@@ -47,10 +47,12 @@ whole_ratio ratio_of(double value);
  * `part` is above zero. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
 
-/* Number of steps in a spacing of `each_s` seconds. False if it is not within 1e-6 of a whole number of at least 1. */
+/* Number of steps in a spacing of `each_s` seconds. Returns false if it is not within 1e-6 of a whole number of at
+ * least 1. */
 bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
 
-/* The first step's end at or after from_s >= 0, allowing for round-off; 0 is the start. False if that is more than 2^63. */
+/* The first step's end at or after from_s >= 0, allowing for round-off; 0 is the start. Returns false if that is more
+ * than 2^63. */
 bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count);
 
 /* The largest number that divides both; 0 for two zeros. */

@@ -46,11 +46,11 @@ typedef enum guest_heard {
     GUEST_STOPPED /* the user interrupted */
 } guest_heard;
 
-/* The machine in BOARD_MACHINE of boards/NAME/board.mk, below the working directory. False if there is none. */
+/* The machine in BOARD_MACHINE of boards/NAME/board.mk, below the working directory. Returns false if there is none. */
 #define GUEST_MACHINE_BYTES 64
 bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
 
-/* False, reported, if the image cannot be run. Call guest_end() in any case. */
+/* Returns false, and reports the reason, if the image cannot be run. Call guest_end() in any case. */
 bool guest_start(guest *g, const guest_wish *wish);
 
 guest_heard guest_receive(guest *g, wh_frame *frame);

@@ -13,7 +13,7 @@ extern volatile sig_atomic_t interrupted;
 /* Catch interrupts from now on. A read or write that is interrupted continues, so that no record is cut. */
 void interrupts_catch(void);
 
-/* The same for a command that waits for another program: an interrupt, or the loss of the terminal, ends its wait. */
+/* As above, for a command that waits for another program: an interrupt, or the loss of the terminal, ends its wait. */
 void interrupts_catch_waiting(void);
 
 /* Call it at the program's start. A write beyond `ulimit -f` then fails as on a full disk. */
@@ -25,7 +25,8 @@ double system_now_s(void);
 /* Make a temporary folder; other characters replace the XXXXXX at the end of `name`. False, with errno, after an error. */
 bool system_scratch_folder(char *name);
 
-/* Lock the file until it is closed. False if another program has locked it. True, too, on a system without locks. */
+/* Lock the file until it is closed. Returns false if another program has locked it. True, too, on a system without
+ * locks. */
 bool system_lock(FILE *file);
 
 /* Give the open file these permissions. */

@@ -28,10 +28,10 @@ typedef struct talk {
 bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FILE *onto);
 
 /* Restart the processor after a reset: a new guest, which knows only the data of the reset; `ticks` goes on the tape.
- * False, reported, if it does not start, sends another hello, or the user interrupts. */
+ * Returns false, and reports the reason, if it does not start, sends another hello, or the user interrupts. */
 bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset);
 
-/* Send readings at `ticks`. False if the guest is gone, or the user interrupts; report->end has the reason. */
+/* Send readings at `ticks`. Returns false if the guest is gone, or the user interrupts; report->end has the reason. */
 bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings);
 
 /* Receive the orders that answer the last readings. False as above, and also after the firmware's end, which is no error. */

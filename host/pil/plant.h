@@ -53,7 +53,7 @@ typedef struct recorded {
  * whole number of steps. If `name` is NULL, nothing is recorded. Returns false, and reports the reason, if every_s is
  * not a whole number of steps, or the file cannot be written. */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
-/* False, reported, if the file is incomplete. */
+/* Returns false, and reports the reason, if the file is incomplete. */
 bool recorded_close(recorded *r);
 
 #define PLANT_PENDING 64
@@ -130,7 +130,7 @@ typedef struct plant {
     uint64_t lost; /* dropped for lack of space */
 } plant;
 
-/* --place: one number for each edge, separated by commas. False, reported, for any other text. */
+/* --place: one number for each edge, separated by commas. Returns false, and reports the reason, for any other text. */
 bool plant_read_places(const char *text, plant_wish *to);
 
 /* The image must outlive the plant. */
@@ -147,8 +147,8 @@ bool plant_has_reached(const plant *p, double ticks);
 /* Orders sent now, which take effect `late_ticks` later, or with the next orders if those come first. */
 void plant_order(plant *p, const wh_orders *orders, double late_ticks);
 
-/* Run to the first step end at or after until_ticks, or to a reset of the processor. False if the scene diverged;
- * plant.status has the reason. */
+/* Run to the first step end at or after until_ticks, or to a reset of the processor. Returns false if the scene
+ * diverged; plant.status has the reason. */
 bool plant_advance(plant *p, double until_ticks);
 
 /* Restart the processor: its timer and the watchdog restart, and pending readings are lost. */

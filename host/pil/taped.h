@@ -12,8 +12,8 @@
  *   value and unit.
  *   a sample's quality: good, saturated, disconnected.
  *
- * An edge has no value. Outputs and notes have a row at each change. `csv` NULL or "-": standard output. False,
- * reported, if reading or writing is incomplete. */
+ * An edge has no value. Outputs and notes have a row at each change. `csv` NULL or "-": standard output. Returns false,
+ * and reports the reason, if reading or writing is incomplete. */
 bool taped_show(const char *name, const char *csv);
 
 #endif

@@ -22,7 +22,8 @@ typedef struct exact_motion {
     int nodes;
 } exact_motion;
 
-/* NULL, reported, if the motion cannot be enclosed: contacts, functions with corners, expressions undefined at the start. */
+/* Returns NULL, and reports the reason, if the motion cannot be enclosed: contacts, functions with corners, expressions
+ * undefined at the start. */
 exact_motion *exact_motion_make(const instance *inst, diags *errors);
 void exact_motion_free(exact_motion *m);
 

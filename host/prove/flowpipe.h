@@ -51,7 +51,7 @@ void flowpipe_free(flowpipe *t);
  * possible. Until flowpipe_on() the tube is known at tau_s in [0, length]: x[states]. */
 double flowpipe_open(flowpipe *t, double most_s);
 void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x);
-/* Move the present time to this time of the open step. False if the tube ends there. */
+/* Move the present time to this time of the open step. Returns false if the tube ends there. */
 bool flowpipe_on(flowpipe *t, enclosure tau_s);
 /* Steps so far, and their estimated cost in products of enclosures. */
 uint64_t flowpipe_steps(const flowpipe *t);

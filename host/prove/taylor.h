@@ -17,7 +17,7 @@ typedef struct taylor {
 taylor *taylor_new(const exact_motion *m, int order, int slopes_to);
 void taylor_free(taylor *t);
 
-/* Compute all coefficients at the states x[states]. False if one is not finite there. */
+/* Compute all coefficients at the states x[states]. Returns false if one is not finite there. */
 bool taylor_find(taylor *t, const enclosure *x);
 
 /* Estimated products of enclosures of one taylor_find(). */

@@ -22,8 +22,8 @@ void show_latex(FILE *out, const equations *e);
 /* The definitions of the printed names: `heading`, rows separated by `behind`, `footing`; nothing if no name was used. */
 void show_lets_end(show *s, const char *heading, const char *behind, const char *footing);
 
-/* Symbolic solution for the highest derivatives by Cramer's rule: top[i] over *bottom. False if the result is too long
- * to read. */
+/* Symbolic solution for the highest derivatives by Cramer's rule: top[i] over *bottom. Returns false if the result is
+ * too long to read. */
 bool show_closed_form(const equations *e, const poly **top, const poly **bottom);
 void show_fraction(const show *s, const poly *top, const poly *bottom);
 

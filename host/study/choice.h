@@ -48,8 +48,8 @@ typedef struct choice {
 
 choice choice_make(const trials *t, const table *made, const choice_wish *w);
 
-/* The same, but rows are counted until no row of the choice is a prediction. With contacts, a row that was not counted is
- * expected to take as many cycles an evaluation as the last counted row with the same number type. */
+/* As above, but rows are counted until no row of the choice is a prediction. With contacts, a row that was not counted
+ * is expected to take as many cycles an evaluation as the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);
 

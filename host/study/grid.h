@@ -29,7 +29,8 @@ typedef struct grid {
 
 #define GRID_POINTS_MAX UINT64_C(1000000000000)
 
-/* "NAME=FROM..TO:COUNT[,log]"; a unit after TO also applies to a bare FROM. False if it is wrong (reported on standard error). */
+/* "NAME=FROM..TO:COUNT[,log]"; a unit after TO also applies to a bare FROM. Returns false if it is wrong (reported on
+ * standard error). */
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
 
@@ -59,7 +60,8 @@ void changes_forget(const overrides *base, overrides *changes);
 
 /* False, reported on standard error, if an axis varies a value that takes no part in `base`: all runs would be the same. */
 bool changes_take_part(const grid *g, const instance *base);
-/* False, reported, if `base` sets a value that an axis varies, because one would override the other. */
+/* Returns false, and reports the reason, if `base` sets a value that an axis varies, because one would override the
+ * other. */
 bool changes_are_apart(const grid *g, const overrides *base);
 
 #endif

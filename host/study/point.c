@@ -442,7 +442,7 @@ static bool see(void *of, uint64_t step) {
     return w->good;
 }
 
-/* Steps to the end. False if the run failed, with a message on `reason` or reported. */
+/* Steps to the end. Returns false if the run failed, with a message on `reason` or reported. */
 static bool run_through(meter *m, diags *errors, FILE *reason) {
     const engine_kind *kind = m->wanted->kind;
     const image *im = m->image;

@@ -114,7 +114,7 @@ typedef struct point_notes {
     double end_s;      /* end of the run */
 } point_notes;
 
-/* Runs the image; value[count + 1] gets the measures and the energy residual (NAN if unknown). False if the run
+/* Runs the image; value[count + 1] gets the measures and the energy residual (NAN if unknown). Returns false if the run
  * failed or something was not a finite number, with a message on `reason` or reported. */
 bool stepping_measure(const measuring *w, const image *im, double *value, diags *errors,
                       FILE *reason, point_notes *notes);
@@ -146,7 +146,8 @@ bool sweep_ends_are_alike(const sweep *s, double until_s);
 /* May the grid's points share the lists of this image? */
 bool sweep_can_share(const grid *g, const image *im);
 
-/* The text after a column's name: the declared unit, as " [deg]"; "" for SI, or if `of` is NULL. Free it. */
+/* The text after a column's name: the declared unit, as " [deg]"; "" for SI, or if `of` is NULL. The caller frees the
+ * result. */
 char *sweep_unit(const symbol *of, int primes);
 
 /* The CSV fields of the swept values, as header and for one point, without a line's end. */

@@ -475,7 +475,7 @@ static void scale_of(extrapolation *e, long double span_s, long double *scale) {
 }
 
 /* The increment of the state by the modified midpoint rule with this many substeps. Increments are summed and
- * extrapolated instead of states, so that a short step has little round-off. False if a value is not finite. */
+ * extrapolated instead of states, so that a short step has little round-off. Returns false if a value is not finite. */
 static bool midpoint(extrapolation *e, long double span_s, int substeps, long double *result) {
     const long double h = span_s / (long double)substeps;
     long double *here = result; /* increments after k substeps, and one before */

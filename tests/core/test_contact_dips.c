@@ -28,7 +28,7 @@ static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, w
     return s;
 }
 
-/* False if a number is so near zero that round-off decides. */
+/* Returns false if a number is so near zero that round-off decides. */
 static bool is_plain(const drawn_stop *s) {
     return WH_ABS(s->gap[1]) > WH_R(1e-6) && WH_ABS(s->rate[1]) > WH_R(1e-4) &&
            WH_ABS(s->gap[0]) > WH_R(1e-6) && WH_ABS(s->rate[0]) > WH_R(1e-4);

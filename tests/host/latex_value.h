@@ -22,7 +22,7 @@ typedef struct latex_number {
 latex_number latex_constant(double value, double off);
 
 /* The symbol with these letters ("theta", "m", "mass"), index ("1", "" without one; "_" for LaTeX's "\_") and number of
- * dots. False if unknown. */
+ * dots. Returns false if unknown. */
 typedef bool latex_lookup(void *context, const char *stem, const char *index, int primes,
                           latex_number *found);
 

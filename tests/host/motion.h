@@ -45,7 +45,7 @@ typedef struct stepping {
 
 /* Starts a scene of a built-in model. End it with motion_close(). */
 void motion_open(motion *m, const char *scene, stepping how);
-/* The same for the first scene of a text. */
+/* As above, for the first scene of a text. */
 void motion_open_text(motion *m, const char *text, stepping how);
 /* Starts the last scene of a built-in file such as "epicyclic.whirl", with the text `more` appended. */
 void motion_open_more(motion *m, const char *file, const char *more, stepping how);

@@ -83,7 +83,7 @@ static long double way_of(const machine *c, const long double s[2]) {
     return next > 0.0L ? 1.0L : next < 0.0L ? -1.0L : f[2] > 0.0L ? 1.0L : -1.0L;
 }
 
-/* Integrates to `until_s`. False if the machine comes to rest or its stop would have to pull. */
+/* Integrates to `until_s`. Returns false if the machine comes to rest or its stop would have to pull. */
 static bool reference(const machine *c, long double until_s, long double s[2]) {
     const long double h = 5e-5L;
     long double t = 0.0L;

@@ -67,7 +67,7 @@ static bool takes_one(const op *o) {
            op_rows[o->code].kind == OP_IS_WAVE || op_rows[o->code].kind == OP_IS_CALL;
 }
 
-/* False if a value is undefined, large, or near a jump of its slope. */
+/* Returns false if a value is undefined, large, or near a jump of its slope. */
 static bool compute(drawn_list *l) {
     for (int i = 0; i < l->list->count; i++) {
         const op *o = &l->list->ops[i];

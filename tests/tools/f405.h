@@ -22,7 +22,7 @@ bool hear(const char *begin, char *line, unsigned room, unsigned ms);
 /* Sends a line. The answer goes to line[room] and must begin with `begin`. */
 bool answers(const char *order, const char *begin, char *line, unsigned room);
 
-/* The same for a line that may be lost because the console does not listen yet: repeats it every few seconds. */
+/* As above, for a line that may be lost because the console does not listen yet: repeats it every few seconds. */
 bool answers_at_last(const char *order, const char *begin, char *line, unsigned room);
 
 const emulated_store_seen *seen_at(uint64_t number);

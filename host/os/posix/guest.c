@@ -233,7 +233,7 @@ static void close_line(int *descriptor) {
     }
 }
 
-/* Waits for the guest's end. False if it still runs after the longest wait. */
+/* Waits for the guest's end. Returns false if it still runs after the longest wait. */
 static bool wait_for_end(const guest *g, int *status) {
     const double end_s = system_now_s() + g->wish.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};
