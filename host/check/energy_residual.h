@@ -54,7 +54,7 @@ typedef struct energy_residual {
 } energy_residual;
 
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run);
-/* Is the ratio above the limit? An unknown residual is not. */
+/* Is the ratio above the limit? False if the residual is unknown. */
 bool energy_residual_lost(const energy_residual *b, double limit);
 /* The line of the summary; empty if unknown. */
 void energy_residual_print(FILE *out, const energy_residual *b);

@@ -12,7 +12,8 @@
 /* The most effects of a scene. With up to SUBSETS_ALL_MOST acting effects, all of their subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
-/* Figures of a price, in float; NAN: unknown. With contacts only SUBSET_WORST is known, as declared. */
+/* Figures of a price, in float; NAN: unknown. With contacts only SUBSET_WORST is known: the limit that the scene
+ * declares. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 
 /* The scene without the effects of the bits in `out`. */

@@ -82,8 +82,8 @@ typedef struct trial_wish {
     int records;         /* number of records after the start */
     reference_steps by;  /* the steps of the references */
     const image_settings *plain; /* settings of the references' images; NULL: the default ones */
-    whole_ratio
-        priced_step; /* the step that is priced for all steps, if possible; 0: each step is priced */
+    /* if possible, only this step is priced, and its price is used for all steps; 0: each step is priced */
+    whole_ratio priced_step;
 } trial_wish;
 
 typedef struct trial_planned {

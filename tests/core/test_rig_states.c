@@ -433,7 +433,8 @@ TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
     TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
 }
 
-/* Unreliable pulses cannot show that the rotor rests. After that trip, `clear` is allowed after a time. */
+/* Unreliable pulses cannot show that the rotor rests. After that trip, `clear` is allowed when tripped_max_s is
+ * over. */
 TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;

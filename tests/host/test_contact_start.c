@@ -1,5 +1,5 @@
 /* test_contact_start.c: contacts pressed at the start take part in an impact at that moment. A body that touches a
- * resting row at t = 0 acts and counts like one that meets it a little later. */
+ * resting row at t = 0 must have the same effect, and the same events, as one that arrives slightly later. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"

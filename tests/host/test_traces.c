@@ -411,7 +411,7 @@ static int signal_of(const char *code) {
     return -1;
 }
 
-/* Times rise. Returns the number of changes; *end has the last time. */
+/* Reads the changes, whose times must rise. Returns their number; *end is the last time. */
 static int read_changes(const char *at, int64_t *end) {
     int count = 0;
     int64_t now = -1;

@@ -59,8 +59,8 @@ TEST(walled, failed_runs_name_a_cure) {
     TEST_ASSERT_TRUE(failed > cases / 16);
 }
 
-/* A slider crank with crank and rod of one length: the run ends where they lie flat, and no step is suggested to pass
- * it. */
+/* A slider crank whose crank and rod have the same length. The run ends when both lie flat, and the message must not
+ * suggest a step that would pass this position. */
 TEST(walled, flat_linkages_name_no_step) {
     dice d = dice_of("flat linkages", 4463);
     const unsigned cases = dice_cases(usual_or(24, 8));
