@@ -368,7 +368,7 @@ TEST(algebra, random_expressions_their_derivatives_and_substitutions) {
 
 /* === algebra limits =========================================================================== */
 /* Limits of host/algebra: sizes up to which powers and products are expanded, cancellation, non-numbers, magnitudes,
- * and powers of expressions. */
+ * powers of expressions and determinants. */
 
 /* --- values -------------------------------------------------------------------------------------------- */
 
@@ -660,6 +660,34 @@ TEST(algebra_limits, what_cancels_to_a_rounding_error_is_zero) {
     TEST_ASSERT_TRUE(isinf(coefficient_sum((double)INFINITY, 1.0)));
     TEST_ASSERT_TRUE(isnan(coefficient_sum((double)INFINITY, -(double)INFINITY)));
     algebra_free(a);
+}
+
+/* The product of a lower triangle, with ones on its diagonal, and an upper one, whose diagonal gives the determinant. */
+TEST(algebra_limits, determinants_of_products) {
+    uint64_t seed = 3;
+    for (int round = 0; round < 60; round++) {
+        const int n = 1 + round % 5;
+        const unsigned all = (1U << n) - 1;
+        algebra *a = algebra_new();
+        double part[25]; /* both triangles */
+        const poly *m[25];
+        double wanted = 1.0;
+        double value = 1e300;
+        for (int k = 0; k < n * n; k++) {
+            part[k] = (double)(random_bits(&seed) % 9) - 4.0;
+            wanted *= k % (n + 1) == 0 ? part[k] : 1.0;
+        }
+        for (int k = 0; k < n * n; k++) {
+            double sum = k / n <= k % n ? part[k] : 0.0;
+            for (int i = 0; i < k / n && i <= k % n; i++) {
+                sum += part[k / n * n + i] * part[i * n + k % n];
+            }
+            m[k] = poly_number(a, sum);
+        }
+        TEST_ASSERT_TRUE(poly_is_number(poly_determinant(a, m, n, all, all), &value));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, wanted, value);
+        algebra_free(a);
+    }
 }
 
 /* === normal form ============================================================================== */
