@@ -12,17 +12,22 @@
 
 typedef struct decay {
     const char *file;
-    const char *scene; /* nothing else moves in it, so the carriage's equation stands alone */
+    const char *says; /* nothing else moves in it, so the carriage's equation stands alone */
     double mass_kg;
     double start_mps[2]; /* X', Y' */
+    double viscous_Nspm;
+    double quadratic_kgpm;
 } decay;
 
 /* Eccentric carriage: (1 + 1/ratio) times two arms of 0.152 lb with discs of 0.15 lb each. */
 #define ECCENTRIC_KG (4.0 * 2.0 * 0.302 * 0.45359237)
 
-static void follow_decay(const decay *d, double viscous_Nspm, double quadratic_kgpm) {
+static void follow_decay(const decay *d) {
     motion m;
-    motion_open_more(&m, d->file, d->scene, IN_DOUBLE_STEP(1e-3));
+    char text[200];
+    snprintf(text, sizeof text, "scene t { %s; start X' = %g [m/s]%s }\n", d->says, d->start_mps[0],
+             d->start_mps[1] < 0.0 ? ", Y' = -3 [m/s]" : "");
+    motion_open_more(&m, d->file, text, IN_DOUBLE_STEP(1e-3));
     for (int half = 1; half <= 8; half++) {
         const double t = 0.5 * half;
         motion_to(&m, t);
@@ -31,53 +36,31 @@ static void follow_decay(const decay *d, double viscous_Nspm, double quadratic_k
             if (k == 1 && v0 == 0.0) {
                 continue;
             }
-            double v = v0 * exp(-viscous_Nspm * t / d->mass_kg);
-            double x = v0 == v ? v0 * t : (v0 - v) * d->mass_kg / viscous_Nspm;
-            if (quadratic_kgpm > 0.0) {
-                const double part = quadratic_kgpm * fabs(v0) / d->mass_kg;
+            double v = v0 * exp(-d->viscous_Nspm * t / d->mass_kg);
+            double x = v0 == v ? v0 * t : (v0 - v) * d->mass_kg / d->viscous_Nspm;
+            if (d->quadratic_kgpm > 0.0) {
+                const double part = d->quadratic_kgpm * fabs(v0) / d->mass_kg;
                 v = v0 / (1.0 + part * t);
                 x = v0 / part * log(1.0 + part * t);
             }
             TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(SMALL, v, motion_value(&m, k == 0 ? "X'" : "Y'"),
-                                              d->scene);
+                                              d->says);
             TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(SMALL, x, motion_value(&m, k == 0 ? "X" : "Y"),
-                                              d->scene);
+                                              d->says);
         }
     }
     motion_close(&m);
 }
 
-TEST(effects, viscous_drag_decays_exponentially) {
+TEST(effects, drag_decays) {
     static const decay decays[] = {
-        {"eccentric.whirl",
-         "scene t { use eccentric; with rail_drag; start X' = 2 [m/s] }\n",
-         ECCENTRIC_KG,
-         {2.0}},
-        {"laskowitz.whirl",
-         "scene t { use laskowitz; with ground_drag; set torque = 0; start X' = 2 [m/s], Y' = -3 [m/s] }\n",
-         9.0,
-         {2.0, -3.0}},
-        {"cuff.whirl",
-         "scene t { with ground_drag; set torque = 0; start X' = 2 [m/s], Y' = -3 [m/s] }\n",
-         7.0,
-         {2.0, -3.0}}};
+        {"eccentric.whirl", "use eccentric; with rail_drag", ECCENTRIC_KG, {2.0}, 0.5, 0.0},
+        {"laskowitz.whirl", "use laskowitz; with ground_drag; set torque = 0", 9, {2, -3}, 0.5, 0},
+        {"cuff.whirl", "with ground_drag; set torque = 0", 7.0, {2.0, -3.0}, 0.5, 0.0},
+        {"epicyclic.whirl", "with air_drag; set M = 0", 4.0, {2.0}, 0.0, 0.2},
+        {"eccentric.whirl", "use eccentric; with air_drag", ECCENTRIC_KG, {-2.0}, 0.0, 0.2}};
     for (size_t i = 0; i < sizeof decays / sizeof decays[0]; i++) {
-        follow_decay(&decays[i], 0.5, 0.0);
-    }
-}
-
-TEST(effects, quadratic_drag_decays_hyperbolically) {
-    static const decay decays[] = {
-        {"epicyclic.whirl",
-         "scene t { with air_drag; set M = 0; start X' = 2 [m/s] }\n",
-         4.0,
-         {2.0}},
-        {"eccentric.whirl",
-         "scene t { use eccentric; with air_drag; start X' = -2 [m/s] }\n",
-         ECCENTRIC_KG,
-         {-2.0}}};
-    for (size_t i = 0; i < sizeof decays / sizeof decays[0]; i++) {
-        follow_decay(&decays[i], 0.0, 0.2);
+        follow_decay(&decays[i]);
     }
 }
 

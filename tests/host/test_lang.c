@@ -128,8 +128,9 @@ static void test_several_mechanisms_and_uses(void) {
 }
 
 static void test_byte_order_mark_and_line_ends(void) {
-    parse("\xef\xbb\xbfmechanism m \"\xc3\xa4\"\r\ncoordinate X [m]\r\nT = 1 [kg]*X'^2\r\n");
+    parse("\xef\xbb\xbfmechanism m \"\xc3\xa4\"\r\ncoordinate X [m] \"of\"\r\nT = 1 [kg]*X'^2\r\n");
     TEST_ASSERT_EQUAL_STRING("\xc3\xa4", parsed->mechanisms[0]->title);
+    TEST_ASSERT_EQUAL_STRING("of", parsed->mechanisms[0]->coordinates[0]->text);
 }
 
 enum { IN_SCENE_PLACES = 5, PLACES = 7 };
