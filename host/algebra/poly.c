@@ -410,10 +410,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
     return made;
 }
 
-mono *mono_scratch(int factors) {
-    mono *m = alloc_tail(sizeof *m, factors, sizeof(mono_factor));
-    return m;
-}
+mono *mono_scratch(int factors) { return alloc_tail(sizeof(mono), factors, sizeof(mono_factor)); }
 
 const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig kind,
                       const poly *angle) {
@@ -472,10 +469,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
     return slot->object;
 }
 
-poly *poly_scratch(int terms) {
-    poly *p = alloc_tail(sizeof *p, terms, sizeof(poly_term));
-    return p;
-}
+poly *poly_scratch(int terms) { return alloc_tail(sizeof(poly), terms, sizeof(poly_term)); }
 
 const poly *poly_of_term(algebra *a, double coefficient, const mono *m) {
     if (coefficient == 0.0) {

@@ -29,8 +29,7 @@ static _Noreturn void alloc_none(void) {
 }
 
 struct arena *arena_new(void) {
-    struct arena *fresh = alloc(1, sizeof *fresh);
-    return fresh;
+    return alloc(1, sizeof(struct arena));
 }
 
 void arena_free(struct arena *arena) {

@@ -173,10 +173,7 @@ void diag_error(diags *all, place at, const char *hint, const char *format, ...)
 }
 
 static bool comes_after(const entry *a, const entry *b) {
-    if (a->file_order != b->file_order) {
-        return a->file_order > b->file_order;
-    }
-    return a->offset > b->offset;
+    return a->file_order != b->file_order ? a->file_order > b->file_order : a->offset > b->offset;
 }
 
 static void sort(entry *entries, int count) {

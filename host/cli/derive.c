@@ -342,12 +342,6 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     return code;
 }
 
-/* The scene's name in generated code, with the rules of names in a .whirl file. */
-static bool take_name(change_options *options, const char *name) {
-    options->name = name;
-    return options_is_name("derive", name, NAME_LENGTH_MAX);
-}
-
 static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
     derive_options *o = options;
     const char *value = options_value(count, words, at, "--as", bad);
@@ -359,7 +353,8 @@ static bool take_one(int count, char **words, int *at, void *options, bool *bad)
         *bad = chosen < 0;
         o->as = chosen < 0 ? o->as : &forms[chosen];
     } else if (!*bad && (value = options_value(count, words, at, "--name", bad)) != NULL) {
-        *bad = !take_name(&o->common.change, value);
+        o->common.change.name = value; /* with the rules of names in a .whirl file */
+        *bad = !options_is_name("derive", value, NAME_LENGTH_MAX);
     }
     return value != NULL;
 }

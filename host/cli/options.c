@@ -281,6 +281,8 @@ void options_forget(common_options *options) {
     free(c->without);
 }
 
+bool options_is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
+
 bool options_same(const char *a, const char *b) {
     while (*a != '\0' && tolower((unsigned char)*a) == tolower((unsigned char)*b)) {
         a++;

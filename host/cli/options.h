@@ -155,6 +155,9 @@ bool options_is_name(const char *command, const char *name, int most);
 
 overrides options_overrides(const change_options *changes);
 
+/* Is this output, which may be NULL, standard output? */
+bool options_is_standard(const char *file);
+
 /* Equal words, ignoring case? */
 bool options_same(const char *a, const char *b);
 

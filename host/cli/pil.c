@@ -248,7 +248,7 @@ static int tell(const pil_options *o, const lockstep_wish *wish, const image *im
         fprintf(stderr, "whirl pil: interrupted after %" PRIu64 " exchanges\n", r->exchanges);
     }
     if (!o->quiet && r->end != LOCKSTEP_BAD) {
-        pil_print(o->csv != NULL && strcmp(o->csv, "-") == 0 ? stderr : stdout, wish, im, r);
+        pil_print(options_is_standard(o->csv) ? stderr : stdout, wish, im, r);
     }
     return code_of(r);
 }

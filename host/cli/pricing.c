@@ -157,11 +157,6 @@ const cost_board *pricing_board(const char *command, const char *value) {
     return chosen < 0 ? NULL : &cost_boards[chosen];
 }
 
-static bool find_board(pricing *p) {
-    p->board = pricing_board(p->options->command, p->options->value[PRICING_BOARD]);
-    return p->board != NULL;
-}
-
 /* Operations that all trials may evaluate without --effort. */
 #define EFFORT 1e9
 
@@ -334,7 +329,8 @@ int pricing_open(pricing *p, const pricing_options *o) {
     asked.until = NULL; /* printed command lines get their own --until */
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(o->target);
-    if (!find_board(p) || !read_effort(p) || !read_methods(p) || !read_error(p) ||
+    p->board = pricing_board(o->command, o->value[PRICING_BOARD]);
+    if (p->board == NULL || !read_effort(p) || !read_methods(p) || !read_error(p) ||
         !read_ranges(p)) {
         return EXIT_BAD_INPUT;
     }
@@ -434,7 +430,7 @@ static int show(pricing *p, const table *made) {
     const char *csv = value[PRICING_CSV];
     const table_words words = {p->target, p->words, value[PRICING_ALL] != NULL, p->effort};
     const bool is_json = value[PRICING_JSON] != NULL;
-    FILE *out = is_json || (csv != NULL && strcmp(csv, "-") == 0) ? stderr : stdout;
+    FILE *out = is_json || options_is_standard(csv) ? stderr : stdout;
     if (value[PRICING_QUIET] == NULL && !is_json) {
         table_print(out, &p->trial, made, &words);
     }
@@ -472,7 +468,7 @@ static int price_scene(pricing *p) {
     const char *csv = p->options->value[PRICING_CSV];
     const bool measure = p->options->value[PRICING_MEASURE] != NULL;
     const table_wish wish = wish_of(p);
-    if (p->options->value[PRICING_JSON] != NULL && csv != NULL && strcmp(csv, "-") == 0) {
+    if (p->options->value[PRICING_JSON] != NULL && options_is_standard(csv)) {
         fputs("whirl price: error: --json and rows cannot share standard output\n"
               "hint: --csv rows.csv\n",
               stderr);
@@ -622,9 +618,6 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
     return true;
 }
 
-/* The value of --error in the unit of the trial's errors. */
-static double allowed_of(const pricing *p) { return p->error_si / trial_error_si(&p->trial, 1.0); }
-
 static void show_counting(void *context, int counted) {
     (void)context;
     fprintf(stderr, "\rcounting on the board: %d so far ", counted);
@@ -641,7 +634,7 @@ static int says_contacts(const pricing *p, const char *missing) {
 
 static int choose_from(pricing *p, choice_wish *w, bool counts) {
     const table_words words = {p->target, p->words, false, p->effort};
-    w->table.error = allowed_of(p);
+    w->table.error = p->error_si / trial_error_si(&p->trial, 1.0); /* in the unit of the trial's */
     w->counts = counts;
     p->trial.tolerated = w->table.error;
     p->trial.without_events = p->trial.image[0]->contacts > 0;

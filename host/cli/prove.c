@@ -103,10 +103,6 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
 
 static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * share); }
 
-static bool is_standard(const prove_options *o) {
-    return o->csv != NULL && strcmp(o->csv, "-") == 0;
-}
-
 typedef struct rows {
     FILE *file; /* NULL: no rows */
     const containment_wish *wish;
@@ -165,7 +161,7 @@ static int held_out(const prove_options *o, const containment_wish *w, const row
         fprintf(stderr, "\r        \r");
     }
     if (h.ranged && (!o->quiet || o->csv == NULL)) {
-        containment_print(is_standard(o) ? stderr : stdout, &h, w);
+        containment_print(options_is_standard(o->csv) ? stderr : stdout, &h, w);
     }
     say_end(&h, ratio_times(w->image->steps, w->image->step));
     const int code = status_of(&h, w->image);

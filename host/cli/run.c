@@ -128,12 +128,6 @@ static bool files_are_apart(const simulation_settings *s) {
     return true;
 }
 
-static bool find_board(run_options *o) {
-    const char *word = o->board_word != NULL ? o->board_word : COST_BOARD_DEFAULT;
-    o->board = pricing_board("run", word);
-    return o->board != NULL;
-}
-
 static bool read_options(int count, char **words, run_options *o) {
     static const char *const drawn[] = {RUN_CHOICE_WORDS, NULL};
     simulation_settings *to = &o->settings;
@@ -156,8 +150,10 @@ static bool read_options(int count, char **words, run_options *o) {
     }
     if (o->target == NULL) {
         options_usage(stderr, &usage);
+        return false;
     }
-    if (o->target == NULL || !find_board(o)) {
+    o->board = pricing_board("run", o->board_word != NULL ? o->board_word : COST_BOARD_DEFAULT);
+    if (o->board == NULL) {
         return false;
     }
     o->number = o->common.number;
@@ -181,8 +177,7 @@ static bool read_options(int count, char **words, run_options *o) {
 
 static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
     return source_would_be_lost(from, "--csv", s->csv, "") ||
-           (s->csv != NULL && strcmp(s->csv, "-") != 0 &&
-            source_would_be_lost(from, "--csv", s->csv, ".toml")) ||
+           source_would_be_lost(from, "--csv", s->csv, ".toml") ||
            source_would_be_lost(from, "--columns", s->columns, "") ||
            source_would_be_lost(from, "--vcd", s->vcd, "") ||
            source_would_be_lost(from, "--plot", s->plot, "");

@@ -143,15 +143,13 @@ static bool read_shard(const char *text, sweep_options *o) {
     return true;
 }
 
-static bool is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
-
 /* Checks for missing and contradicting options. */
 static bool is_whole_sweep(sweep_options *o) {
     if ((o->jobs_text != NULL && !read_jobs(o->jobs_text, o)) ||
         (o->shard_text != NULL && !read_shard(o->shard_text, o))) {
         return false;
     }
-    if (o->json && o->csv != NULL && !is_standard(o->csv)) {
+    if (o->json && o->csv != NULL && !options_is_standard(o->csv)) {
         fprintf(stderr, "whirl sweep: error: --json prints the rows, and --csv FILE writes them\n"
                         "hint: leave one of them out\n");
         return false;
@@ -181,7 +179,7 @@ static bool is_whole_map(sweep_options *o) {
     if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
         return false;
     }
-    if (o->json && is_standard(o->csv)) {
+    if (o->json && options_is_standard(o->csv)) {
         problem = "--json and rows cannot share standard output\nhint: --csv rows.csv";
     } else if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
         problem = "--csv and --plot cannot share a file";
@@ -193,15 +191,6 @@ static bool is_whole_map(sweep_options *o) {
 }
 
 /* --- common beginning ----------------------------------------------------------------------------*/
-
-static bool read_grid(const sweep_options *o, const mechanism *of, diags *errors, grid *g) {
-    bool good = true;
-    g->command = o->command;
-    for (int i = 0; i < o->over_count && good; i++) {
-        good = grid_add(g, of, o->over[i], errors);
-    }
-    return good;
-}
 
 static int load_base(const sweep_options *o, source_model *from, const sweep *s, loaded *base) {
     const load_wish wish = {.settings = o->common.integration,
@@ -266,13 +255,6 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
     return code;
 }
 
-/* --from in seconds: parsed like --until, so that it may name parameters, too. */
-static bool read_from(const sweep_options *o, const mechanism *of, const scene *in,
-                      const overrides *changes, diags *errors, double *from_s) {
-    *from_s = 0.0;
-    return o->from == NULL || instance_duration(of, in, changes, "from", o->from, errors, from_s);
-}
-
 static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) {
     loaded base;
     int code = load_base(o, from, s, &base);
@@ -297,7 +279,9 @@ static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) 
 static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
                        const scene *in, grid *g, const overrides *changes) {
     sweep s = sweep_of(o, of, in, g, changes);
-    const bool good = read_from(o, of, in, changes, from->errors, &s.from_s);
+    /* --from is parsed like --until, so that it may name parameters, too */
+    const bool good = o->from == NULL ||
+                      instance_duration(of, in, changes, "from", o->from, from->errors, &s.from_s);
     measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
     int code = EXIT_BAD_INPUT;
     diags_flush(from->errors, stderr);
@@ -323,7 +307,7 @@ static bool write_map(const sweep_options *o, const stability_map *m, const char
 static int show_map(const sweep_options *o, const stability_map *m, const char *words,
                     const char *name) {
     if (!o->json && (!o->quiet || (o->csv == NULL && o->plot == NULL))) {
-        map_print(is_standard(o->csv) ? stderr : stdout, m, words);
+        map_print(options_is_standard(o->csv) ? stderr : stdout, m, words);
     }
     int code = o->csv == NULL || write_map(o, m, name) ? EXIT_DONE : EXIT_BAD_INPUT;
     if (o->plot != NULL && !map_plot(o->plot, m, words)) {
@@ -448,14 +432,14 @@ static int work_on(const sweep_options *o, sweep_work *work) {
     code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
     if (code == EXIT_DONE) {
         overrides changes = options_overrides(&o->common.change);
-        grid g = {0};
+        grid g = {.command = o->command};
+        bool good = can_write(o, &from, work == map_scene);
         changes.balance = true;
-        code = EXIT_BAD_INPUT;
-        if (can_write(o, &from, work == map_scene)) {
-            const bool good = read_grid(o, of, from.errors, &g);
-            diags_flush(from.errors, stderr);
-            code = good ? work(o, &from, of, in, &g, &changes) : code;
+        for (int i = 0; i < o->over_count && good; i++) {
+            good = grid_add(&g, of, o->over[i], from.errors);
         }
+        diags_flush(from.errors, stderr);
+        code = good ? work(o, &from, of, in, &g, &changes) : EXIT_BAD_INPUT;
         grid_free(&g);
     }
     source_close(&from);

@@ -57,10 +57,6 @@ typedef struct trust_options {
     bool quiet;
 } trust_options;
 
-static bool is_standard(const trust_options *o) {
-    return o->csv != NULL && strcmp(o->csv, "-") == 0;
-}
-
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
 
 static void show_progress(double share, void *told) {
@@ -131,7 +127,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, &h);
         if (!o->json && (!o->quiet || o->csv == NULL)) {
-            horizon_print(is_standard(o) ? stderr : stdout, &h);
+            horizon_print(options_is_standard(o->csv) ? stderr : stdout, &h);
         }
         if (t->status != WH_OK) {
             say_failure(im, kind, t);
@@ -204,7 +200,7 @@ static int trust_source(const trust_options *o, source_model *from) {
 
 static int trust_target(void *options) {
     const trust_options *o = options;
-    if (o->json && is_standard(o)) {
+    if (o->json && options_is_standard(o->csv)) {
         fputs("whirl trust: error: --json and rows cannot share standard output\n"
               "hint: --csv rows.csv\n",
               stderr);

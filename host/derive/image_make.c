@@ -103,14 +103,8 @@ static void start_components(image_draft *d) {
 /* The unit of a momentum: energy divided by rate. */
 static const char *momentum_unit(image_draft *d, const symbol *q) {
     char si[DIM_TEXT_SIZE];
-    dimension dim = q->dim;
-    for (int k = 0; k < DIM_BASES; k++) {
-        dim.twelfths[k] = (short)-dim.twelfths[k];
-    }
-    dim.any = false;
-    dim.twelfths[DIM_LENGTH] = (short)(dim.twelfths[DIM_LENGTH] + 2 * DIM_DENOMINATOR);
-    dim.twelfths[DIM_MASS] = (short)(dim.twelfths[DIM_MASS] + DIM_DENOMINATOR);
-    dim.twelfths[DIM_TIME] = (short)(dim.twelfths[DIM_TIME] - DIM_DENOMINATOR);
+    dimension dim = dim_none();
+    (void)dim_divide(dim_of(2, 1, -1, 0, 0), q->dim, &dim);
     return image_text(d, dimension_unit(dim, false, si, sizeof si));
 }
 

@@ -7,17 +7,15 @@
 #include "host/base/alloc.h"
 #include "host/base/hashing.h"
 
-/* The seed of a noise. It includes the hash of the output's name, so that the noises of two outputs differ for equal seeds. */
-static uint32_t seed_of(const noise *of) {
-    return hash_text(of->output->name, strlen(of->output->name)) ^ of->seed;
-}
-
-/* The operation that adds noise k to `node`. */
+/* The operation that adds noise k to `node`. Its seed includes the hash of the output's name, so that the noises of two
+ * outputs differ for equal seeds. */
 static int with_noise(const equations *e, lowering *l, const noise *each, int node) {
     op_list *t = l->list;
     const poly *deviation = poly_from_expr(e->algebra, each->deviation);
     const int size = lower(l, equations_fold(e, deviation));
-    return op_list_add(t, node, op_list_mul(t, size, op_list_noise(t, seed_of(each))));
+    const char *name = each->output->name;
+    const int drawn = op_list_noise(t, hash_text(name, strlen(name)) ^ each->seed);
+    return op_list_add(t, node, op_list_mul(t, size, drawn));
 }
 
 void noise_on_outputs(const equations *e, lowering *l, int *result) {

@@ -615,11 +615,6 @@ static op_list *make_list(const image *im, twofold *change, twofold h) {
 
 /* --- the matrix ------------------------------------------------------------------------------------*/
 
-static twofold step_of(const image *im) {
-    return im->step.denominator != 0 ? double_double_ratio(im->step.numerator, im->step.denominator)
-                                     : double_double_of(im->step_s);
-}
-
 static void keep_numbers(image_draft *d, const twofold *change) {
     image *im = d->made;
     image_matrix *m = &im->matrix;
@@ -640,7 +635,9 @@ static bool make(image_draft *d, twofold *change, diags *errors) {
     image *im = d->made;
     const int states = affine_states(im);
     const int columns = affine_columns(im);
-    const twofold h = step_of(im);
+    const twofold h = im->step.denominator != 0
+                          ? double_double_ratio(im->step.numerator, im->step.denominator)
+                          : double_double_of(im->step_s);
     bool good = true;
     for (int i = 0; i < states * columns; i++) {
         change[i] = double_double_mul(change[i], h);

@@ -534,10 +534,6 @@ int tables_cells(image_tables form) {
 
 /* --- which phase is looked up ------------------------------------------------------------------------*/
 
-static int divisor_of(int a, int b) {
-    return (int)ratio_divisor((uint64_t)abs(a), (uint64_t)abs(b));
-}
-
 /* The first angle with a nonzero factor in a phase. */
 static int leading(const int *turns, int angles) {
     int k = 0;
@@ -550,7 +546,7 @@ static int leading(const int *turns, int angles) {
 /* Are both multiples of one phase? Then *turns becomes the largest such phase. */
 static bool shares(int *turns, const int *other, int angles) {
     const int k = leading(turns, angles);
-    const int common = divisor_of(turns[k], other[k]);
+    const int common = (int)ratio_divisor((uint64_t)abs(turns[k]), (uint64_t)abs(other[k]));
     for (int i = 0; i < angles; i++) {
         if ((int64_t)turns[i] * other[k] != (int64_t)other[i] * turns[k]) {
             return false;

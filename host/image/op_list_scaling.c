@@ -77,18 +77,13 @@ static bool absorbs(const op_list *t, const op *o) {
            (is_constant(t, o->a) || is_constant(t, o->b));
 }
 
-static bool has_exponent(const op_list *t, int i) {
-    const op *o = &t->ops[i];
-    return !op_list_is_raw(o) && o->code != OP_CONSTANT && o->code != OP_PHASE;
-}
-
 static unknowns unknowns_of(const op_list *t) {
     unknowns u = {t, alloc(2 * (int64_t)t->count + 1, sizeof(int)),
                   alloc(3 * (int64_t)t->count + 1, sizeof(int)), t->count};
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        for (int which = 0; has_exponent(t, i) && !absorbs(t, o) && which < op_rows[o->code].values;
-             which++) {
+        const bool has = !op_list_is_raw(o) && o->code != OP_CONSTANT && o->code != OP_PHASE;
+        for (int which = 0; has && !absorbs(t, o) && which < op_rows[o->code].values; which++) {
             if (op_list_is_raw(&t->ops[operand_of(o, which)])) {
                 u.place[u.columns] = 2 * i + which;
                 u.column[2 * i + which] = u.columns++;
