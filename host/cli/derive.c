@@ -74,16 +74,22 @@ static const char *taken_in_c(const char *name, bool with_header) {
     return with_header && !emit_c_name_is_free_in_cpp(name) ? "a word of C++" : NULL;
 }
 
+/* The properties of a form. A form that shows prints the equations of each mechanism of a file in turn, and their derivation
+ * (--steps); another form prints code. */
+enum {
+    SHOWS = 1,
+    FOLDS = 2,  /* prints values instead of names (--folded) */
+    NAMED = 4,  /* has the scene's name (--name) */
+    HEADED = 8, /* has a header (--header) */
+    RUNS = 16   /* steps the scene: momenta, method and number type matter */
+};
+
 typedef struct form_row {
     const char *word;
+    unsigned is; /* bits of the above */
     void (*print)(const loaded *made, const char *file);
-    bool shows; /* prints equations, of each mechanism of a file in turn; otherwise code */
-    void (*print_steps)(const loaded *made,
-                        const char *file); /* the derivation of the equations (--steps) */
-    void (*print_folded)(const loaded *made,
-                         const char *file); /* prints values instead of names (--folded) */
-    /* the form steps the scene: momenta, method and number type matter */
-    bool runs;
+    void (*print_steps)(const loaded *made, const char *file);
+    void (*print_folded)(const loaded *made, const char *file);
     /* For code with the scene's name (--name): the owner of that name there, if it is taken, or NULL. */
     const char *(*name_taken_by)(const char *name, bool with_header);
     /* For code with a header (--header). */
@@ -98,44 +104,39 @@ static const form_row forms[] = {
     {.word = "text",
      .print = text,
      .print_steps = steps,
-     .shows = true,
+     .is = SHOWS,
      .text = "one equation per coordinate, its events, and the first-order form (default)"},
     {.word = "latex",
      .print = latex,
      .print_steps = latex_steps,
-     .shows = true,
+     .is = SHOWS,
      .text = "the same for a paper (with amsmath)"},
     {.word = "octave",
      .print = octave,
      .print_folded = folded_octave,
+     .is = FOLDS | NAMED,
      .name_taken_by = taken_in_octave,
      .comment = EMIT_OCTAVE_COMMENT,
      .text = "a function file for Octave and Matlab; events are listed only"},
     {.word = "c",
      .print = c,
-     .runs = true,
+     .is = RUNS | NAMED | HEADED,
      .name_taken_by = taken_in_c,
      .print_header = emit_c_header,
      .text = "the scene as C for the core (docs/howto/firmware.md)"},
 };
 enum { FORMS = sizeof forms / sizeof forms[0], FORMS_TEXT_SIZE = 16 + 16 * FORMS };
 
-static bool has_a_name(const form_row *form) { return form->name_taken_by != NULL; }
-static bool has_a_header(const form_row *form) { return form->print_header != NULL; }
-static bool has_steps(const form_row *form) { return form->runs; }
-static bool has_folded(const form_row *form) { return form->print_folded != NULL; }
-static bool has_derivation(const form_row *form) { return form->shows; }
-
-/* "--as octave or c": the forms for which that is true. Returns `said`. */
-static const char *forms_with(bool (*is_true)(const form_row *form), char said[FORMS_TEXT_SIZE]) {
+/* "--as octave or c": the forms with this bit. Returns `said`. */
+static const char *forms_with(unsigned bit, char said[FORMS_TEXT_SIZE]) {
     size_t length = (size_t)snprintf(said, FORMS_TEXT_SIZE, "--as");
     int left = 0;
     for (int i = 0; i < FORMS; i++) {
-        left += is_true(&forms[i]);
+        left += (forms[i].is & bit) != 0;
     }
     const int all = left;
     for (int i = 0; i < FORMS && length < FORMS_TEXT_SIZE; i++) {
-        if (is_true(&forms[i])) {
+        if ((forms[i].is & bit) != 0) {
             const char *before = left == all ? " " : left > 1 ? ", " : " or ";
             length += (size_t)snprintf(said + length, FORMS_TEXT_SIZE - length, "%s%s", before,
                                        forms[i].word);
@@ -157,8 +158,7 @@ static const command_usage options_of_derive = {.head = "",
                                                           OPTIONS_ENGINE | OPTIONS_NUMBER,
                                                 .tail = "Formulas are in SI. "};
 
-static void print_option(FILE *out, const char *option, bool (*of)(const form_row *form),
-                         const char *what) {
+static void print_option(FILE *out, const char *option, unsigned of, const char *what) {
     char said[FORMS_TEXT_SIZE];
     const int column = fprintf(out, "  %s, with %s: ", option, forms_with(of, said));
     options_text(out, what, column, 15, 99);
@@ -171,14 +171,14 @@ static void print_usage(FILE *out) {
         fprintf(out, "  --as %-8s%s\n", forms[i].word, forms[i].text);
     }
     print_option(
-        out, "--steps", has_derivation,
+        out, "--steps", SHOWS,
         "the derivation: the Lagrangian, and for each coordinate dL/dq', its time derivative, "
         "dL/dq, dF/dq' and Q");
-    print_option(out, "--folded", has_folded,
+    print_option(out, "--folded", FOLDS,
                  "values instead of parameter names, one operation per line");
-    print_option(out, "--header FILE", has_a_header,
+    print_option(out, "--header FILE", HEADED,
                  "its header, for C and C++: names, units, memory (docs/embedding.md)");
-    print_option(out, "--name NAME", has_a_name,
+    print_option(out, "--name NAME", NAMED,
                  "the scene's name in the code, so that a program can contain it twice");
     options_usage(out, &options_of_derive);
     fprintf(
@@ -186,23 +186,22 @@ static void print_usage(FILE *out) {
         "The method and --number fixed change only %s.\n"
         "All other code is the same for float and double. With --matrix all forms show the matrix, and\n"
         "--as octave only the matrix.\n",
-        forms_with(has_steps, said));
+        forms_with(RUNS, said));
 }
 
 /* Is the option, such as "--header", valid for this form? Otherwise reports the forms that accept it. */
-static bool goes_with(const char *option, const char *value, bool (*of)(const form_row *form),
-                      const form_row *as) {
+static bool goes_with(const char *option, const char *value, unsigned of, const form_row *as) {
     char said[FORMS_TEXT_SIZE];
     int first = 0;
-    while (first + 1 < FORMS && !of(&forms[first])) {
+    while (first + 1 < FORMS && (forms[first].is & of) == 0) {
         first++;
     }
-    if (!of(as)) {
+    if ((as->is & of) == 0) {
         fprintf(stderr, "whirl derive: error: %s goes with %s\nhint: --as %s %s%s%s\n", option,
                 forms_with(of, said), forms[first].word, option, value[0] != '\0' ? " " : "",
                 value);
     }
-    return of(as);
+    return (as->is & of) != 0;
 }
 
 /* --header must not be a file that is read or written at the same time. */
@@ -291,17 +290,18 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                       const overrides *changes, const derive_options *o, const char *header) {
     const form_row *as = o->as;
     const common_options *options = &o->common;
-    const bool from_equations = as->shows || (has_folded(as) && !o->folded);
+    const bool runs = (as->is & RUNS) != 0;
+    const bool from_equations = (as->is & SHOWS) != 0 || ((as->is & FOLDS) != 0 && !o->folded);
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
-    if (!as->runs) { /* equations, and code for other programs, have no tables */
+    if (!runs) { /* equations, and code for other programs, have no tables */
         taken.tables = TABLES_NONE;
         taken.cells = 0;
     }
     const load_wish wish = {.settings = taken,
                             .use = IMAGE_TO_WRITE,
                             .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
-                            .conserve = as->runs || settings->matrix != MATRIX_NONE,
+                            .conserve = runs || settings->matrix != MATRIX_NONE,
                             .comment = as->comment};
     loaded made;
     int code = load(&made, from, of, in, changes, &wish);
@@ -319,8 +319,8 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         plan = plan_of(made.image, from, options->number, &good);
     }
     if (code == EXIT_DONE &&
-        (!good || (has_a_name(as) && !has_name(made.image, from, as, header)) ||
-         (as->runs && !has_c_form(made.image, from)) ||
+        (!good || ((as->is & NAMED) != 0 && !has_name(made.image, from, as, header)) ||
+         (runs && !has_c_form(made.image, from)) ||
          (header != NULL && !write_header(as, made.image, plan, from->file, header)))) {
         code = EXIT_BAD_INPUT;
     }
@@ -329,7 +329,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         if (plan != NULL) {
             c_fixed(stdout, plan, from->file);
         } else {
-            if (as->runs) {
+            if (runs) {
                 say_float_range(made.image);
             }
             (o->steps    ? as->print_steps
@@ -372,16 +372,16 @@ static bool read_options(int count, char **words, derive_options *o) {
                                   .take = take_one,
                                   .derives = true};
     if (!target_read(&reader, count, words, &o->common, o, &o->target) ||
-        (o->header != NULL && !goes_with("--header", "FILE", has_a_header, o->as)) ||
-        (o->steps && !goes_with("--steps", "", has_derivation, o->as)) ||
-        (o->folded && !goes_with("--folded", "", has_folded, o->as)) ||
-        (o->common.change.name != NULL && !goes_with("--name", "NAME", has_a_name, o->as))) {
+        (o->header != NULL && !goes_with("--header", "FILE", HEADED, o->as)) ||
+        (o->steps && !goes_with("--steps", "", SHOWS, o->as)) ||
+        (o->folded && !goes_with("--folded", "", FOLDS, o->as)) ||
+        (o->common.change.name != NULL && !goes_with("--name", "NAME", NAMED, o->as))) {
         return false;
     }
-    if (o->common.number == &engine_fixed && !has_steps(o->as)) {
+    if (o->common.number == &engine_fixed && (o->as->is & RUNS) == 0) {
         char said[FORMS_TEXT_SIZE];
         fprintf(stderr, "whirl derive: error: --number fixed goes with %s\n",
-                forms_with(has_steps, said));
+                forms_with(RUNS, said));
         return false;
     }
     if (o->target == NULL) {
@@ -396,7 +396,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
     const mechanism *of;
     const scene *in;
     int code = EXIT_DONE;
-    if (from->name[0] == '\0' && o->as->shows) {
+    if (from->name[0] == '\0' && (o->as->is & SHOWS) != 0) {
         for (int i = 0; i < from->model->mechanism_count && code == EXIT_DONE; i++) {
             fputs(i > 0 ? "\n" : "", stdout);
             code = derive_one(from, from->model->mechanisms[i], NULL, &changes, o, NULL);

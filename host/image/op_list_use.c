@@ -50,21 +50,6 @@ static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) 
     return count;
 }
 
-static bool may_be_given(const op *o) {
-    switch (op_rows[o->code].kind) {
-    case OP_IS_CONSTANT:
-    case OP_IS_LEAF:
-    case OP_IS_PHASE:
-    case OP_IS_CELL:
-    case OP_IS_WAVE: return true;
-    case OP_IS_LOOKUP:
-    case OP_IS_UNARY:
-    case OP_IS_BINARY:
-    case OP_IS_CALL: break;
-    }
-    return false;
-}
-
 static op_list_needs op_list_needs_of(const op_list *t) {
     op_list_needs n = {.t = t,
                        .before = alloc(t->count, sizeof *n.before),
@@ -76,7 +61,8 @@ static op_list_needs op_list_needs_of(const op_list *t) {
         const bool is_phase = t->ops[i].code == OP_PHASE;
         n.before[i] = is_phase ? phase : -1;
         phase = is_phase ? i : phase;
-        n.given[i] = may_be_given(&t->ops[i]);
+        const op_row *row = &op_rows[t->ops[i].code];
+        n.given[i] = row->values == 0 || row->kind == OP_IS_WAVE;
         for (int k = op_list_needed(&n, i, found); k > 0; k--) {
             n.given[i] = n.given[i] && n.given[found[k - 1]];
             n.first[found[k - 1] + 1]++;

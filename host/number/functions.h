@@ -27,7 +27,7 @@
  *   value        FUNCTION_CORE(...): a function of core/function.h, in both numbers, on every board.
  *                FUNCTION_OWN(operation, ...): its own operation in the operation list, and its value in double.
  *                The users of this column define the two macros.
- *   slopes       in double. In symbols: host/algebra/calculus.c, which has a function for each row */
+ *   slopes       in double. In symbols: host/algebra/calculus.c, which has a case for each row */
 
 /* clang-format off */
 #define FUNCTION_ROWS(X) \
