@@ -531,22 +531,18 @@ static bool derive_system(equations *e, diags *errors) {
         }
     }
     for (int r = 0; r < rows && good && !algebra_overflow(a); r++) {
-        for (int s = 0; s < n; s++) {
+        for (int s = 0; s < n && good; s++) {
             const unknown *u = &e->unknowns[s];
             const poly *coefficient = poly_derivative(a, left[r], u->symbol, u->order);
             e->mass[r * n + s] = coefficient;
-            for (int k = 0; k < n; k++) {
-                if (poly_contains(coefficient, e->unknowns[k].symbol, e->unknowns[k].order)) {
-                    diag_error(errors, term_at[r]->at,
-                               "solve the equation for it first, or add a state for the inner part",
-                               "this equation is not linear in the highest derivatives: %s",
-                               u->symbol->name);
-                    good = false;
-                    break;
-                }
+            for (int k = 0; k < n && good; k++) {
+                good = !poly_contains(coefficient, e->unknowns[k].symbol, e->unknowns[k].order);
             }
             if (!good) {
-                break;
+                diag_error(errors, term_at[r]->at,
+                           "solve the equation for it first, or add a state for the inner part",
+                           "this equation is not linear in the highest derivatives: %s",
+                           u->symbol->name);
             }
         }
         e->potential[r] = poly_substitute(a, left[r], drop_highest, e);
