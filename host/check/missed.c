@@ -71,14 +71,7 @@ static taylor_bounds *taylor_bounds_open(const image *im, const op_list *t) {
     a->needs = alloc((int64_t)t->results * t->count, sizeof *a->needs);
     a->natural = alloc(t->count, sizeof *a->natural);
     for (int r = 0; r < t->results; r++) {
-        bool *needs = a->needs + (ptrdiff_t)r * t->count;
-        needs[t->result[r]] = true;
-        for (int i = t->result[r]; i >= 0; i--) {
-            int operand[2];
-            for (int k = needs[i] ? op_list_operands(&t->ops[i], operand) : 0; k > 0; k--) {
-                needs[operand[k - 1]] = true;
-            }
-        }
+        op_list_mark_needed(t, t->result[r], a->needs + (ptrdiff_t)r * t->count);
     }
     return a;
 }
@@ -555,13 +548,8 @@ static bool has_exponential(const op_list *t) {
 }
 
 static bool has_edges(const image *im) {
-    const op_list *t = im->contacts > 0 ? im->list[IMAGE_SIGNALS] : NULL;
-    bool some = false;
-    for (int i = 0; t != NULL && i < t->count; i++) {
-        const op_code code = t->ops[i].code;
-        some = some || code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
-    }
-    return some && im->contact[0].kind == WH_STOP;
+    return im->contacts > 0 && im->contact[0].kind == WH_STOP &&
+           op_list_has_kinks(im->list[IMAGE_SIGNALS]);
 }
 
 /* The result of the contacts' laws that is this row of contact k. */

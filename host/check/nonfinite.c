@@ -176,26 +176,14 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
 
 /* The innermost part that is not finite but has finite operands; -1 if the whole is finite. */
 static int innermost(const blamed *v, int node) {
-    const diagnostics_node *n = &v->image->blame.node[node];
+    int operand[2];
     int part = -1;
     if (isfinite(v->value[node])) {
         return -1;
     }
-    switch (n->code) {
-    case DIAGNOSTICS_NUMBER:
-    case DIAGNOSTICS_STATE:
-    case DIAGNOSTICS_INPUT: break;
-    case DIAGNOSTICS_SAME:
-    case DIAGNOSTICS_NEG: part = innermost(v, n->a); break;
-    case DIAGNOSTICS_ADD:
-    case DIAGNOSTICS_SUB:
-    case DIAGNOSTICS_MUL:
-    case DIAGNOSTICS_DIV:
-    case DIAGNOSTICS_POW:
-    case DIAGNOSTICS_CALL:
-        part = innermost(v, n->a);
-        part = part < 0 && n->b >= 0 ? innermost(v, n->b) : part;
-        break;
+    const int count = blamed_operands(&v->image->blame.node[node], operand);
+    for (int k = 0; k < count && part < 0; k++) {
+        part = innermost(v, operand[k]);
     }
     return part >= 0 ? part : node;
 }

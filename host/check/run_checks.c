@@ -186,41 +186,38 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* The column that is accurate to a hundredth for the shortest time, among those with an error that grew no faster than a power of
- * time; or -1. In a chaotic motion errors grow faster, and no step helps. The accuracy line reports that. */
-static int first_off(const run_checks *v, const horizon *h) {
-    const step_doubling *t = v->twins;
-    int found = -1;
-    horizon early = horizon_of(t, v->part * RUN_CHECKS_EARLY_TOLERANCE);
-    for (int k = 1; k < t->columns; k++) {
-        const horizon_column *c = &h->column[k];
-        if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&
-            (early.column[k].until_s <= RUN_CHECKS_BEGIN * t->end_s ||
-             c->until_s >= RUN_CHECKS_GROWS * early.column[k].until_s) &&
-            (found < 0 || is_worse(c, &h->column[found]))) {
-            found = k;
-        }
-    }
-    horizon_free(&early);
-    return found;
+/* Did the column's error, which reached a tolerance after until_s and a smaller one after early_s, grow no faster than a
+ * power of time? In a chaotic motion errors grow faster, and no step helps. The accuracy line reports that. */
+static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
+    (void)k;
+    return early_s <= RUN_CHECKS_BEGIN * v->twins->end_s || until_s >= RUN_CHECKS_GROWS * early_s;
 }
 
-/* The position with an error that grew by RUN_CHECKS_SUDDEN to HORIZON_TOLERANCE within a few steps, or -1. Such steps
- * do not resolve some part of the motion, such as the neighbourhood of a singularity of the coordinates. In a resolved
- * chaotic motion errors grow more slowly. */
-static int first_sudden(const run_checks *v, const horizon *h) {
-    int found = -1;
+/* Did the error of a position grow within a few steps? Such steps do not resolve some part of the motion, such as the
+ * neighbourhood of a singularity of the coordinates. In a resolved chaotic motion errors grow more slowly. */
+static bool is_sudden(const run_checks *v, int k, double until_s, double early_s) {
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
-    horizon early = horizon_of(v->twins, v->part * HORIZON_TOLERANCE / RUN_CHECKS_SUDDEN);
-    for (int k = 1; k < v->twins->columns && v->image->contacts == 0; k++) {
-        const horizon_column *c = &h->column[k];
-        if (c->verdict == HORIZON_UNTIL && v->twins->shape->column[k].primes == 0 &&
-            is_asked(v, k) && !is_of_units(v, k, c) && early.column[k].until_s > 2.0 * steps_s &&
-            c->until_s - early.column[k].until_s <= steps_s &&
-            (found < 0 || is_worse(c, &h->column[found]))) {
+    return v->image->contacts == 0 && v->twins->shape->column[k].primes == 0 &&
+           early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
+}
+
+/* The column that keeps the tolerance for the shortest time, among those with such an error, or -1; *until_s: that time. */
+static int first_with(const run_checks *v, double tolerance, double early_tolerance,
+                      bool (*is)(const run_checks *v, int k, double until_s, double early_s),
+                      double *until_s) {
+    int found = -1;
+    horizon h = horizon_of(v->twins, v->part * tolerance);
+    horizon early = horizon_of(v->twins, v->part * early_tolerance);
+    for (int k = 1; k < v->twins->columns; k++) {
+        const horizon_column *c = &h.column[k];
+        if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&
+            is(v, k, c->until_s, early.column[k].until_s) &&
+            (found < 0 || is_worse(c, &h.column[found]))) {
             found = k;
+            *until_s = c->until_s;
         }
     }
+    horizon_free(&h);
     horizon_free(&early);
     return found;
 }
@@ -228,23 +225,21 @@ static int first_sudden(const run_checks *v, const horizon *h) {
 /* Does nothing if the comparison ended early, for example after too many events: there are other findings for that. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->twins;
-    horizon h = horizon_of(t, v->part * RUN_CHECKS_TOLERANCE);
-    const int k = t->aliased.column > 0 ? -1 : first_off(v, &h);
-    const double until_s = k >= 0 ? h.column[k].until_s : 0.0;
+    double until_s = 0.0;
+    if (t->aliased.column > 0) {
+        return;
+    }
+    int k = first_with(v, RUN_CHECKS_TOLERANCE, RUN_CHECKS_EARLY_TOLERANCE, is_off, &until_s);
     const bool is_cut = t->cut_s >= 0.0 && until_s >= t->cut_s && t->finer_failed_s < 0.0;
-    if (k >= 0 && !is_cut && until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v)) {
+    if (k < 0 || is_cut || !(until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v))) {
+        k = t->cut_s >= 0.0
+                ? -1
+                : first_with(v, HORIZON_TOLERANCE, HORIZON_TOLERANCE / RUN_CHECKS_SUDDEN, is_sudden,
+                             &until_s);
+    }
+    if (k >= 0) {
         tell(v, FINDING_ACCURACY, until_s / end_s(v), until_s, k);
     }
-    horizon_free(&h);
-    h = horizon_of(t, v->part * HORIZON_TOLERANCE);
-    const int sudden = v->found[FINDING_ACCURACY].told || t->aliased.column > 0 || t->cut_s >= 0.0
-                           ? -1
-                           : first_sudden(v, &h);
-    if (sudden >= 0) {
-        const double at_s = h.column[sudden].until_s;
-        tell(v, FINDING_ACCURACY, at_s / end_s(v), at_s, sudden);
-    }
-    horizon_free(&h);
 }
 
 static void judge_jumps(run_checks *v) {
@@ -290,8 +285,8 @@ static void judge(run_checks *v) {
     if (part > 0.0) {
         tell(v, FINDING_APART, part, 0.0, -1);
     }
-    const double slow = slow_share(v->kind, v->image, v->run);
-    if (slow > 0.0) {
+    double slow;
+    if (slow_count(v->kind, v->image, v->run, &slow) > 0) {
         tell(v, FINDING_DIGITS, slow, -1.0, -1);
     }
 }

@@ -18,22 +18,18 @@ static int components(const engine_kind *kind, const image *im, const void *run)
     return held ? 0 : im->angles + (kind->unit != NULL ? im->reals : 0);
 }
 
-int slow_count(const engine_kind *kind, const image *im, const void *run) {
+int slow_count(const engine_kind *kind, const image *im, const void *run, double *share) {
     int count = 0;
+    *share = 0.0;
     for (int i = 0; i < components(kind, im, run); i++) {
-        count += slow_component(kind, run, i);
+        if (slow_component(kind, run, i)) {
+            double span;
+            const double off = kind->component_off(run, i, &span);
+            *share = number_most(*share, off / span);
+            count++;
+        }
     }
     return count;
-}
-
-double slow_share(const engine_kind *kind, const image *im, const void *run) {
-    double share = 0.0;
-    for (int i = 0; i < components(kind, im, run); i++) {
-        double span;
-        const double off = kind->component_off(run, i, &span);
-        share = slow_component(kind, run, i) ? number_most(share, off / span) : share;
-    }
-    return share;
 }
 
 static void say(FILE *out, const image *im, const engine_kind *kind, const void *run, int i) {
@@ -60,12 +56,14 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
 }
 
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run) {
+    bool some = false;
     for (int i = 0; i < components(kind, im, run); i++) {
         if (slow_component(kind, run, i)) {
             say(out, im, kind, run, i);
+            some = true;
         }
     }
-    if (slow_count(kind, im, run) > 0) {
+    if (some) {
         fputs(
             kind->unit != NULL
                 ? "hint: use a larger --step or narrower ranges (turn angles have none), which round less, or --number float --compensated\n"

@@ -19,11 +19,8 @@
 /* Is component i, angles first, too slow? */
 bool slow_component(const engine_kind *kind, const void *run, int i);
 
-/* The number of slow components. */
-int slow_count(const engine_kind *kind, const image *im, const void *run);
-
-/* The largest round-off of a component, as a part of its span; 0: no component is slow. */
-double slow_share(const engine_kind *kind, const image *im, const void *run);
+/* The number of slow components. *share: their largest round-off, as a part of its component's span; 0 if there are none. */
+int slow_count(const engine_kind *kind, const image *im, const void *run, double *share);
 
 /* Prints a note for each slow component, and the remedies. */
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);

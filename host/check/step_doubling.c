@@ -107,18 +107,6 @@ static whole_ratio half_of(whole_ratio step) {
     return ratio_of(0.5 * ratio_times(1, step));
 }
 
-/* Do the slopes have kinks or edges? The error of a step across a kink depends on where in the step the kink is, also
- * in the finer run. So the order is only one. */
-static bool has_kinks(const image *im) {
-    const op_list *step = im->list[IMAGE_STEP];
-    bool found = false;
-    for (int i = 0; i < step->count; i++) {
-        const op_code code = step->ops[i].code;
-        found = found || code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
-    }
-    return found;
-}
-
 /* The order of the finer run's error, if it shares the run's method; else 0. */
 static int shared_order(const image *im) {
     const wh_method_row *row = &wh_methods[im->settings.method];
@@ -131,8 +119,10 @@ wh_method step_doubling_method(const image *im) {
     return shared_order(im) > 0 ? im->settings.method : WH_METHOD_DEFAULT;
 }
 
+/* The error of a step across a kink depends on where in the step the kink is, also in the finer run. So the order is
+ * only one. */
 int step_doubling_order(const image *im) {
-    return has_kinks(im) ? 1 : wh_methods[step_doubling_method(im)].order;
+    return op_list_has_kinks(im->list[IMAGE_STEP]) ? 1 : wh_methods[step_doubling_method(im)].order;
 }
 
 bool step_doubling_plain(const image_settings *of, image_settings *plain) {

@@ -136,15 +136,11 @@ int affine_rates(const image *im, twofold *rates) {
 static void affine_takes(const image *im, int number, bool *taking) {
     const op_list *t = im->list[IMAGE_STEP];
     bool *needed = alloc(number + 1, sizeof *needed);
-    int operand[2];
-    needed[number] = true;
+    op_list_mark_needed(t, number, needed);
     for (int i = number; i >= 0; i--) {
         const op *o = &t->ops[i];
         if (!needed[i]) {
             continue;
-        }
-        for (int k = op_list_operands(o, operand); k > 0; k--) {
-            needed[operand[k - 1]] = true;
         }
         const int column = column_of(im, o);
         if (column >= 0) {

@@ -321,9 +321,9 @@ static void write_of_angles(FILE *out, const image *im, const op_list *t, const 
     } else {
         c_list_ignore(out, op_list_reads_turns(t), "angle");
     }
-    c_list_ignore(out, c_list_uses(t, OP_LINEAR), "linear");
-    c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
-    c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
+    c_list_ignore(out, op_list_has(t, OP_LINEAR), "linear");
+    c_list_ignore(out, op_list_has(t, OP_RATE), "rate");
+    c_list_ignore(out, op_list_has(t, OP_INPUT), "input");
     c_list_ignore(out, t->results > 0, result);
     c_list_body(out, t, C_PHASES, result);
 }
@@ -368,7 +368,7 @@ static void write_observer(FILE *out, const image *im) {
     const op_list *t = im->list[IMAGE_OBSERVE];
     fprintf(out, "static void observe(const wh_scene *scene, const wh_state *state, "
                  "wh_real *output) {\n");
-    c_list_ignore(out, c_list_uses(t, OP_TIME), "scene");
+    c_list_ignore(out, op_list_has(t, OP_TIME), "scene");
     if (c_list_uses_phase(t)) {
         fprintf(out,
                 "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
@@ -378,22 +378,22 @@ static void write_observer(FILE *out, const image *im) {
     if (op_list_reads_turns(t)) {
         fprintf(out, "    const wh_angle *angle = state->angle;\n");
     }
-    if (c_list_uses(t, OP_LINEAR)) {
+    if (op_list_has(t, OP_LINEAR)) {
         fprintf(out, "    const wh_real *linear = state->real;\n");
     }
-    if (c_list_uses(t, OP_RATE)) {
+    if (op_list_has(t, OP_RATE)) {
         fprintf(out, "    const wh_real *rate = state->real + %d;\n", im->coordinates - im->angles);
     }
-    if (c_list_uses(t, OP_INPUT)) {
+    if (op_list_has(t, OP_INPUT)) {
         fprintf(out, "    const wh_real *input = state->input;\n");
     }
-    if (c_list_uses(t, OP_ACCEL)) {
+    if (op_list_has(t, OP_ACCEL)) {
         fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&contacts, state, accel);\n",
                 im->coordinates);
     }
-    if (!c_list_uses_phase(t) && !op_list_reads_turns(t) && !c_list_uses(t, OP_LINEAR) &&
-        !c_list_uses(t, OP_RATE) && !c_list_uses(t, OP_INPUT) && !c_list_uses(t, OP_TIME) &&
-        !c_list_uses(t, OP_ACCEL) && !c_list_uses(t, OP_NOISE)) {
+    if (!c_list_uses_phase(t) && !op_list_reads_turns(t) && !op_list_has(t, OP_LINEAR) &&
+        !op_list_has(t, OP_RATE) && !op_list_has(t, OP_INPUT) && !op_list_has(t, OP_TIME) &&
+        !op_list_has(t, OP_ACCEL) && !op_list_has(t, OP_NOISE)) {
         fprintf(out, "    (void)state;\n");
     }
     c_list_body(out, t, C_PHASES, "output");
@@ -544,7 +544,7 @@ static void write_includes(FILE *out, const image *im) {
     if (image_calls(im)) {
         fprintf(out, "#include \"core/function.h\"\n");
     }
-    if (c_list_uses(im->list[IMAGE_OBSERVE], OP_NOISE)) {
+    if (op_list_has(im->list[IMAGE_OBSERVE], OP_NOISE)) {
         fprintf(out, "#include \"core/noise.h\"\n");
     }
 }

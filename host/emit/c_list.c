@@ -222,15 +222,6 @@ static void write_operation(FILE *out, const op_list *t, int i) {
     }
 }
 
-bool c_list_uses(const op_list *t, op_code code) {
-    for (int i = 0; i < t->count; i++) {
-        if (t->ops[i].code == code) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool c_list_uses_phase(const op_list *t) {
     for (int i = 0; i < t->count; i++) {
         if (op_list_is_wave(&t->ops[i]) || t->ops[i].code == OP_CELL) {
@@ -276,11 +267,11 @@ static void write_function(FILE *out, const op_list *t, c_angles angles, const c
     fprintf(out, second ? " wh_real *result) {\n" : "\n%*swh_real *result) {\n", indent, "");
     fprintf(out, "    (void)model;\n");
     c_list_ignore(out, c_list_uses_phase(t), angles == C_WAVES ? "wave" : "phase");
-    c_list_ignore(out, c_list_uses(t, OP_LINEAR), "linear");
+    c_list_ignore(out, op_list_has(t, OP_LINEAR), "linear");
     if (second) {
-        c_list_ignore(out, c_list_uses(t, OP_RATE), "rate");
+        c_list_ignore(out, op_list_has(t, OP_RATE), "rate");
     }
-    c_list_ignore(out, c_list_uses(t, OP_INPUT), "input");
+    c_list_ignore(out, op_list_has(t, OP_INPUT), "input");
     c_list_ignore(out, t->results > 0, "result");
     c_list_body(out, t, angles, "result");
 }

@@ -19,7 +19,6 @@ typedef struct op_style {
 /* `form` is the row's text for the language. */
 void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style);
 
-bool c_list_uses(const op_list *t, op_code code);
 bool c_list_uses_phase(const op_list *t);
 /* Has the list so many operations that the compiler should keep their order? */
 bool c_list_is_long(const op_list *t);

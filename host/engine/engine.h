@@ -54,7 +54,7 @@ typedef struct engine_kind {
     void (*modes)(const void *run, int *mode);
     /* Evaluations of the accelerations since the start; *most: the declared bound for one step with contacts. */
     uint64_t (*evaluations)(const void *run, uint64_t *most);
-    /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. */
+    /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
     /* For component i, angles first: the sum of the round-off of its increments to whole units, at its largest since
      * the start. *span is the sum of the exact increments. Both are SI. Without unit() only turn angles count, which

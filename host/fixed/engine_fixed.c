@@ -496,12 +496,6 @@ static uint64_t run_evaluations(const void *of, uint64_t *most) {
     return 4 * run_steps(of);
 }
 
-static void run_ledger(const void *of, double *total, double *error) {
-    (void)of;
-    (void)total;
-    (void)error;
-}
-
 static double run_component_off(const void *of, int i, double *span) {
     return fixed_loss_off(((const fixed_run *)of)->loss, i, span);
 }
@@ -527,7 +521,7 @@ const engine_kind engine_fixed = {"fixed",
                                   run_happened,
                                   run_modes,
                                   run_evaluations,
-                                  run_ledger,
+                                  NULL,
                                   run_component_off,
                                   run_saturated,
                                   run_unit,

@@ -172,11 +172,10 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
 
 /* Raises wanted[i] to the digits of operation i that its user `o` can use. A product in a sum needs no more digits after the point
  * than the sum. */
-static void wish(const fixed_list *l, int *wanted, int i, const fixed_op *o) {
+static void wish(int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
     const int bits = adds ? o->bits : BITS_MOST;
-    (void)l;
     wanted[i] = most(wanted[i], bits);
 }
 
@@ -200,10 +199,10 @@ static void lower(fixed_list *l) {
             o->bits = least(o->bits, wanted[i]);
         }
         if (o->a.op >= 0) {
-            wish(l, wanted, o->a.op, o);
+            wish(wanted, o->a.op, o);
         }
         if (o->b.op >= 0) {
-            wish(l, wanted, o->b.op, o);
+            wish(wanted, o->b.op, o);
         }
     }
     free(wanted);
@@ -615,55 +614,6 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
 
 /* === the list ================================================================================= */
 
-/* --- operations without a fixed form ---------------------------------------------------------------*/
-
-static const char *without_form(const op *o) {
-    switch (o->code) {
-    case OP_SQRT: return "a square root";
-    case OP_POW: return "a power";
-    case OP_CALL: return function_name(o->function);
-    case OP_PHASE:
-        return o->b >= 0 || o->parts != NULL ? "the sine of a quantity that is no turn angle"
-                                             : NULL;
-    case OP_CELL:
-    case OP_LINE:
-    case OP_CUBIC: return "a table";
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS:
-    case OP_NOISE: return "a value that only records have";
-    case OP_CONSTANT:
-    case OP_LINEAR:
-    case OP_RATE:
-    case OP_INPUT:
-    case OP_SIN:
-    case OP_COS:
-    case OP_ADD:
-    case OP_SUB:
-    case OP_MUL:
-    case OP_DIV:
-    case OP_NEG:
-    case OP_ABS:
-    case OP_SIGN:
-    case OP_MIN:
-    case OP_MAX: break;
-    }
-    return NULL;
-}
-
-static bool has_form(const image *im, const op_list *t, diags *errors) {
-    for (int i = 0; i < t->count; i++) {
-        const char *what = without_form(&t->ops[i]);
-        if (what != NULL) {
-            diag_error(errors, im->at, "--number float has one",
-                       "the equations of '%s' hold %s, which has no fixed-point form", im->name,
-                       what);
-            return false;
-        }
-    }
-    return true;
-}
-
 /* --- the copy ----------------------------------------------------------------------------------------*/
 
 static int enter(fixed_list *l, fixed_op o) {
@@ -702,7 +652,8 @@ static int enter_product(fixed_list *l, int a, int b) {
     return enter(l, (fixed_op){.code = FIXED_PRODUCT, .a = {.op = a}, .b = {.op = b}});
 }
 
-static fixed_op copy_of(const op_list *t, const op *o, const int *number) {
+/* Its fixed form; *lacks: the name of an operation that has none. */
+static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     fixed_op made = {.code = FIXED_CONSTANT, .a = {.op = -1}, .b = {.op = -1}};
     switch (o->code) {
     case OP_CONSTANT: made.value = o->value; return made;
@@ -714,6 +665,8 @@ static fixed_op copy_of(const op_list *t, const op *o, const int *number) {
         made.turns = o->turns;
         made.offset_rad = o->value;
         made.offset = phase_of_constant(o->value);
+        *lacks =
+            o->b >= 0 || o->parts != NULL ? "the sine of a quantity that is no turn angle" : NULL;
         return made;
     case OP_SIN: made.code = FIXED_SINE; break;
     case OP_COS: made.code = FIXED_COSINE; break;
@@ -729,22 +682,21 @@ static fixed_op copy_of(const op_list *t, const op *o, const int *number) {
     case OP_SIGN: made.code = FIXED_SIGN; break;
     case OP_MIN: made.code = FIXED_LEAST; break;
     case OP_MAX: made.code = FIXED_MOST; break;
-    case OP_MUL:
-    case OP_SQRT:
-    case OP_POW:
-    case OP_CALL:
+    case OP_MUL: return made; /* enter_product() */
+    case OP_SQRT: *lacks = "a square root"; return made;
+    case OP_POW: *lacks = "a power"; return made;
+    case OP_CALL: *lacks = function_name(o->function); return made;
     case OP_CELL:
     case OP_LINE:
-    case OP_CUBIC:
+    case OP_CUBIC: *lacks = "a table"; return made;
     case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
-    case OP_NOISE: return made; /* has_form() */
+    case OP_NOISE: *lacks = "a value that only records have"; return made;
     }
     made.index = op_rows[o->code].kind == OP_IS_LEAF ? o->a : 0;
     int operand[2];
     const int operands = op_list_operands(o, operand);
-    (void)t;
     made.a.op = op_rows[o->code].kind == OP_IS_WAVE ? number[o->a]
                 : operands > 0                      ? number[o->a]
                                                     : -1;
@@ -788,16 +740,21 @@ static void mark(fixed_list *l) {
 
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors) {
     const op_list *t = im->list[IMAGE_STEP];
-    if (!has_form(im, t, errors)) {
-        return NULL;
-    }
+    const char *lacks = NULL;
     fixed_list *l = alloc(1, sizeof *l);
     int *number = alloc(t->count, sizeof *number);
     l->angles = im->angles;
-    for (int i = 0; i < t->count; i++) {
+    for (int i = 0; i < t->count && lacks == NULL; i++) {
         const op *o = &t->ops[i];
         number[i] = o->code == OP_MUL ? enter_product(l, number[o->a], number[o->b])
-                                      : enter(l, copy_of(t, o, number));
+                                      : enter(l, copy_of(o, number, &lacks));
+    }
+    if (lacks != NULL) {
+        diag_error(errors, im->at, "--number float has one",
+                   "the equations of '%s' hold %s, which has no fixed-point form", im->name, lacks);
+        free(number);
+        fixed_list_free(l);
+        return NULL;
     }
     l->results = t->results;
     l->result = alloc(t->results, sizeof *l->result);

@@ -9,23 +9,13 @@
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
 
-static bool has_noise(const image *im) {
-    const op_list *t = im->list[IMAGE_OBSERVE];
-    for (int i = 0; t != NULL && i < t->count; i++) {
-        if (t->ops[i].code == OP_NOISE) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static const char refused_part[] =
     "--number float; or put it into an effect, and leave that out: --without EFFECT";
 
 /* Returns false, and reports the reason, for contacts, a ledger, noise, and other methods and settings. */
 static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
-    if (has_noise(im)) {
+    if (op_list_has(im->list[IMAGE_OBSERVE], OP_NOISE)) {
         diag_error(errors, im->at, refused_part,
                    "outputs of '%s' have noise, which fixed point does not support", im->name);
     } else if (im->contacts > 0) {

@@ -185,6 +185,12 @@ uint64_t op_list_op_hash(const op_list *t, const op *o);
 
 /* The earlier operations that o uses, a phase's radians too; returns their number. */
 int op_list_operands(const op *o, int operand[static 2]);
+/* Sets needed[i] for operation `number` and for all operations i on which it depends; the others must be false. */
+void op_list_mark_needed(const op_list *t, int number, bool *needed);
+/* Has the list such an operation? NULL: no. */
+bool op_list_has(const op_list *t, op_code code);
+/* Has it an operation with a kink or a jump? */
+bool op_list_has_kinks(const op_list *t);
 
 /* Remove operations that no result uses, and renumber. */
 void op_list_prune(op_list *t);

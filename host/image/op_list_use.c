@@ -518,7 +518,30 @@ int op_list_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-/* As above, for a list that may be changed. */
+void op_list_mark_needed(const op_list *t, int number, bool *needed) {
+    int operand[2];
+    needed[number] = true;
+    for (int i = number; i >= 0; i--) {
+        for (int k = needed[i] ? op_list_operands(&t->ops[i], operand) : 0; k > 0; k--) {
+            needed[operand[k - 1]] = true;
+        }
+    }
+}
+
+bool op_list_has(const op_list *t, op_code code) {
+    bool has = false;
+    for (int i = 0; t != NULL && i < t->count && !has; i++) {
+        has = t->ops[i].code == code;
+    }
+    return has;
+}
+
+bool op_list_has_kinks(const op_list *t) {
+    return op_list_has(t, OP_ABS) || op_list_has(t, OP_SIGN) || op_list_has(t, OP_MIN) ||
+           op_list_has(t, OP_MAX);
+}
+
+/* Operands as op_list_operands() has them, for modification. */
 static void renumber(op *o, const int *number) {
     const bool values = op_rows[o->code].values > 0;
     o->a = values && o->a >= 0 ? number[o->a] : o->a;

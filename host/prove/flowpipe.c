@@ -443,14 +443,11 @@ static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
     return sum;
 }
 
-static enclosure power_of(enclosure h, int n) { return enclosure_whole_power(h, n); }
-
 /* tau^(order + 1) times the next coefficient over `stay`: Lagrange's remainder. */
 static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
-    return enclosure_mul(power_of(tau, t->order + 1), taylor_of(t->over, i, t->order + 1)[0]);
+    return enclosure_mul(enclosure_whole_power(tau, t->order + 1),
+                         taylor_of(t->over, i, t->order + 1)[0]);
 }
-
-static enclosure widened(enclosure a, double by) { return enclosure_add(a, (enclosure){-by, by}); }
 
 /* Does every motion from the box stay in `stay` for h_s? If one first left `stay` at t, its Taylor polynomial with
  * Lagrange's remainder over `stay` up to t would be inside `stay`: a contradiction. *excess: the largest remainder
@@ -460,7 +457,8 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     *excess = (double)INFINITY;
     for (int i = 0; i < t->states; i++) {
         const enclosure to = polynomial_over(t, i, span);
-        t->stay[i] = widened(to, REMAINDER * (enclosure_size(to) + t->largest[i]) * 16.0 + 1e-300);
+        t->stay[i] =
+            enclosure_widened(to, REMAINDER * (enclosure_size(to) + t->largest[i]) * 16.0 + 1e-300);
     }
     if (!find(t, t->over, t->stay)) {
         return false;

@@ -85,13 +85,9 @@ static int entered(graph *g, node_kind kind, int left, int right, enclosure numb
 
 bool graph_is_number(const graph *g, int a) { return g->node[a].kind == NODE_NUMBER; }
 
-static bool is_number(const graph *g, int a, double value) {
-    const node *n = &g->node[a];
-    return n->kind == NODE_NUMBER && n->number.low == value && n->number.high == value;
+bool graph_is_zero(const graph *g, int a) {
+    return graph_is_number(g, a) && enclosure_is_zero(g->node[a].number);
 }
-
-bool graph_is_zero(const graph *g, int a) { return is_number(g, a, 0.0); }
-bool graph_is_one(const graph *g, int a) { return is_number(g, a, 1.0); }
 
 /* --- making --------------------------------------------------------------------------------------------*/
 
@@ -451,21 +447,6 @@ static int hyperbolic(graph *g, int a, bool sine) {
                      sine ? graph_sub(g, up, down) : graph_add(g, up, down));
 }
 
-static enclosure size_of(enclosure a) {
-    return a.low >= 0.0    ? a
-           : a.high <= 0.0 ? enclosure_neg(a)
-                           : (enclosure){0.0, enclosure_size(a)};
-}
-
-static enclosure sign_of(enclosure a) {
-    return (enclosure){a.low > 0.0   ? 1.0
-                       : a.low < 0.0 ? -1.0
-                                     : 0.0,
-                       a.high > 0.0   ? 1.0
-                       : a.high < 0.0 ? -1.0
-                                      : 0.0};
-}
-
 /* Functions with corners accept only numbers. */
 static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     graph *g = s->graph;
@@ -473,15 +454,7 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
         return refused(s, tree, function_name(tree->function));
     }
     const enclosure x = g->node[a].number;
-    const enclosure y = b >= 0 ? g->node[b].number : x;
-    if (tree->function == FN_ABS || tree->function == FN_SIGN) {
-        return graph_number(g, tree->function == FN_ABS ? size_of(x) : sign_of(x));
-    }
-    const bool least = tree->function == FN_MIN;
-    return graph_number(
-        g,
-        (enclosure){least ? enclosure_lesser(x.low, y.low) : enclosure_larger(x.low, y.low),
-                    least ? enclosure_lesser(x.high, y.high) : enclosure_larger(x.high, y.high)});
+    return graph_number(g, enclosure_call(tree->function, x, b >= 0 ? g->node[b].number : x));
 }
 
 /* A bound of the angle in [-pi/2, pi/2] with the sine (or tangent) x. Neighbouring doubles on both sides are tested;

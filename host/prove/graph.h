@@ -63,7 +63,6 @@ int graph_power(graph *g, int a, enclosure exponent);
 
 bool graph_is_number(const graph *g, int a);
 bool graph_is_zero(const graph *g, int a);
-bool graph_is_one(const graph *g, int a);
 
 int graph_slope(graph *g, int a, int variable);
 /* `a` with 0 in place of the variables from `first` on. */

@@ -347,14 +347,9 @@ void long_list_run(long_list *l, const long_leaves *in, long double *result) {
 bool long_list_asks(const op_list *t, int result, op_code code) {
     bool *needed = alloc(t->count, sizeof *needed);
     bool found = false;
-    needed[t->result[result]] = true;
+    op_list_mark_needed(t, t->result[result], needed);
     for (int i = t->result[result]; i >= 0; i--) {
-        int operand[2];
-        const int operands = needed[i] ? op_list_operands(&t->ops[i], operand) : 0;
         found = found || (needed[i] && t->ops[i].code == code);
-        for (int k = 0; k < operands; k++) {
-            needed[operand[k]] = true;
-        }
     }
     free(needed);
     return found;

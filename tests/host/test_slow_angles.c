@@ -26,7 +26,8 @@ static outcome run(const char *text, stepping how, uint64_t steps) {
     TEST_ASSERT_EQUAL_INT(1, m.image->angles);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, steps));
     const outcome result = {motion_value(&m, "a") - start, slow_component(m.kind, m.run, 0)};
-    TEST_ASSERT_EQUAL_INT(result.told, slow_count(m.kind, m.image, m.run));
+    double share;
+    TEST_ASSERT_EQUAL_INT(result.told, slow_count(m.kind, m.image, m.run, &share));
     motion_close(&m);
     return result;
 }
