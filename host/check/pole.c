@@ -239,7 +239,8 @@ static bool is_there(const spot *s, const double *over) {
 }
 
 /* The first value that grows like a pole at this point, when approached from the distance `far` on this side, or -1. */
-static int grows_from(const looker *l, const spot *s, double zero_at, double far) {
+static int grows_from(const looker *l, const spot *s, double far) {
+    const double zero_at = s->zero_at;
     const int values = l->way->values;
     const double extent = far < 0.0 ? zero_at - s->in.low : s->in.high - zero_at;
     double over[GROWTH_POINTS];
@@ -265,20 +266,6 @@ static int grows_from(const looker *l, const spot *s, double zero_at, double far
     return -1;
 }
 
-/* The zero is searched at this many times the distance of the nearest point. */
-#define ASIDE 5.0
-
-/* The position of the zero, from the sizes of the value on both sides of the estimate: (a - e)^order and (a + e)^order
- * differ by the part order*e/a. The position of a simple zero is already known. */
-static double centred(const looker *l, const spot *s, double aside) {
-    const double before = size_at(l, s->of, s->zero_at - aside);
-    const double behind = size_at(l, s->of, s->zero_at + aside);
-    const double grows = size_at(l, s->of, s->zero_at + 2.0 * aside) / behind;
-    const double order = grows > 11.0 ? 4.0 : grows > 5.6 ? 3.0 : grows > 2.8 ? 2.0 : 1.0;
-    const double shift = aside / order * (before - behind) / (before + behind);
-    return order > 1.0 && isfinite(shift) ? s->zero_at + shift : s->zero_at;
-}
-
 static bool all_done(const looker *l) {
     int done = 0;
     for (int i = 0; i < l->way->values; i++) {
@@ -293,9 +280,9 @@ static int pole_on_side(const looker *l, const spot *s, double side) {
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
     double far = GROWTH_REACH * s->nearest;
     while (far < 1.0 && found < 0 && !all_done(l)) {
-        const double zero_at = centred(l, s, ASIDE / GROWTH_REACH * far);
-        const bool inside = side < 0.0 ? zero_at - far >= s->in.low : zero_at + far <= s->in.high;
-        found = inside ? grows_from(l, s, zero_at, side * far) : -1;
+        const bool inside =
+            side < 0.0 ? s->zero_at - far >= s->in.low : s->zero_at + far <= s->in.high;
+        found = inside ? grows_from(l, s, side * far) : -1;
         far *= FARTHER;
     }
     return found;
