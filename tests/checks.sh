@@ -30,14 +30,14 @@ check() {
 }
 
 # exits STATUS PATTERN WORD...: `whirl $about WORD...` ends with that status, and a line of standard error matches the pattern
-# (of grep, with the flag $regex). Bad input (2) writes nothing to standard output; only the rig may have said its name.
+# (of grep, with the flag $regex). Bad input (2) writes nothing to standard output; only the rig may have begun to report.
 about= regex=
 exits() {
     status=$1
     pattern=$2
     shift 2
     sh tests/limit.sh 60 "$whirl" $about "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
-    [ $? -eq "$status" ] && grep -q $regex -e "$pattern" "$scratch/err" && { [ "$status" -ne 2 ] || ! grep -qv '^Eccentric-mass rig on board' "$scratch/out"; }
+    [ $? -eq "$status" ] && grep -q $regex -e "$pattern" "$scratch/err" && { [ "$status" -ne 2 ] || ! grep -qEv '^(Eccentric-mass rig on board|[0-9.]+ s  )' "$scratch/out"; }
     verdict $? "whirl${about:+ $about} $*: status $status, $pattern"
 }
 
