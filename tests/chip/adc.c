@@ -42,9 +42,7 @@ static uint32_t *reg(uint32_t offset) { return &adc.r[offset / 4U]; }
 
 static uint64_t clock_units(void) {
     const uint32_t hertz = apb2_Hz() / (2U * (FIELD(adc.ccr, 16, 2) + 1U));
-    if (hertz > 36000000U || hertz < 600000U) {
-        forbidden("the ADC's clock is %u Hz", hertz);
-    }
+    forbid_if(hertz > 36000000U || hertz < 600000U, "the ADC's clock is %u Hz", hertz);
     return units_of(hertz);
 }
 
@@ -85,9 +83,7 @@ static void begin_group(void) {
         forbidden("a conversion while the ADC is off");
         return;
     }
-    if (now_units() < adc.stable_at) {
-        forbidden("a conversion before the ADC is stable");
-    }
+    forbid_if(now_units() < adc.stable_at, "a conversion before the ADC is stable");
     if (adc.busy) {
         forbidden("a trigger while the group before is converted");
         return;
@@ -134,9 +130,9 @@ static void adc_happens(void) {
         adc.dma_open = false;
         return;
     }
-    if ((*reg(CR1) & BIT(24)) != 0 || (*reg(CR1) & BIT(25)) != 0 || (*reg(CR2) & BIT(11)) != 0) {
-        forbidden("a resolution or alignment that the played chip has not");
-    }
+    forbid_if((*reg(CR1) & BIT(24)) != 0 || (*reg(CR1) & BIT(25)) != 0 ||
+                  (*reg(CR2) & BIT(11)) != 0,
+              "a resolution or alignment that the played chip has not");
     *reg(DR) = adc.value;
     adc.unread = true;
     if ((*reg(CR2) & BIT(10)) != 0 || adc.at + 1U == members()) {
@@ -214,9 +210,7 @@ static void adc_store(uint32_t offset, uint32_t value) {
     case SQR3:
     case SMPR1:
     case SMPR2:
-        if (adc.busy) {
-            forbidden("the group is changed while it is converted");
-        }
+        forbid_if(adc.busy, "the group is changed while it is converted");
         *reg(offset) = value;
         break;
     case CR1: *reg(CR1) = value; break;
@@ -225,10 +219,7 @@ static void adc_store(uint32_t offset, uint32_t value) {
     }
 }
 
-static void adc_reset(chip_cause cause) {
-    (void)cause;
-    memset(&adc, 0, sizeof adc);
-}
+static void adc_reset(void) { memset(&adc, 0, sizeof adc); }
 static bool adc_pending(unsigned interrupt) {
     return interrupt == 18 && (((*reg(SR) & OVR) != 0 && (*reg(CR1) & OVRIE) != 0) ||
                                ((*reg(SR) & EOC) != 0 && (*reg(CR1) & BIT(5)) != 0));
@@ -331,12 +322,9 @@ static void dma_store(uint32_t offset, uint32_t value) {
             }
         }
         if ((value & EN) != 0 && (dma.cr & EN) == 0) {
-            if ((dma.flags & STREAM0_FLAGS) != 0) {
-                forbidden("stream 0 on with flags of before: 0x%02x", dma.flags);
-            }
-            if (dma.left == 0) {
-                forbidden("stream 0 on with nothing to take");
-            }
+            forbid_if((dma.flags & STREAM0_FLAGS) != 0, "stream 0 on with flags of before: 0x%02x",
+                      dma.flags);
+            forbid_if(dma.left == 0, "stream 0 on with nothing to take");
             dma.whole = dma.left;
         }
         if ((value & EN) == 0 && (dma.cr & EN) != 0) {
@@ -353,8 +341,7 @@ static void dma_store(uint32_t offset, uint32_t value) {
     }
 }
 
-static void dma_reset(chip_cause cause) {
-    (void)cause;
+static void dma_reset(void) {
     memset(&dma, 0, sizeof dma);
     dma.fcr = 0x21U;
 }

@@ -12,6 +12,7 @@
 #include "tests/chip/inner.h"
 
 chip_world world;
+chip_cause reset_by;
 void (*chip_stored)(void);
 
 static const part *const parts[] = {
@@ -41,8 +42,8 @@ static struct {
 } chip;
 
 /* --- violations ------------------------------------------------------------------------------------- */
-void forbidden(const char *words, ...) {
-    if (chip.violations++ == 0) {
+void forbid_if(bool broken, const char *words, ...) {
+    if (broken && chip.violations++ == 0) {
         va_list list;
         va_start(list, words);
         (void)vsnprintf(chip.violation, sizeof chip.violation, words, list);
@@ -358,8 +359,7 @@ static void nvic_store(uint32_t offset, uint32_t value) {
     default: forbidden("store of NVIC + 0x%03x", offset); break;
     }
 }
-static void nvic_reset(chip_cause cause) {
-    (void)cause;
+static void nvic_reset(void) {
     memset(chip.enabled, 0, sizeof chip.enabled);
     memset(chip.set_pending, 0, sizeof chip.set_pending);
     chip.masked = false;
@@ -414,9 +414,7 @@ static uint32_t cycles_now(void) {
     return trace.count + (counts ? (uint32_t)((chip.now - trace.since) / units_of(core_Hz())) : 0);
 }
 static bool is_traced(void) {
-    if ((trace.demcr & BIT(24)) == 0) {
-        forbidden("DWT without TRCENA");
-    }
+    forbid_if((trace.demcr & BIT(24)) == 0, "DWT without TRCENA");
     return (trace.demcr & BIT(24)) != 0;
 }
 static uint32_t dwt_load(uint32_t offset) {
@@ -441,8 +439,8 @@ static void dwt_store(uint32_t offset, uint32_t value) {
     trace.count = count;
     trace.since = chip.now;
 }
-static void trace_reset(chip_cause cause) {
-    if (cause == CHIP_BY_POWER) {
+static void trace_reset(void) {
+    if (reset_by == CHIP_BY_POWER) {
         memset(&trace, 0, sizeof trace);
     }
 }
@@ -487,11 +485,12 @@ void chip_new(uint64_t seed) {
 
 void chip_reset(chip_cause cause) {
     chip.resets++;
+    reset_by = cause;
     chip.quiet_until = 0;
     flash_power_goes();
     for (unsigned i = 0; i < PARTS; i++) {
         if (parts[i]->reset != NULL) {
-            parts[i]->reset(cause);
+            parts[i]->reset();
         }
     }
     pins_changed();

@@ -58,9 +58,8 @@ static uint32_t sector_bytes(uint32_t sector) {
 
 /* Table 10, 2.7 to 3.6 V: 30 MHz per wait state. */
 void flash_clock_is(uint32_t hertz) {
-    if (hertz > 30000000U * ((f.acr & 7U) + 1U)) {
-        forbidden("core at %u Hz, flash with %u wait states", hertz, f.acr & 7U);
-    }
+    forbid_if(hertz > 30000000U * ((f.acr & 7U) + 1U), "core at %u Hz, flash with %u wait states",
+              hertz, f.acr & 7U);
 }
 
 bool flash_busy(void) { return f.busy_until > now_units(); }
@@ -87,9 +86,7 @@ static void ends(void) {
 static uint64_t flash_next(void) { return f.does != NOTHING ? f.busy_until : CHIP_NEVER; }
 
 static void begins(flash_work what, uint32_t at, uint32_t value, uint64_t us) {
-    if (!f.looked) {
-        forbidden("a flash operation without a look at BSY before");
-    }
+    forbid_if(!f.looked, "a flash operation without a look at BSY before");
     f.looked = false;
     f.does = what;
     f.at = at;
@@ -115,8 +112,7 @@ void flash_power_goes(void) {
     f.does = NOTHING;
 }
 
-static void flash_reset(chip_cause cause) {
-    (void)cause;
+static void flash_reset(void) {
     memset(&f, 0, sizeof f);
     f.cr = LOCK;
     f.optcr = option_bytes | OPTLOCK;
@@ -127,7 +123,7 @@ void flash_new(void) {
     memset(erases, 0, sizeof erases);
     option_bytes = DELIVERED;
     option_writes = 0;
-    flash_reset(CHIP_BY_POWER);
+    flash_reset();
 }
 
 static unsigned key(unsigned had, uint32_t value, uint32_t first, uint32_t second,
@@ -156,9 +152,7 @@ static uint32_t flash_load(uint32_t offset) {
 
 static void control(uint32_t value) {
     if ((f.cr & LOCK) != 0) {
-        if ((value & ~LOCK) != (f.cr & ~LOCK)) {
-            forbidden("FLASH_CR while it is locked");
-        }
+        forbid_if((value & ~LOCK) != (f.cr & ~LOCK), "FLASH_CR while it is locked");
         return;
     }
     f.cr = value & ~STRT;
@@ -193,18 +187,16 @@ static void options(uint32_t value) {
         return;
     }
     const bool begin = (value & OPTSTRT) != 0;
-    if (begin && ((value ^ f.optcr) & OPTIONS) != 0) {
-        forbidden("OPTSTRT in one store with other option bytes");
-    }
+    forbid_if(begin && ((value ^ f.optcr) & OPTIONS) != 0,
+              "OPTSTRT in one store with other option bytes");
     f.optcr = value & ~OPTSTRT;
     if ((value & OPTLOCK) != 0) {
         f.option_keys = 0;
     }
     if (begin) {
-        if (((value ^ option_bytes) & 0x0FFFFFE0U & OPTIONS) != 0) {
-            forbidden("option bytes beside the brown-out level: 0x%08x for 0x%08x", value,
-                      option_bytes);
-        }
+        forbid_if(((value ^ option_bytes) & 0x0FFFFFE0U & OPTIONS) != 0,
+                  "option bytes beside the brown-out level: 0x%08x for 0x%08x", value,
+                  option_bytes);
         begins(OPTIONS_CHANGE, 0, value & OPTIONS, 1000U * (250U + drawn() % 250U));
     }
 }
@@ -217,9 +209,8 @@ static void flash_store(uint32_t offset, uint32_t value) {
         } else if ((value & DCRST) != 0) {
             memset(f.line, 0, sizeof f.line);
         }
-        if ((value & BIT(11)) != 0 && (f.acr & value & BIT(9)) != 0) {
-            forbidden("ICRST while the cache is on");
-        }
+        forbid_if((value & BIT(11)) != 0 && (f.acr & value & BIT(9)) != 0,
+                  "ICRST while the cache is on");
         f.acr = value;
         flash_clock_is(core_Hz());
         break;
@@ -260,10 +251,9 @@ static uint32_t memory_load(uint32_t at) {
     const uint32_t address = at / LINE_BYTES * LINE_BYTES;
     for (unsigned i = 0; i < LINES; i++) {
         if (f.line[i].used && f.line[i].address == address) {
-            if (memcmp(f.line[i].bytes, memory + address, LINE_BYTES) != 0) {
-                forbidden("the cache of data gives what was at 0x%08x before the erase",
-                          AT_FLASH_MEMORY + at);
-            }
+            forbid_if(memcmp(f.line[i].bytes, memory + address, LINE_BYTES) != 0,
+                      "the cache of data gives what was at 0x%08x before the erase",
+                      AT_FLASH_MEMORY + at);
             return word_of(f.line[i].bytes + at % LINE_BYTES);
         }
     }
@@ -288,9 +278,8 @@ static void memory_store(uint32_t at, uint32_t value) {
     } else if ((option_bytes & BIT(16U + sector_of(at))) == 0) {
         f.sr |= WRPERR;
     } else {
-        if ((value & ~word_of(memory + at)) != 0) {
-            forbidden("flash at 0x%08x is not erased", AT_FLASH_MEMORY + at);
-        }
+        forbid_if((value & ~word_of(memory + at)) != 0, "flash at 0x%08x is not erased",
+                  AT_FLASH_MEMORY + at);
         for (unsigned i = 0; i < LINES; i++) {
             if (f.line[i].used && f.line[i].address == at / LINE_BYTES * LINE_BYTES) {
                 for (unsigned b = 0; b < 4; b++) {

@@ -89,9 +89,8 @@ static chip_level chip_drives(unsigned port, unsigned pin) {
 static chip_level level_of(unsigned port, unsigned pin) {
     const chip_level inside = chip_drives(port, pin);
     const chip_level outside = ports[port].driven[pin];
-    if (inside != CHIP_OPEN && outside != CHIP_OPEN && inside != outside) {
-        forbidden("P%c%u is driven against what is outside", (char)('A' + port), pin);
-    }
+    forbid_if(inside != CHIP_OPEN && outside != CHIP_OPEN && inside != outside,
+              "P%c%u is driven against what is outside", (char)('A' + port), pin);
     if (outside != CHIP_OPEN) {
         return outside;
     }
@@ -152,9 +151,7 @@ void chip_pin_drive_at(uint64_t when, char port, unsigned pin, chip_level level)
     edges[edges_to % EDGES].pin = (uint8_t)pin;
     edges[edges_to % EDGES].level = (uint8_t)level;
     edges_to++;
-    if (edges_to - edges_from > EDGES) {
-        forbidden("more edges to come than there is room for");
-    }
+    forbid_if(edges_to - edges_from > EDGES, "more edges to come than there is room for");
 }
 void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor) {
     ports[port - 'A'].resistor[pin] = resistor;
@@ -171,9 +168,7 @@ static void gpio_happens(void) {
 
 static bool here(uint32_t offset, const char *how) {
     const bool clocked = port_is_clocked(offset / 0x400U);
-    if (!clocked) {
-        forbidden("%s of port %c, which has no clock", how, (char)('A' + offset / 0x400U));
-    }
+    forbid_if(!clocked, "%s of port %c, which has no clock", how, (char)('A' + offset / 0x400U));
     if (offset % 0x400U > AFRH) {
         forbidden("%s of port %c + 0x%03x", how, (char)('A' + offset / 0x400U), offset % 0x400U);
         return false;
@@ -203,9 +198,8 @@ static uint32_t gpio_load(uint32_t offset) {
 
 /* PA13 and PA14 are the debugger's: a driver that reassigns them locks it out. */
 static void debug_stays(unsigned port) {
-    if (port == 0 && (!pin_is_function(0, 13, 0) || !pin_is_function(0, 14, 0))) {
-        forbidden("the debugger's pins are taken away");
-    }
+    forbid_if(port == 0 && (!pin_is_function(0, 13, 0) || !pin_is_function(0, 14, 0)),
+              "the debugger's pins are taken away");
 }
 
 static void gpio_store(uint32_t offset, uint32_t value) {
@@ -239,8 +233,7 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     tim1_break_input();
 }
 
-static void gpio_reset(chip_cause cause) {
-    (void)cause;
+static void gpio_reset(void) {
     for (unsigned i = 0; i < PORTS; i++) {
         memset(ports[i].r, 0, sizeof ports[i].r);
     }

@@ -39,7 +39,7 @@ typedef struct part {
     uint32_t clock_bit;
     uint32_t (*load)(uint32_t offset);
     void (*store)(uint32_t offset, uint32_t value);
-    void (*reset)(chip_cause cause);
+    void (*reset)(void);                 /* the cause: reset_by */
     uint64_t (*next)(void);              /* time of its next event */
     void (*happens)(void);               /* handles that event */
     bool (*pending)(unsigned interrupt); /* does it request this interrupt? */
@@ -50,7 +50,10 @@ extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, 
     dbgmcu_part, dwt_part, core_debug_part;
 
 /* chip.c */
-__attribute__((format(printf, 1, 2))) void forbidden(const char *words, ...);
+/* Counts a broken rule and keeps the words of the first. */
+extern chip_cause reset_by; /* the cause of the last reset */
+__attribute__((format(printf, 2, 3))) void forbid_if(bool broken, const char *words, ...);
+#define forbidden(...) forbid_if(true, __VA_ARGS__)
 uint64_t now_units(void);
 bool core_halted(void);
 uint64_t drawn(void); /* a random number */

@@ -58,15 +58,9 @@ static void iwdg_happens(void) {
 
 static uint32_t iwdg_load(uint32_t offset) {
     switch (offset) {
-    case PR:
-        if (w.pr_at != CHIP_NEVER) {
-            forbidden("IWDG_PR is read while it is updated");
-        }
-        return w.pr;
+    case PR: forbid_if(w.pr_at != CHIP_NEVER, "IWDG_PR is read while it is updated"); return w.pr;
     case RLR:
-        if (w.rlr_at != CHIP_NEVER) {
-            forbidden("IWDG_RLR is read while it is updated");
-        }
+        forbid_if(w.rlr_at != CHIP_NEVER, "IWDG_RLR is read while it is updated");
         return w.rlr;
     case SR: return (w.pr_at != CHIP_NEVER ? PVU : 0) | (w.rlr_at != CHIP_NEVER ? RVU : 0);
     default: forbidden("load of IWDG + 0x%02x", offset); return 0;
@@ -123,16 +117,12 @@ void iwdg_new(void) {
     w.rlr = w.rlr_used = 0xFFFU;
     w.pr_at = w.rlr_at = w.bites_at = CHIP_NEVER;
 }
-static void iwdg_reset(chip_cause cause) {
-    (void)cause;
-    iwdg_new();
-}
 
 const part iwdg_part = {.name = "IWDG",
                         .base = AT_IWDG,
                         .bytes = 0x10,
                         .load = iwdg_load,
                         .store = iwdg_store,
-                        .reset = iwdg_reset,
+                        .reset = iwdg_new,
                         .next = iwdg_next,
                         .happens = iwdg_happens};

@@ -45,9 +45,8 @@ uint64_t units_of(uint32_t hertz) {
     if (hertz == 0) {
         return CHIP_NEVER;
     }
-    if (CHIP_UNITS_PER_S % hertz != 0) {
-        forbidden("a clock of %u Hz, which the played chip has not", hertz);
-    }
+    forbid_if(CHIP_UNITS_PER_S % hertz != 0, "a clock of %u Hz, which the played chip has not",
+              hertz);
     return CHIP_UNITS_PER_S / hertz;
 }
 
@@ -95,15 +94,9 @@ bool pll_is_on(void) { return (*reg(CR) & PLLON) != 0; }
 
 static void clocks_are_allowed(void) {
     const chip_clocks now = chip_clocks_now();
-    if (now.core_Hz > (rcc.vos_1 ? 168000000U : 144000000U)) {
-        forbidden("core at %u Hz", now.core_Hz);
-    }
-    if (now.apb1_Hz > 42000000U) {
-        forbidden("APB1 at %u Hz", now.apb1_Hz);
-    }
-    if (now.apb2_Hz > 84000000U) {
-        forbidden("APB2 at %u Hz", now.apb2_Hz);
-    }
+    forbid_if(now.core_Hz > (rcc.vos_1 ? 168000000U : 144000000U), "core at %u Hz", now.core_Hz);
+    forbid_if(now.apb1_Hz > 42000000U, "APB1 at %u Hz", now.apb1_Hz);
+    forbid_if(now.apb2_Hz > 84000000U, "APB2 at %u Hz", now.apb2_Hz);
     flash_clock_is(now.core_Hz);
 }
 
@@ -139,21 +132,12 @@ static void pll_is_allowed(void) {
     const uint32_t q = FIELD(*reg(PLLCFGR), 24, 4);
     const uint32_t in = pll_input();
     const uint32_t vco = in * n;
-    if (m < 2) {
-        forbidden("PLLM %u", m);
-    }
-    if (in < 950000U || in > 2100000U) { /* DS8626, table 38 */
-        forbidden("PLL input %u Hz", in);
-    }
-    if (n < 50 || n > 432 || vco < 192000000U || vco > 432000000U) {
-        forbidden("PLL's oscillator at %u Hz, N %u", vco, n);
-    }
-    if (pll_Hz() > 168000000U) {
-        forbidden("PLL gives %u Hz", pll_Hz());
-    }
-    if (q < 2 || vco / q > 48000000U) {
-        forbidden("PLLQ %u: %u Hz", q, q > 0 ? vco / q : 0);
-    }
+    forbid_if(m < 2, "PLLM %u", m);
+    forbid_if(in < 950000U || in > 2100000U, "PLL input %u Hz", in); /* DS8626, table 38 */
+    forbid_if(n < 50 || n > 432 || vco < 192000000U || vco > 432000000U,
+              "PLL's oscillator at %u Hz, N %u", vco, n);
+    forbid_if(pll_Hz() > 168000000U, "PLL gives %u Hz", pll_Hz());
+    forbid_if(q < 2 || vco / q > 48000000U, "PLLQ %u: %u Hz", q, q > 0 ? vco / q : 0);
 }
 
 static void control(uint32_t value) {
@@ -182,9 +166,8 @@ static void control(uint32_t value) {
         rcc.hse_at = world.crystal ? now_units() + world.crystal_units : CHIP_NEVER;
     }
     if ((on & PLLON) != 0) {
-        if ((*reg(PLLCFGR) & BIT(22)) != 0 && (*reg(CR) & HSERDY) == 0) {
-            forbidden("PLL on before its crystal is ready");
-        }
+        forbid_if((*reg(PLLCFGR) & BIT(22)) != 0 && (*reg(CR) & HSERDY) == 0,
+                  "PLL on before its crystal is ready");
         pll_is_allowed();
         rcc.pll_at =
             world.pll ? now_units() + (75U + drawn() % 225U) * CHIP_UNITS_PER_US : CHIP_NEVER;
@@ -193,12 +176,9 @@ static void control(uint32_t value) {
         *reg(CR) &= ~HSIRDY;
         rcc.hsi_at = CHIP_NEVER;
     }
-    if ((on & HSEON) != 0 && rcc.hse_gone_at != CHIP_NEVER) {
-        forbidden("HSE on again before it is off");
-    }
-    if (((on | off) & HSEBYP) != 0 && ((after & HSEON) != 0 || rcc.hse_gone_at != CHIP_NEVER)) {
-        forbidden("HSEBYP while HSE is on");
-    }
+    forbid_if((on & HSEON) != 0 && rcc.hse_gone_at != CHIP_NEVER, "HSE on again before it is off");
+    forbid_if(((on | off) & HSEBYP) != 0 && ((after & HSEON) != 0 || rcc.hse_gone_at != CHIP_NEVER),
+              "HSEBYP while HSE is on");
     if ((off & HSEON) != 0) {
         rcc.hse_at = CHIP_NEVER;
         rcc.hse_gone_at =
@@ -249,20 +229,20 @@ static void rcc_store(uint32_t offset, uint32_t value) {
     }
 }
 
-static void rcc_reset(chip_cause cause) {
+static void rcc_reset(void) {
     /* Every reset of the system pulls the pin NRST low, and so sets PINRSTF (RM0090, figure 20). */
     static const uint32_t flags[] = {[CHIP_BY_POWER] = BIT(27) | BIT(26) | BIT(25),
                                      [CHIP_BY_DIP] = BIT(26) | BIT(25),
                                      [CHIP_BY_PIN] = BIT(26),
                                      [CHIP_BY_WATCHDOG] = BIT(29) | BIT(26),
                                      [CHIP_BY_SOFTWARE] = BIT(28) | BIT(26)};
-    const uint32_t before = cause == CHIP_BY_POWER ? 0 : *reg(CSR) & 0xFF000000U;
+    const uint32_t before = reset_by == CHIP_BY_POWER ? 0 : *reg(CSR) & 0xFF000000U;
     memset(&rcc, 0, sizeof rcc);
     rcc.hsi_at = rcc.hse_at = rcc.pll_at = rcc.lsi_at = rcc.hse_gone_at = CHIP_NEVER;
     *reg(CR) = 0x8083U;
     *reg(PLLCFGR) = 0x24003010U;
     *reg(AHB1ENR) = 0x00100000U;
-    *reg(CSR) = before | flags[cause];
+    *reg(CSR) = before | flags[reset_by];
     rcc.vos_1 = true;
     rcc.core = rcc.hclk = HSI_HZ;
 }
@@ -368,8 +348,7 @@ static void pwr_store(uint32_t offset, uint32_t value) {
     pwr[offset / 4U] = value;
     rcc.vos_1 = (pwr[0] & BIT(14)) != 0;
 }
-static void pwr_reset(chip_cause cause) {
-    (void)cause;
+static void pwr_reset(void) {
     pwr[0] = BIT(14);
     pwr[1] = 0;
 }
@@ -388,8 +367,8 @@ static uint32_t dbgmcu_load(uint32_t offset) {
     return offset == 0 ? 0x10076413U : dbgmcu[offset / 4U];
 }
 static void dbgmcu_store(uint32_t offset, uint32_t value) { dbgmcu[offset / 4U] = value; }
-static void dbgmcu_reset(chip_cause cause) {
-    if (cause == CHIP_BY_POWER) {
+static void dbgmcu_reset(void) {
+    if (reset_by == CHIP_BY_POWER) {
         memset(dbgmcu, 0, sizeof dbgmcu);
     }
 }

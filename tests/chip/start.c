@@ -83,18 +83,22 @@ bool board_kept_take_fault(board_fault_record *record) {
     return false;
 }
 
-static hal_start started;
 static void start_all(void) {
     board_clock_start();
     drivers_as_flashed();
     board_start();
-    started = hal_clock_start();
+    TEST_ASSERT_EQUAL(HAL_STARTED, hal_clock_start());
 }
 
-chip_end chip_start(hal_start *how) {
-    const chip_end end = chip_try(start_all);
-    *how = started;
-    return end;
+void chip_run(void (*what)(void)) {
+    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(what));
+    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+}
+chip_end chip_start(void) { return chip_try(start_all); }
+void chip_image_starts(void) { chip_run(start_all); }
+void chip_restart(chip_cause cause) {
+    chip_reset(cause);
+    chip_image_starts();
 }
 
 static void start_clocks(void) {
@@ -107,8 +111,7 @@ void chip_clocks_on(uint64_t seed) {
 }
 void chip_clocks_again(void) {
     chip_reset(CHIP_BY_POWER);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(start_clocks));
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+    chip_run(start_clocks);
 }
 
 uint64_t chip_seed(uint64_t usual) {
@@ -134,10 +137,6 @@ void chip_wired(uint64_t seed) {
 }
 
 void chip_on(uint64_t seed) {
-    hal_start how = HAL_START_NO_TIMER;
     chip_wired(seed);
-    chip_reset(CHIP_BY_POWER);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-    TEST_ASSERT_EQUAL(HAL_STARTED, how);
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+    chip_restart(CHIP_BY_POWER);
 }

@@ -6,8 +6,15 @@
 #include "hal/clock.h"
 #include "tests/chip/chip.h"
 
-/* Sets up clocks, variables, console, time base and the rig's hardware. *how: result of hal_clock_start(), if it was reached. */
-chip_end chip_start(hal_start *how);
+/* Runs a function of the drivers. The test fails unless it returns and no rule was broken. */
+void chip_run(void (*what)(void));
+
+/* Sets up clocks, variables, console, time base and the rig's hardware. The test fails if the clock does not start. */
+chip_end chip_start(void);
+/* As above. The test fails unless it returns and no rule was broken. */
+void chip_image_starts(void);
+/* The same after a reset. */
+void chip_restart(chip_cause cause);
 
 /* Sets whether memory that survives a reset has earlier data (boards/cortexm/kept.c). */
 void chip_memory_keeps(bool anything);

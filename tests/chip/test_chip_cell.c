@@ -30,10 +30,7 @@ static void take(void) {
         got_count++;
     }
 }
-static void run_take(void) {
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(take));
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-}
+static void run_take(void) { chip_run(take); }
 /* Takes this many samples of the present force, after the samples that were already under way. */
 static void collect(unsigned samples) {
     for (unsigned i = 0; i < 4; i++) {
@@ -255,7 +252,7 @@ TEST(chip_cell, core_that_stood) {
         chip_pass(scattered() % (4000U * CHIP_UNITS_PER_US));
         got_count = 0;
         if (i % 5U == 0) {
-            TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(erase));
+            chip_run(erase);
         } else {
             chip_halt(true);
             chip_pass((scattered() % 30000U) * CHIP_UNITS_PER_US);
@@ -294,19 +291,15 @@ TEST(chip_cell, overrun) {
         run_take();
     }
     TEST_ASSERT_EQUAL(0, got_count);
-    hal_start how = HAL_START_NO_TIMER;
-    chip_reset(CHIP_BY_SOFTWARE);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    chip_restart(CHIP_BY_SOFTWARE);
     collect(5);
 }
 
 /* Also on the chip's internal oscillator a pair is converted before the next request, and the force is right. */
 TEST(chip_cell, fallback) {
-    hal_start how = HAL_START_NO_TIMER;
     chip_wired(111);
     world.crystal = false;
-    chip_reset(CHIP_BY_POWER);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    chip_restart(CHIP_BY_POWER);
     chip_cell_V = ramp;
     collect(20);
     for (unsigned at = 0; at < got_count; at++) {
@@ -325,7 +318,7 @@ TEST(chip_cell, supply) {
     for (unsigned i = 0; i < 30; i++) {
         chip_supply_V = (double)(scattered() % 3200U) / 100.0;
         chip_pass_us(6000);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_supply));
+        chip_run(read_supply);
         TEST_ASSERT_DOUBLE_WITHIN(0.012, chip_supply_V, (double)supply);
     }
 }
@@ -340,7 +333,7 @@ TEST(chip_cell, supplies) {
         const double supply_V = (double)(scattered() % 60001U) / 1000.0;
         chip_supply_V = supply_V * divider;
         chip_pass_us(6000);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_supply));
+        chip_run(read_supply);
         if (supply_V > 31.5 * 1.02) {
             TEST_ASSERT_FALSE(wh_guard_supply(&guard, supply));
         } else if (supply_V >= 12.0 && supply_V <= 30.0) {

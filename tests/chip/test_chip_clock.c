@@ -7,17 +7,16 @@
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
 
-static hal_start how;
 static uint32_t ticks;
 static void read_ticks(void) { ticks = hal_clock_ticks(); }
 
 /* Error of the timer's ticks over `s` seconds, in ppm; a tick is a microsecond. */
 static double ppm_over(double s) {
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_ticks));
+    chip_run(read_ticks);
     const uint32_t before = ticks;
     const uint64_t then = chip_now();
     chip_pass((uint64_t)(s * (double)CHIP_UNITS_PER_S));
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(read_ticks));
+    chip_run(read_ticks);
     const double us = (double)(chip_now() - then) / (double)CHIP_UNITS_PER_US;
     return ((double)(ticks - before) / us - 1.0) * 1e6;
 }
@@ -28,10 +27,7 @@ TEST(chip_clock, crystals_that_start) {
         chip_wired(scattered());
         world.crystal_units =
             (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms typical */
-        chip_reset(CHIP_BY_POWER);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-        TEST_ASSERT_EQUAL(HAL_STARTED, how);
+        chip_restart(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
         TEST_ASSERT_EQUAL(100, hal_clock_tolerance_ppm());
         const chip_clocks now = chip_clocks_now();
@@ -45,10 +41,7 @@ TEST(chip_clock, crystals_that_start) {
 
 static void fallback_is_taken(uint64_t most_ms) {
     const uint64_t then = chip_now();
-    chip_reset(CHIP_BY_POWER);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-    TEST_ASSERT_EQUAL(HAL_STARTED, how);
+    chip_restart(CHIP_BY_POWER);
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < most_ms * 1000U * CHIP_UNITS_PER_US,
                              "the start waits too long");
     TEST_ASSERT_EQUAL(HAL_CLOCK_FALLBACK, hal_clock_source_now());
@@ -77,8 +70,7 @@ TEST(chip_clock, crystals_that_are_late) {
         chip_wired(scattered());
         world.crystal_units =
             (scattered() % 15000U + (i % 2U == 0 ? 0U : 30000U)) * CHIP_UNITS_PER_US;
-        chip_reset(CHIP_BY_POWER);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        chip_restart(CHIP_BY_POWER);
         chip_pass_us(60000);
         TEST_ASSERT_EQUAL_STRING("none", chip_violation());
         const bool crystal = hal_clock_source_now() == HAL_CLOCK_CRYSTAL;
@@ -117,10 +109,9 @@ TEST(chip_clock, behind_a_loader) {
         world.access_cycles = 3U + (unsigned)(scattered() % 6U);
         bypassed = (scattered() & 1U) != 0;
         chip_reset(CHIP_BY_POWER);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(loader));
+        chip_run(loader);
         TEST_ASSERT_EQUAL(60000000, chip_clocks_now().core_Hz);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+        chip_image_starts();
         TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
         TEST_ASSERT_EQUAL(168000000, chip_clocks_now().core_Hz);
         TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
@@ -133,9 +124,7 @@ TEST(chip_clock, from_every_reset) {
     for (unsigned i = 0; i < sizeof causes / sizeof *causes; i++) {
         chip_on(4 + i);
         chip_pass_us(10000);
-        chip_reset(causes[i]);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-        TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+        chip_restart(causes[i]);
         TEST_ASSERT_EQUAL(168000000, chip_clocks_now().core_Hz);
     }
 }
@@ -153,14 +142,14 @@ TEST(chip_clock, waits) {
         }
         const uint32_t ahead = (uint32_t)(scattered() % 3000U);
         target = chip_tim2_count() + ahead;
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(wait_there));
+        chip_run(wait_there);
         const uint32_t late = chip_tim2_count() - target;
         TEST_ASSERT_TRUE_MESSAGE(late < 100U, "not within 0.1 ms behind what was asked");
         TEST_ASSERT_TRUE(hal_clock_late_ticks() <= late);
     }
     target = chip_tim2_count() - 1000U;
     const uint64_t then = chip_now();
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(wait_there));
+    chip_run(wait_there);
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
                              "it waits for what is past");
     TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
@@ -179,7 +168,7 @@ TEST(chip_clock, crystal_dies) {
     for (unsigned i = 0; i < 10; i++) {
         chip_on(scattered());
         chip_pass_us(5000);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(drive));
+        chip_run(drive);
         unsigned high = 0;
         for (unsigned at = 0; at < 100; at++) {
             chip_pass(CHIP_UNITS_PER_US + scattered() % CHIP_UNITS_PER_US);

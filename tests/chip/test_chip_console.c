@@ -12,10 +12,6 @@ static unsigned room, count;
 static void take(void) { count = hal_console_read(bytes, room); }
 static void offer(void) { count = hal_console_offer(bytes, room); }
 static void write(void) { hal_console_write(bytes, room); }
-static void run(void (*what)(void)) {
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(what));
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-}
 
 TEST(chip_console, rate) {
     chip_on(1);
@@ -23,9 +19,7 @@ TEST(chip_console, rate) {
         0.005, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
     chip_wired(2);
     world.crystal = false;
-    hal_start how = HAL_START_NO_TIMER;
-    chip_reset(CHIP_BY_POWER);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+    chip_restart(CHIP_BY_POWER);
     TEST_ASSERT_DOUBLE_WITHIN(
         0.01, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
 }
@@ -45,10 +39,10 @@ TEST(chip_console, out) {
         }
         const uint64_t then = chip_now();
         if (i % 5U == 4) {
-            run(write);
+            chip_run(write);
             count = room;
         } else {
-            run(offer);
+            chip_run(offer);
             TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 500U * CHIP_UNITS_PER_US,
                                      "an offer waits");
             TEST_ASSERT_TRUE(count <= room);
@@ -81,11 +75,11 @@ TEST(chip_console, out_between_accesses) {
         for (unsigned b = 0; b < room; b++) {
             bytes[b] = (char)((said + b) % 253U);
         }
-        run(offer);
+        chip_run(offer);
         said += count;
         chip_pass_us(3U * 87U + scattered() % 5000U);
         room = sizeof bytes;
-        run(take);
+        chip_run(take);
     }
     chip_pass_us(30000);
     TEST_ASSERT_EQUAL(said, chip_serial_sent() - from);
@@ -100,7 +94,7 @@ TEST(chip_console, out_is_full) {
     const unsigned from = chip_serial_sent();
     for (unsigned i = 0; i < 100; i++) {
         room = 64;
-        run(offer);
+        chip_run(offer);
         chip_pass_us(1000);
     }
     TEST_ASSERT_TRUE(chip_serial_sent() - from > 1100U);
@@ -129,7 +123,7 @@ TEST(chip_console, in) {
         chip_pass_us(1000U + scattered() % 1000U);
         room = 1U + (unsigned)(scattered() % 60U);
         do {
-            run(take);
+            chip_run(take);
             TEST_ASSERT_TRUE(count <= room);
             TEST_ASSERT_TRUE(got + count <= made);
             TEST_ASSERT_TRUE(memcmp(mine + got, bytes, count) == 0);
@@ -154,11 +148,11 @@ TEST(chip_console, both) {
         for (unsigned b = 0; b < room; b++) {
             bytes[b] = (char)((said + b) % 251U);
         }
-        run(offer);
+        chip_run(offer);
         said += count;
         chip_pass_us(2000);
         room = sizeof bytes;
-        run(take);
+        chip_run(take);
         for (unsigned b = 0; b < count; b++) {
             TEST_ASSERT_EQUAL(1U + (got + b) % 250U, (uint8_t)bytes[b]);
         }
@@ -197,7 +191,7 @@ static void lost(bool held) {
         unsigned got = 0;
         for (unsigned i = 0; i < 30; i++) {
             room = 50;
-            run(take);
+            chip_run(take);
             memcpy(seen + got, bytes, count);
             got += count;
             chip_pass_us(200);
@@ -247,13 +241,13 @@ TEST(chip_console, from_a_fault) {
         chip_on(scattered());
         room = (unsigned)(scattered() % 60U);
         memset(bytes, 'o', sizeof bytes);
-        run(offer);
+        chip_run(offer);
         const unsigned before = count;
         chip_pass_us(scattered() % 3000U);
         room = 100;
         memset(bytes, 'f', room);
         const unsigned from = chip_serial_sent();
-        run(write_held);
+        chip_run(write_held);
         chip_pass_us(20000);
         unsigned faults = 0;
         for (unsigned b = from; b < chip_serial_sent(); b++) {

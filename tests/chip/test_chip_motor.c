@@ -28,13 +28,9 @@ static void look(void) {
     supply_V = hal_motor_supply_V();
     pressed = hal_stop_pressed();
 }
-static void run(void (*what)(void)) {
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(what));
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-}
 static void set_to(float V) {
     volts = V;
-    run(set);
+    chip_run(set);
 }
 
 #define PERIOD_UNITS (CHIP_UNITS_PER_S / 20000U)
@@ -91,13 +87,12 @@ static void leave_levels(void) {
 TEST(chip_motor, through_the_start) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 12; i++) {
-        hal_start how = HAL_START_NO_TIMER;
         chip_wired(scattered());
         chip_reset(CHIP_BY_POWER);
         left_levels = i == 0 ? 0U : (uint32_t)scattered() & 0xFFFFU;
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(leave_levels));
+        chip_run(leave_levels);
         chip_stored = never_driven;
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        chip_image_starts();
         chip_stored = NULL;
     }
 }
@@ -108,14 +103,14 @@ TEST(chip_motor, duty) {
         chip_on(scattered());
         chip_supply_V = 6.0 + (double)(scattered() % 2400U) / 100.0;
         chip_pass_us(20000);
-        run(look);
+        chip_run(look);
         TEST_ASSERT_DOUBLE_WITHIN(0.02, chip_supply_V, (double)supply_V);
         for (unsigned i = 0; i < 5; i++) {
             const float V = (float)(scattered() % 10001U) / 10000.0F * supply_V;
             set_to(V);
             chip_pass(scattered() % PERIOD_UNITS);
             TEST_ASSERT_TRUE(enabled());
-            run(look);
+            chip_run(look);
             TEST_ASSERT_DOUBLE_WITHIN(1.01, (double)V / (double)supply_V * TICKS, high_ticks());
             TEST_ASSERT_EQUAL(0, status);
         }
@@ -139,7 +134,7 @@ TEST(chip_motor, what_is_out_of_range) {
         TEST_ASSERT_TRUE(enabled());
     }
     way = HAL_MOTOR_COAST;
-    run(off);
+    chip_run(off);
     set_to(NAN);
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
@@ -159,17 +154,17 @@ TEST(chip_motor, off_at_once) {
         set_to((float)(scattered() % 13U));
         if (i % 4 == 3) {
             draw_way();
-            run(off); /* the motor is already off */
+            chip_run(off); /* the motor is already off */
         }
         chip_pass(scattered() % (3U * PERIOD_UNITS));
         draw_way();
         stores = 0;
         chip_stored = first_store;
-        run(off);
+        chip_run(off);
         chip_stored = NULL;
         is_low_for(PERIOD_UNITS);
         TEST_ASSERT_EQUAL(way == HAL_MOTOR_BRAKE, enabled());
-        run(look);
+        chip_run(look);
         TEST_ASSERT_EQUAL(0, status);
     }
 }
@@ -189,7 +184,7 @@ TEST(chip_motor, fault_from_anywhere) {
         chip_pass(scattered() % (3U * PERIOD_UNITS));
         stores = 0;
         chip_stored = first_store;
-        run(fault_stores);
+        chip_run(fault_stores);
         chip_stored = NULL;
         is_low_for(PERIOD_UNITS);
         TEST_ASSERT_FALSE(enabled());
@@ -210,7 +205,7 @@ TEST(chip_motor, break) {
         const bool stays = (scattered() & 1U) != 0;
         if (stays) {
             is_low_for(PERIOD_UNITS);
-            run(look);
+            chip_run(look);
             TEST_ASSERT_TRUE(pressed);
             TEST_ASSERT_EQUAL(HAL_MOTOR_CUT | HAL_MOTOR_FAULT, status);
             set_to(12.0F);
@@ -222,14 +217,14 @@ TEST(chip_motor, break) {
         for (unsigned again = 0; again < 3; again++) {
             set_to(12.0F);
             is_low_for(PERIOD_UNITS);
-            run(look);
+            chip_run(look);
             TEST_ASSERT_FALSE(pressed);
             TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, status);
         }
         way = HAL_MOTOR_COAST;
-        run(off);
+        chip_run(off);
         is_low_for(PERIOD_UNITS);
-        run(look);
+        chip_run(look);
         TEST_ASSERT_EQUAL(0, status);
         set_to(12.0F);
         TEST_ASSERT_EQUAL(TICKS, high_ticks());
@@ -244,17 +239,17 @@ TEST(chip_motor, ordered_while_pressed) {
     chip_pin_drive('A', 6, CHIP_LOW);
     set_to(6.0F);
     is_low_for(PERIOD_UNITS);
-    run(look);
+    chip_run(look);
     TEST_ASSERT_EQUAL(HAL_MOTOR_CUT | HAL_MOTOR_FAULT, status);
     TEST_ASSERT_FALSE(enabled());
     chip_pin_drive('A', 6, CHIP_HIGH);
     is_low_for(PERIOD_UNITS);
     set_to(6.0F);
     is_low_for(PERIOD_UNITS);
-    run(look);
+    chip_run(look);
     TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, status);
     way = HAL_MOTOR_COAST;
-    run(off);
+    chip_run(off);
     set_to(supply_V);
     TEST_ASSERT_EQUAL(TICKS, high_ticks());
 }
@@ -265,11 +260,11 @@ TEST(chip_motor, pressed_before_a_start) {
     scattered_state = chip_seed(14);
     chip_on(14);
     chip_pass_us(10000);
-    run(look);
+    chip_run(look);
     for (unsigned i = 0; i < 40; i++) {
         const bool presses = i % 2U == 0;
         way = HAL_MOTOR_COAST;
-        run(off);
+        chip_run(off);
         chip_pass(scattered() % CHIP_UNITS_PER_US);
         if (presses) {
             chip_pin_drive('A', 6, CHIP_LOW);
@@ -278,7 +273,7 @@ TEST(chip_motor, pressed_before_a_start) {
             chip_pass(scattered() % CHIP_UNITS_PER_US);
         }
         set_to(supply_V);
-        run(look);
+        chip_run(look);
         TEST_ASSERT_EQUAL(presses ? HAL_MOTOR_CUT : 0, status);
         TEST_ASSERT_EQUAL(presses ? 0 : TICKS, high_ticks());
     }
@@ -291,14 +286,14 @@ TEST(chip_motor, voltage_alone) {
     chip_pass_us(10000);
     for (unsigned i = 0; i < 40; i++) {
         volts = (float)(scattered() % 13U);
-        run(set_alone);
+        chip_run(set_alone);
         is_low_for(PERIOD_UNITS);
-        run(look);
+        chip_run(look);
         TEST_ASSERT_EQUAL(0, status);
         set_to(1.0F + (float)(scattered() % 12U));
         TEST_ASSERT_TRUE(high_ticks() > 0);
         draw_way();
-        run(off);
+        chip_run(off);
     }
 }
 
@@ -317,12 +312,12 @@ TEST(chip_motor, off_from_an_interrupt) {
         draw_way();
         volts = 1.0F + (float)(scattered() % 12U);
         chip_stored = off_behind;
-        run(set_alone);
+        chip_run(set_alone);
         TEST_ASSERT_NULL(chip_stored);
         for (unsigned again = 0; again < 3; again++) {
             is_low_for(PERIOD_UNITS);
             TEST_ASSERT_EQUAL(way == HAL_MOTOR_BRAKE, enabled());
-            run(set_alone);
+            chip_run(set_alone);
         }
     }
 }
@@ -334,11 +329,11 @@ TEST(chip_motor, start_is_whole) {
     chip_pass_us(10000);
     for (unsigned i = 0; i < 10; i++) {
         chip_stored = is_held;
-        run(start);
+        chip_run(start);
         chip_stored = NULL;
         TEST_ASSERT_FALSE(chip_is_masked());
         TEST_ASSERT_EQUAL(0, status);
-        run(off);
+        chip_run(off);
     }
 }
 
@@ -347,7 +342,7 @@ TEST(chip_motor, no_supply) {
     chip_supply_V = 0.0;
     chip_pass_us(10000);
     set_to(6.0F);
-    run(look);
+    chip_run(look);
     TEST_ASSERT_TRUE(supply_V <= 0.0F);
     TEST_ASSERT_EQUAL(HAL_MOTOR_NO_SUPPLY, status);
     TEST_ASSERT_EQUAL(0, high_ticks());
@@ -360,15 +355,13 @@ static void watch(void) { hal_watchdog_start(20000); }
 TEST(chip_motor, debugger) {
     scattered_state = chip_seed(9);
     for (unsigned i = 0; i < 20; i++) {
-        hal_start how = HAL_START_NO_TIMER;
         chip_on(scattered());
         world.halt_disables = i % 2U == 0;
         world.watchdog_Hz = 17000U + scattered() % 30001U;
-        run(freeze_watchdog);
-        chip_reset(CHIP_BY_SOFTWARE);
-        TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
+        chip_run(freeze_watchdog);
+        chip_restart(CHIP_BY_SOFTWARE);
         chip_pass_us(10000);
-        run(watch);
+        chip_run(watch);
         set_to(6.0F);
         chip_pass(scattered() % (3U * PERIOD_UNITS));
         const unsigned resets = chip_resets();

@@ -5,7 +5,6 @@
 #include "tests/chip/start.h"
 #include "tests/scattered.h"
 
-static hal_start how;
 static hal_reset cause;
 static unsigned length;
 static char words[128];
@@ -14,10 +13,8 @@ static void ask(void) {
     length = hal_reset_words(words, sizeof words);
 }
 static void start_and_ask(void) {
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_start(&how));
-    TEST_ASSERT_EQUAL(HAL_STARTED, how);
-    TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(ask));
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
+    chip_image_starts();
+    chip_run(ask);
     TEST_ASSERT_TRUE(length > 0 && length < sizeof words && words[length] == 0);
 }
 
@@ -77,7 +74,7 @@ TEST(chip_reset, brown_out_torn) {
         chip_wired(scattered());
         chip_reset(CHIP_BY_POWER);
         chip_power_off_at(chip_now() + scattered() % (CHIP_UNITS_PER_S / 4U));
-        (void)chip_start(&how);
+        (void)chip_start();
         chip_power_stays();
         chip_reset(CHIP_BY_POWER);
         start_and_ask();

@@ -14,10 +14,6 @@ static void drive(void) {
     (void)hal_motor_start();
     hal_motor_set_voltage(6.0F);
 }
-static void run(void (*what)(void)) {
-    TEST_ASSERT_EQUAL_MESSAGE(CHIP_RETURNED, chip_try(what), "it bites meanwhile");
-    TEST_ASSERT_EQUAL_STRING("none", chip_violation());
-}
 
 static void begin(void) {
     chip_on(scattered());
@@ -53,11 +49,11 @@ TEST(chip_watchdog, any_time_and_speed) {
         if (i % 2U == 0) {
             world.watchdog_Hz = i % 8U == 0 ? 17000U : 47000U;
         }
-        run(start);
-        run(drive);
+        chip_run(start);
+        chip_run(drive);
         for (unsigned times = 0; times < 6; times++) {
             is_quiet_for(times < 2 ? timeout : (uint32_t)(scattered() % (timeout / 8U)));
-            run(kick);
+            chip_run(kick);
         }
         is_quiet_for(timeout);
         bites_by(timeout == 20000U ? 36000U
@@ -71,22 +67,22 @@ TEST(chip_watchdog, other_times) {
     for (unsigned i = 0; i < 8; i++) {
         begin();
         timeout = 20000;
-        run(start);
+        chip_run(start);
         for (unsigned rounds = 0; rounds < 2; rounds++) {
             for (unsigned times = (unsigned)(scattered() % 4U); times > 0; times--) {
                 is_quiet_for((uint32_t)(scattered() % timeout));
-                run(kick);
+                chip_run(kick);
             }
             timeout = 500000U + (uint32_t)(scattered() % 700000U);
-            run(start);
+            chip_run(start);
             if (scattered() % 4U == 0) {
                 is_quiet_for(timeout);
-                run(kick);
+                chip_run(kick);
             }
             timeout = 20000U;
-            run(start);
+            chip_run(start);
             is_quiet_for(timeout);
-            run(kick);
+            chip_run(kick);
         }
         is_quiet_for(timeout);
         bites_by(2U * (uint64_t)timeout + 40U);
@@ -100,12 +96,12 @@ TEST(chip_watchdog, told_late) {
         begin();
         world.watchdog_Hz = 46000U + scattered() % 1001U;
         timeout = 20000;
-        run(start);
+        chip_run(start);
         is_quiet_for(timeout);
         timeout = 30000U + (uint32_t)(scattered() % 20000U);
-        run(start);
+        chip_run(start);
         is_quiet_for(timeout);
-        run(kick);
+        chip_run(kick);
     }
 }
 
@@ -115,12 +111,12 @@ TEST(chip_watchdog, debugger) {
     scattered_state = chip_seed(3);
     begin();
     timeout = 20000;
-    run(start);
-    run(freeze);
+    chip_run(start);
+    chip_run(freeze);
     chip_halt(true);
     is_quiet_for(1000000);
     chip_halt(false);
-    run(kick);
+    chip_run(kick);
     is_quiet_for(timeout);
     bites_by(60000);
 }

@@ -189,9 +189,7 @@ static uint32_t kept_by_lock(uint32_t offset) {
 
 static void tim1_store(uint32_t offset, uint32_t value) {
     const uint32_t kept = kept_by_lock(offset);
-    if (((value ^ *reg(offset)) & kept) != 0) {
-        forbidden("TIM1 + 0x%02x: what is locked", offset);
-    }
+    forbid_if(((value ^ *reg(offset)) & kept) != 0, "TIM1 + 0x%02x: what is locked", offset);
     const uint32_t next = (value & ~kept) | (*reg(offset) & kept);
     tim1_hold_count();
     switch (offset) {
@@ -220,9 +218,7 @@ static void tim1_store(uint32_t offset, uint32_t value) {
     case BDTR:
         *reg(BDTR) = next;
         t.locked_once = true;
-        if ((next & 0xFFU) != 0) {
-            forbidden("a dead time, which the played chip has not");
-        }
+        forbid_if((next & 0xFFU) != 0, "a dead time, which the played chip has not");
         tim1_break_input(); /* MOE stays off while a break is active */
         break;
     case CR1:
@@ -235,14 +231,12 @@ static void tim1_store(uint32_t offset, uint32_t value) {
     tim1_break_input();
 }
 
-static void tim1_reset(chip_cause cause) {
-    (void)cause;
+void tim1_new(void) {
     memset(&t, 0, sizeof t);
     *reg(ARR) = 0xFFFFU;
     t.arr = 0xFFFFU;
     t.base = now_units();
 }
-void tim1_new(void) { tim1_reset(CHIP_BY_POWER); }
 
 /* Interrupt requests: BIF with BIE for the break (24), UIF with UIE for the update (25). */
 static bool tim1_pending(unsigned interrupt) {
@@ -258,7 +252,7 @@ const part tim1_part = {.name = "TIM1",
                         .clock_bit = BIT(0),
                         .load = tim1_load,
                         .store = tim1_store,
-                        .reset = tim1_reset,
+                        .reset = tim1_new,
                         .next = tim1_next,
                         .happens = tim1_happens,
                         .pending = tim1_pending};

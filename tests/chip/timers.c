@@ -105,9 +105,7 @@ static void capture(timer *t, unsigned input, unsigned i) {
     if ((cc & 1U) == 0 || (mode & 3U) != (i == input ? 1U : 2U) || !wanted) {
         return;
     }
-    if ((mode & 0xCU) != 0) {
-        forbidden("a capture of some edges only");
-    }
+    forbid_if((mode & 0xCU) != 0, "a capture of some edges only");
     *reg(t, CCR1 + 4U * i) = (uint32_t)(count_now(t) % ((uint64_t)t->arr + 1U));
     if ((*reg(t, SR) & BIT(1U + i)) != 0) {
         *reg(t, SR) |= BIT(9U + i);
@@ -183,9 +181,7 @@ static void store_of(timer *t, uint32_t offset, uint32_t value) {
     hold(t, false);
     switch (offset) {
     case CR1:
-        if ((value & 0x78U) != 0) {
-            forbidden("a timer that does not count up for ever");
-        }
+        forbid_if((value & 0x78U) != 0, "a timer that does not count up for ever");
         *reg(t, CR1) = value;
         break;
     case SR: *reg(t, SR) &= value; break; /* rc_w0 */
@@ -215,9 +211,8 @@ static void store_of(timer *t, uint32_t offset, uint32_t value) {
         for (unsigned i = 0; i < 2; i++) {
             const unsigned channel = i + (offset == CCMR2 ? 2U : 0U);
             const uint32_t other = (value ^ *reg(t, offset)) >> (8U * i) & 3U;
-            if (other != 0 && (*reg(t, CCER) >> (4U * channel) & 1U) != 0) {
-                forbidden("CC%uS while the channel is on", channel + 1U);
-            }
+            forbid_if(other != 0 && (*reg(t, CCER) >> (4U * channel) & 1U) != 0,
+                      "CC%uS while the channel is on", channel + 1U);
         }
         *reg(t, offset) = value;
         break;
@@ -245,50 +240,30 @@ static bool pending_of(timer *t, unsigned interrupt) {
     return interrupt == t->interrupt && (*reg(t, SR) & *reg(t, DIER) & 0x5FU) != 0;
 }
 
-static uint32_t tim2_load(uint32_t offset) { return load_of(&tim2, offset); }
-static void tim2_store(uint32_t offset, uint32_t value) { store_of(&tim2, offset, value); }
-static void tim2_reset(chip_cause cause) {
-    (void)cause;
-    reset_of(&tim2);
-}
-static uint64_t tim2_next(void) { return next_of(&tim2); }
-static void tim2_happens(void) { happens_to(&tim2); }
-static bool tim2_pending(unsigned interrupt) { return pending_of(&tim2, interrupt); }
-static uint32_t tim3_load(uint32_t offset) { return load_of(&tim3, offset); }
-static void tim3_store(uint32_t offset, uint32_t value) { store_of(&tim3, offset, value); }
-static void tim3_reset(chip_cause cause) {
-    (void)cause;
-    reset_of(&tim3);
-}
-static uint64_t tim3_next(void) { return next_of(&tim3); }
-static void tim3_happens(void) { happens_to(&tim3); }
-static bool tim3_pending(unsigned interrupt) { return pending_of(&tim3, interrupt); }
-
 void chip_tim2_count_is(uint32_t count) {
     tim2.count = count;
     tim2.base = now_units();
 }
 uint32_t chip_tim2_count(void) { return (uint32_t)(count_now(&tim2) % ((uint64_t)tim2.arr + 1U)); }
 
-const part tim2_part = {.name = "TIM2",
-                        .base = AT_TIM2,
-                        .bytes = 0x54,
-                        .clock_register = 0x40,
-                        .clock_bit = BIT(0),
-                        .load = tim2_load,
-                        .store = tim2_store,
-                        .reset = tim2_reset,
-                        .next = tim2_next,
-                        .happens = tim2_happens,
-                        .pending = tim2_pending};
-const part tim3_part = {.name = "TIM3",
-                        .base = AT_TIM3,
-                        .bytes = 0x54,
-                        .clock_register = 0x40,
-                        .clock_bit = BIT(1),
-                        .load = tim3_load,
-                        .store = tim3_store,
-                        .reset = tim3_reset,
-                        .next = tim3_next,
-                        .happens = tim3_happens,
-                        .pending = tim3_pending};
+/* The part of a timer, from the functions above. */
+#define TIMER_PART(tim, called, at, bit) \
+    static uint32_t tim##_load(uint32_t offset) { return load_of(&tim, offset); } \
+    static void tim##_store(uint32_t offset, uint32_t value) { store_of(&tim, offset, value); } \
+    static void tim##_reset(void) { reset_of(&tim); } \
+    static uint64_t tim##_next(void) { return next_of(&tim); } \
+    static void tim##_happens(void) { happens_to(&tim); } \
+    static bool tim##_pending(unsigned interrupt) { return pending_of(&tim, interrupt); } \
+    const part tim##_part = {.name = (called), \
+                             .base = (at), \
+                             .bytes = 0x54, \
+                             .clock_register = 0x40, \
+                             .clock_bit = BIT(bit), \
+                             .load = tim##_load, \
+                             .store = tim##_store, \
+                             .reset = tim##_reset, \
+                             .next = tim##_next, \
+                             .happens = tim##_happens, \
+                             .pending = tim##_pending};
+TIMER_PART(tim2, "TIM2", AT_TIM2, 0)
+TIMER_PART(tim3, "TIM3", AT_TIM3, 1)

@@ -42,9 +42,7 @@ void chip_serial_comes_as(uint64_t when, uint8_t byte, uint8_t flags) {
     coming[coming_to % COMING].when = when;
     coming[coming_to % COMING].flags = flags;
     coming[coming_to++ % COMING].byte = byte;
-    if (coming_to - coming_from > COMING) {
-        forbidden("more bytes to come than there is room for");
-    }
+    forbid_if(coming_to - coming_from > COMING, "more bytes to come than there is room for");
 }
 unsigned chip_serial_sent(void) { return sent_count; }
 uint8_t chip_serial_byte(unsigned at) { return sent[at % SENT]; }
@@ -117,9 +115,7 @@ static void usart_store(uint32_t offset, uint32_t value) {
             forbidden("a byte to a USART that does not send");
             break;
         }
-        if ((u.sr & TXE) == 0) {
-            forbidden("a byte over one that waits");
-        }
+        forbid_if((u.sr & TXE) == 0, "a byte over one that waits");
         if (u.shifting) {
             u.next = (uint8_t)value;
             u.sr &= ~TXE;
@@ -131,9 +127,8 @@ static void usart_store(uint32_t offset, uint32_t value) {
     case CR1: {
         const uint32_t changed = value ^ u.cr1;
         u.cr1 = value;
-        if ((value & (BIT(15) | BIT(12) | BIT(10))) != 0) {
-            forbidden("a frame of not eight bits without parity");
-        }
+        forbid_if((value & (BIT(15) | BIT(12) | BIT(10))) != 0,
+                  "a frame of not eight bits without parity");
         if ((changed & (UE | TE)) != 0 && (value & (UE | TE)) == (UE | TE)) {
             u.sr |= TXE | TC;
         }
@@ -154,14 +149,13 @@ static bool usart_pending(unsigned interrupt) {
                                ((u.sr & TC) != 0 && (u.cr1 & BIT(6)) != 0));
 }
 
-static void usart_reset(chip_cause cause) {
-    (void)cause;
+static void usart_reset(void) {
     memset(&u, 0, sizeof u);
     u.sr = TXE | TC;
 }
 void usart_new(void) {
     coming_from = coming_to = sent_count = 0;
-    usart_reset(CHIP_BY_POWER);
+    usart_reset();
 }
 
 const part usart_part = {.name = "USART6",
