@@ -120,17 +120,6 @@ derived derived_builtin(const char *name) {
     return (derived){0};
 }
 
-int derived_component(const image *im, const char *name, int primes) {
-    for (int i = 0; i < im->angles + im->reals; i++) {
-        const component c = image_component(im, i);
-        if (c.primes == primes && strcmp(im->unknown[c.unknown].name, name) == 0) {
-            return i;
-        }
-    }
-    TEST_FAIL_MESSAGE(name);
-    return -1;
-}
-
 void derived_free(derived *d) {
     image_free(d->image);
     free(d->text);

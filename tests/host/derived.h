@@ -35,9 +35,6 @@ void derived_free(derived *d);
 /* Fails the test with the errors after a refusal. */
 void derived_expect(const derived *d, const char *what);
 
-/* The index of the component that is this derivative of unknown `name`. Fails the test if there is none. */
-int derived_component(const image *im, const char *name, int primes);
-
 /* Capacity of a state_values: coordinates, and derivatives of each with the value. */
 enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
 

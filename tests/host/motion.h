@@ -65,9 +65,8 @@ double motion_value(const motion *m, const char *name);
 /* Kinetic energy of Thomson's device with set A, derived by hand: m = 2 kg, r = 0.3 m, M = -2 N m. */
 double thomson_kinetic_J(const motion *m);
 
-/* Largest error of `m` relative to the state of `scene` at `time` in tests/reference/trajectory.txt, over all
- * coordinates and rates. Absolute, and relative to the largest entry of the reference. */
-double motion_error(const motion *m, const char *scene, const char *time);
-double motion_relative_error(const motion *m, const char *scene, const char *time);
+/* Largest error of `m` against the line `core/models/FILE:scene | time | name=value ...` of the file `references`, over all
+ * states; SI. */
+double motion_error(const motion *m, const char *references, const char *scene, const char *time);
 
 #endif

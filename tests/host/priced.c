@@ -88,16 +88,3 @@ setting priced_tried(int i) {
     static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_RK38};
     return priced_setting(methods[i % 3], i < 3 ? &engine_float : &engine_double);
 }
-
-bool priced_is_tried(const setting *s, double step_s) {
-    (void)step_s;
-    for (int i = 0; i < PRICED_TRIED; i++) {
-        const setting t = priced_tried(i);
-        if (t.image.method == s->image.method && t.number == s->number && !s->image.compensated &&
-            s->image.angles == ANGLES_TURNED && s->image.matrix == MATRIX_NONE &&
-            s->image.tables == TABLES_NONE) {
-            return true;
-        }
-    }
-    return false;
-}

@@ -38,9 +38,8 @@ void priced_close(priced *p);
 image *priced_image(priced *p, int point, const setting *s, const char *step);
 
 setting priced_setting(wh_method method, const engine_kind *number);
-/* Settings by number: three methods in float, then in double. The second is a filter for `takes`. */
+/* Settings by number: three methods in float, then in double. */
 enum { PRICED_TRIED = 6 };
 setting priced_tried(int i);
-bool priced_is_tried(const setting *s, double step_s);
 
 #endif

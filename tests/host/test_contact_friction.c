@@ -10,7 +10,7 @@ static double pi(void) { return acos(-1.0); }
 static void check_sticks(const char *name, stepping how) {
     motion m;
     motion_open(&m, name, how);
-    for (uint64_t i = 0; i < contacts_steps(&m); i++) {
+    for (uint64_t i = 0; i < m.instance->steps; i++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         TEST_ASSERT_TRUE(motion_value(&m, "s") == 0.0 && motion_value(&m, "s'") == 0.0);
     }

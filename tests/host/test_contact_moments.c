@@ -69,7 +69,7 @@ TEST(contact_moments, the_last_gap_is_booked) {
                  slope, random_between(&seed, 0.1, 0.6), random_between(&seed, 1e-4, 0.3),
                  random_between(&seed, -1.0, 1.0), random_between(&seed, 0.3, 8.0));
         motion_open_text(&m, text, IN_DOUBLE);
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, contacts_steps(&m)));
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, m.instance->steps));
         m.kind->ledger(m.run, total, left);
         expect_between("left over, J, of up to 100", -1e-11, 1e-11, left[0]);
         motion_close(&m);
@@ -206,7 +206,7 @@ static double error_of(const reference_case *c, stepping how) {
     motion m;
     motion_open(&m, c->name, how);
     motion_to(&m, c->time_s);
-    const double error = contacts_error(&m, c->name, c->time);
+    const double error = motion_error(&m, "tests/reference/contacts.txt", c->name, c->time);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, contacts_overruns(&m), c->name);
     motion_close(&m);
     return error;

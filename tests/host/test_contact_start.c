@@ -180,7 +180,7 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
     motion m;
     (void)tangled_text(of, text, sizeof text);
     motion_open_text(&m, text, IN_DOUBLE);
-    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, contacts_steps(&m)));
+    TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, m.instance->steps));
     const int n = tangled_bodies(of->seed);
     for (int i = 0; i < n; i++) {
         char name[16];

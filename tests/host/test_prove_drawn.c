@@ -1,9 +1,85 @@
 /* test_prove_drawn.c: tubes of `whirl prove` for drawn mechanisms. Masses on arms have decimal parameters that
  * doubles cannot hold, and references of 113 bits by d'Alembert's equations. A coefficient wrong by a millionth, or
  * by 1e-12, must leave the tube. Linkages with springs, dampers and drives have references in long double. */
-#include "beside.h"
 #include "command.h"
+#include "derived.h"
+#include "host/prove/containment.h"
 #include "linkage.h"
+#include "quad_arms.h"
+
+/* --- a tube beside its reference ---------------------------------------------------------------------*/
+
+/* Compares a proved enclosure of a motion (a tube, host/prove/containment.h) with a 113-bit reference, record
+ * by record. */
+
+/* The reference, integrated together with the tube, and the result of the comparison. */
+typedef struct beside {
+    quad_slopes *slopes;
+    const void *of;
+    quad step_s;
+    quad state[QUAD_STATES]; /* in the tube's order */
+    uint64_t records;
+    uint64_t outside; /* first record with a state outside the tube; 0: no such record */
+    double widest;    /* width of the tube, while inside */
+    /* least distance of the reference from an end of its interval, divided by the width */
+    double nearest;
+} beside;
+
+typedef struct seeing {
+    beside *beside;
+    int states;
+} seeing;
+
+static void see(void *told, uint64_t step, const enclosure *exact, const double *run) {
+    (void)run;
+    const seeing *s = told;
+    beside *b = s->beside;
+    if (step > 0) {
+        quad_follow(b->slopes, b->of, s->states, b->step_s, b->state);
+        b->records++;
+    }
+    TEST_ASSERT_EQUAL_UINT64(b->records, step);
+    for (int i = 0; i < s->states && b->outside == 0; i++) {
+        const quad x = b->state[i];
+        const double wide = exact[i].high - exact[i].low;
+        if (!((quad)exact[i].low <= x && x <= (quad)exact[i].high)) {
+            b->outside = step > 0 ? step : 1;
+            return;
+        }
+        b->widest = fmax(b->widest, wide);
+        if (wide > 0.0) {
+            const double below = (double)((x - (quad)exact[i].low) / (quad)wide);
+            b->nearest = fmin(b->nearest, fmin(below, 1.0 - below));
+        }
+    }
+}
+
+/* Runs scene `name` of the text by `kind` and compares it with its tube. */
+static containment_found beside_hold(const char *text, const char *name, const engine_kind *kind,
+                                     beside *b) {
+    derived d = derived_scene(text, name);
+    derived_expect(&d, text);
+    diags *errors = diags_new();
+    exact_motion *m = exact_motion_make(d.instance, errors);
+    TEST_ASSERT_NOT_NULL_MESSAGE(m, text);
+    TEST_ASSERT_TRUE(m->states <= QUAD_STATES);
+    double *within = calloc((size_t)m->states, sizeof *within);
+    seeing s = {b, m->states};
+    b->nearest = 1.0;
+    const containment_wish wish = {.motion = m,
+                                   .image = d.image,
+                                   .kind = kind,
+                                   .tolerance = CONTAINMENT_TOLERANCE,
+                                   .within = within,
+                                   .see = see,
+                                   .told = &s};
+    containment_found h = containment_run(&wish);
+    free(within);
+    exact_motion_free(m);
+    diags_free(errors);
+    derived_free(&d);
+    return h;
+}
 
 static quad hundredths(dice *d, int least, int most, char text[16]) {
     const int number = least + (int)dice_one_of(d, (unsigned)(most - least));

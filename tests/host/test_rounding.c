@@ -19,7 +19,7 @@ static double error_at(const char *name, const char *time, stepping how) {
     motion m;
     motion_open(&m, name, how);
     motion_to(&m, strtod(time, NULL));
-    const double error = motion_error(&m, name, time);
+    const double error = motion_error(&m, "tests/reference/trajectory.txt", name, time);
     motion_close(&m);
     return error;
 }
