@@ -311,7 +311,7 @@ for after in 0.02 0.05 0.1 0.2; do
     timeout --foreground --signal=INT $after "$whirl" pil --replay "$scratch/pc.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
     case $(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/out") in
     "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # it was quicker
-    *) said="tape so far: its rest was not played" ;;
+    *) said="tape so far; the rest was not replayed" ;;
     esac
     [ ! -s "$scratch/out" ] || grep -aq "^command stream .*, as on the $said$" "$scratch/out"
     verdict $? "a replay interrupted after $after s: as on the $said"

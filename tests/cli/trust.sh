@@ -26,11 +26,11 @@ while read -r scene options; do
     "$whirl" run "$scene" $options --plot "$scratch/plot.svg" >"$scratch/summary" 2>"$scratch/err"
     if [ "$end" = end ]; then
         grep -q '^trusted  *to the end: every coordinate to 0.001 of its range$' "$scratch/summary" &&
-            ! grep -q "no single value" "$scratch/plot.svg"
+            ! grep -q "only energy and momenta" "$scratch/plot.svg"
     else
         short=$(awk -v x="$end" 'BEGIN { printf "%.6g", x }')
         grep -q "^trusted  *until t = $short s: after that" "$scratch/summary" &&
-            grep -q "after $short s no single value is to be trusted" "$scratch/plot.svg"
+            grep -q "after $short s only energy and momenta are meaningful" "$scratch/plot.svg"
     fi
     verdict $? "$scene $options: and so say whirl run and its plot" "$scratch/summary"
 done <<'END'

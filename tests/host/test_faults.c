@@ -654,7 +654,7 @@ TEST(replay, not_replayed) {
             TEST_ASSERT_NOT_NULL_MESSAGE(
                 strstr(
                     told,
-                    "error: it is of 'drawn', whose signals are not those of the firmware 'another'\n"),
+                    "error: this tape is of 'drawn', whose signals differ from those of the firmware 'another'\n"),
                 told);
         } else if (c % 4 == 2) { /* a broken tape */
             talk_on_tape.length -= 3;
