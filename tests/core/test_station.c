@@ -1,70 +1,21 @@
 /* test_station.c: the rig's console. Each line has its answer, orders at the console act as orders that are posted, and
  * a host that is lost does no harm. */
-#include "core/station/station.h"
-
-#include <string.h>
-
+#include "console.h"
 #include "core/text.h"
 #include "draw.h"
-#include "even_rig.h"
 #include "tests/suites.h"
 
-#define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
-
-static even_rig even;
 static even_rig twin;
-static wh_station station;
 static uint64_t seed;
-static char heard[WH_STATION_OUT_BYTES + 1U];
-static unsigned heard_length;
-
-static void begin(void) {
-    even_start(&even);
-    even_rest(&even);
-    wh_station_start(&station, "rig", "here", STEPS_PER_S);
-    heard_length = 0;
-}
-
-static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
-
 static void period(void) {
     even_step(&even);
     wh_station_step(&station, &even.rig);
 }
 
-/* Reads the waiting output, as much as there is room for. */
-static void hear(void) {
-    const unsigned count =
-        wh_station_peek(&station, heard + heard_length, (unsigned)sizeof heard - 1U - heard_length);
-    wh_station_drop(&station, count);
-    heard_length += count;
-    heard[heard_length] = '\0';
-}
-
-/* Types a line. Returns its answer, without the line end. */
-static const char *ask(const char *line) {
-    heard_length = 0;
-    type(line);
-    type("\n");
-    for (unsigned i = 0; i < 3; i++) {
-        period();
-    }
-    hear();
-    TEST_ASSERT_TRUE(heard_length >= 4U);
-    TEST_ASSERT_TRUE(heard[heard_length - 2U] == '\r' && heard[heard_length - 1U] == '\n');
-    heard[heard_length - 2U] = '\0';
-    TEST_ASSERT_TRUE(strchr(heard, '\n') == NULL); /* the answer is one line */
-    return heard;
-}
-
-static void check_begins(const char *with, const char *answer) {
-    TEST_ASSERT_EQUAL_STRING_LEN(with, answer, strlen(with));
-}
-
 /* --- each command ------------------------------------------------------------------------------------ */
 
 TEST(station, help_knows_every_command) {
-    begin();
+    console_begin();
     char list[WH_STATION_OUT_BYTES];
     strcpy(list, ask("help"));
 #define NAME(name, most, takes, text) " " #name
@@ -128,7 +79,7 @@ TEST(station, refusals_have_their_numbers) {
                 {"set 9", "ERR 14 "},
                 {"clear", "ERR 6 "},
                 {"fault", "OK trip=0 ended=none: no fault"}};
-    begin();
+    console_begin();
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         check_begins(rows[i].answer, ask(rows[i].line));
     }
@@ -137,7 +88,7 @@ TEST(station, refusals_have_their_numbers) {
 }
 
 TEST(station, a_whole_run) {
-    begin();
+    console_begin();
     check_begins("OK state=idle speed_rpm=0.00 set_rpm=0.00 motor_V=0.00 trip=0 result=none",
                  ask("status"));
     check_begins("OK", ask("arm"));
@@ -158,7 +109,7 @@ TEST(station, a_whole_run) {
 }
 
 TEST(station, a_trip_is_told_and_cleared) {
-    begin();
+    console_begin();
     ask("arm");
     ask("start 330");
     even_go_on_until(&even, WH_PHASE_RECORD);
@@ -181,7 +132,7 @@ TEST(station, a_trip_is_told_and_cleared) {
 /* Escape is executed before all earlier input, even before a line that is not complete. */
 TEST(station, escape_stops_at_once) {
     for (unsigned i = 0; i < 40; i++) {
-        begin();
+        console_begin();
         ask("arm");
         ask("start 330");
         even_go_on_until(&even, i % 2U == 0 ? WH_PHASE_RAMP : WH_PHASE_RECORD);
@@ -202,7 +153,7 @@ TEST(station, escape_stops_at_once) {
 }
 
 TEST(station, lines_wait_for_each_other) {
-    begin();
+    console_begin();
     type("arm\rstart 330\r\nstatus\nnonsense\n\nset 250\r");
     for (unsigned i = 0; i < 12; i++) {
         period();
@@ -223,7 +174,7 @@ TEST(station, lines_wait_for_each_other) {
 }
 
 TEST(station, a_person_sees_what_is_typed) {
-    begin();
+    console_begin();
     check_begins("OK", ask("talk on"));
     heard_length = 0;
     type("armm\x7f\r\n");
@@ -244,7 +195,7 @@ TEST(station, a_person_sees_what_is_typed) {
 /* Without a reader, whole answers are dropped and counted, so that the buffer has complete lines when a reader
  * returns. */
 TEST(station, nobody_reads) {
-    begin();
+    console_begin();
     for (unsigned i = 0; i < 30; i++) {
         type("status\n");
         period();
@@ -269,7 +220,7 @@ TEST(station, nobody_reads) {
 /* Lines arrive faster than they are processed. A line is executed as typed, or refused because bytes were lost. */
 TEST(station, no_line_is_obeyed_that_lost_bytes) {
     seed = 12;
-    begin();
+    console_begin();
     unsigned obeyed = 0;
     unsigned refused = 0;
     for (unsigned i = 0; i < 4000U; i++) {
@@ -304,7 +255,7 @@ TEST(station, orders_are_those_that_are_posted) {
                   {"stop", WH_EVENT_STOP, WH_R(0.0)},
                   {"clear", WH_EVENT_CLEAR, WH_R(0.0)}};
     seed = 5;
-    begin();
+    console_begin();
     twin = even;
     unsigned allowed = 0;
     for (unsigned i = 0; i < 400U; i++) {
@@ -343,7 +294,7 @@ TEST(station, any_bytes) {
                                          "\r\n",   "\x1b",  "help", " ",       "talk on",
                                          "status", "\b",    "\xff", "measure", "fault"};
     seed = 9;
-    begin();
+    console_begin();
     uint32_t lines_in = 0;
     uint32_t lines_out = 0;
     for (unsigned i = 0; i < 20000U; i++) {

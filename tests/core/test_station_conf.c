@@ -1,25 +1,19 @@
 /* test_station_conf.c: settings at the console: range, place in the configuration, change only while idle, saving, and
  * restoring with the same bits. */
 #include <stddef.h>
-#include <string.h>
 
+#include "console.h"
 #include "core/station/answer.h"
-#include "core/station/station.h"
 #include "core/text.h"
 #include "draw.h"
-#include "even_rig.h"
 #include "tests/suites.h"
 
-#define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
 #define SLOT_BYTES 256U
 #define DEG WH_RIG_DEG_PER_RAD
 #define RPM (WH_R(1.0) / EVEN_RPM)
 
-static even_rig even;
-static wh_station station;
 static wh_conf conf;
 static uint64_t seed;
-static char heard[WH_STATION_OUT_BYTES + 1U];
 static uint8_t kept[WH_STORE_SLOTS][SLOT_BYTES];
 static bool memory_fails;
 
@@ -42,30 +36,14 @@ static void own(wh_rig_config *config) { *config = even_config(); }
 static void begin(void) {
     memset(kept, 0xFF, sizeof kept);
     memory_fails = false;
-    even_start(&even);
-    even_rest(&even);
-    wh_station_start(&station, "rig", "here", STEPS_PER_S);
+    console_begin();
     wh_conf_start(&conf, own, &memory, &even.config);
     station.conf = &conf;
 }
 
-static const char *ask(const char *line) {
-    wh_station_take(&station, line, (unsigned)strlen(line));
-    wh_station_take(&station, "\n", 1);
-    for (unsigned i = 0; i < 3; i++) {
-        even_step(&even);
-        wh_station_step(&station, &even.rig);
-    }
-    const unsigned count = wh_station_peek(&station, heard, sizeof heard - 1U);
-    wh_station_drop(&station, count);
-    TEST_ASSERT_TRUE(count >= 4U);
-    heard[count - 2U] = '\0';
-    TEST_ASSERT_TRUE(strchr(heard, '\n') == NULL);
-    return heard;
-}
-
-static void check_begins(const char *with, const char *answer) {
-    TEST_ASSERT_EQUAL_STRING_LEN(with, answer, strlen(with));
+static void period(void) {
+    even_step(&even);
+    wh_station_step(&station, &even.rig);
 }
 
 /* Checks that two configurations are equal, except for the hash of the settings, which a program without settings does

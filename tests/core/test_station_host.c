@@ -1,20 +1,10 @@
 /* test_station_host.c: the rig's console, and a host that stops sending. */
-#include "core/station/station.h"
-
-#include <string.h>
-
+#include "console.h"
 #include "draw.h"
-#include "even_rig.h"
 #include "tests/suites.h"
 
-#define STEPS_PER_S (WH_RIG_TICKS_PER_S / EVEN_STEP_TICKS)
-
-static even_rig even;
-static wh_station station;
 static wh_step_inputs seen;
 static uint64_t seed;
-
-static void type(const char *line) { wh_station_take(&station, line, (unsigned)strlen(line)); }
 
 static void period(void) {
     even_step(&even);
@@ -23,17 +13,7 @@ static void period(void) {
     wh_station_step(&station, &even.rig);
 }
 
-static void obey(const char *line) {
-    char heard[WH_STATION_OUT_BYTES];
-    type(line);
-    type("\n");
-    for (unsigned i = 0; i < 3; i++) {
-        period();
-    }
-    const unsigned count = wh_station_peek(&station, heard, sizeof heard);
-    wh_station_drop(&station, count);
-    TEST_ASSERT_TRUE(count > 3U && memcmp(heard, "OK", 2) == 0);
-}
+static void obey(const char *line) { check_begins("OK", ask(line)); }
 
 /* A host types now and then, then stops. The run ends in the step after the silence that the host or the configuration
  * allows. Without a limit, or while bytes arrive, the run goes on. */
@@ -44,9 +24,7 @@ TEST(station_host, a_host_that_is_gone) {
         const uint32_t limit_s = i % 3U == 2U ? 0 : (uint32_t)(1U + draw_one_of(&seed, 4));
         char line[] = "host 0";
         line[5] = (char)('0' + limit_s);
-        even_start(&even);
-        even_rest(&even);
-        wh_station_start(&station, "rig", "here", STEPS_PER_S);
+        console_begin();
         even.config.host_loss_stops = i % 3U == 0;
         if (i / 3U % 2U == 0) {
             obey(line);
