@@ -4,6 +4,9 @@
 
 #include "unity.h"
 
+/* Boards draw fewer cases than a PC. */
+#define WH_TEST_SMALL (!__STDC_HOSTED__)
+
 struct suite {
     const char *name;
     const char *file; /* the file that defines it; its lines of output begin with this name */

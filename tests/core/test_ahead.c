@@ -7,10 +7,6 @@
 
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
-
 enum { STEPS = WH_TEST_SMALL ? 256 : 4096 };
 
 /* True if double has enough precision for a reference (on an AVR it is a float). */

@@ -4,9 +4,6 @@
 
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
 #define RANDOM_NUMBERS (WH_TEST_SMALL ? 2000U : 200000U)
 #define KEPT_BITS 24U
 

@@ -7,9 +7,6 @@
 
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
 #define CASES (WH_TEST_SMALL ? 2000L : 400000L)
 
 static uint64_t drawn = UINT64_C(88172645463325252);

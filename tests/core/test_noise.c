@@ -4,10 +4,6 @@
 
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
-
 #define DRAWS (WH_TEST_SMALL ? 4096 : 65536)
 /* Four standard errors of an estimate from DRAWS numbers, relative: 4/sqrt(DRAWS). */
 #define FOUR_SIGMA (WH_TEST_SMALL ? 0.0625 : 0.015625)

@@ -5,10 +5,6 @@
 #include "tests/core/draw.h"
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
-
 enum { MOST = 12, NONE = -1 };
 
 static wh_real size_of(wh_real value) { return value < WH_R(0.0) ? -value : value; }

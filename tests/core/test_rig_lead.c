@@ -1,5 +1,6 @@
-/* test_rig_lead.c: rotors that slow down later than their set-point, because the drive stage does not brake or the
- * inertia is up to six times larger. The guard does not trip for over-speed then, but still detects a runaway drive. */
+/* test_rig_lead.c: how soon a runaway motor is detected from the pulses. Rotors also slow down later than their
+ * set-point, because the drive stage does not brake or the inertia is up to six times larger. The guard does not trip for
+ * over-speed then, but still detects a runaway drive. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -32,16 +33,19 @@ static void begin(wh_rig_phase phase, wh_real target_radps) {
     rig.run.closed_ticks = rotor.ticks - 5U * WH_RIG_TICKS_PER_S;
 }
 
+static void turn(wh_real drive) {
+    rotor_turn(&kind, &rotor, drive, EVEN_STEP_TICKS);
+    for (unsigned i = 0; i < rotor.marks; i++) {
+        wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
+    }
+}
+
 /* Steps with the fixed drive `drive`; if it is negative, with the commanded one. */
 static void go_on(wh_real drive, unsigned steps) {
     wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
     for (unsigned step = 0; step < steps && rig.state == WH_RIG_RUNNING; step++) {
-        rotor_turn(&kind, &rotor, drive < WH_R(0.0) ? rig.command.volts / WH_RIG_RATED_V : drive,
-                   EVEN_STEP_TICKS);
+        turn(drive < WH_R(0.0) ? rig.command.volts / WH_RIG_RATED_V : drive);
         fastest_radps = rotor.speed_radps > fastest_radps ? rotor.speed_radps : fastest_radps;
-        for (unsigned i = 0; i < rotor.marks; i++) {
-            wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
-        }
         inputs.now_ticks = rotor.ticks;
         wh_rig_load(&config, &rig, rotor.ticks, step % 2U == 0 ? 3000 : -3000, WH_LOAD_OK);
         rig.command = wh_rig_step(&config, &rig, &inputs);
@@ -137,5 +141,83 @@ TEST(rig_lead, a_slow_runaway_on_the_way_down_is_seen) {
         go_on(WH_R(0.65), 2000);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_OVERSPEED);
         TEST_ASSERT_TRUE(fastest_radps < WH_R(350.0) * EVEN_RPM);
+    }
+}
+
+/* --- from a steady speed, and from rest ----------------------------------------------------------------- */
+
+static const wh_real nominal_radps = WH_RIG_NOMINAL_RPM * EVEN_RPM;
+
+static void stand_at(wh_rig_phase phase, rotor_state where) {
+    rotor = where;
+    begin(phase, nominal_radps);
+    rig.run.volts = wh_run_needs_V(&config.run, nominal_radps);
+    wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
+}
+
+/* Applies full voltage to the rotor, whatever the command. From rest, the runaway looks like a motor that is faster than
+ * its settings. */
+static void run_away(wh_real most_s) {
+    const uint32_t begins_ticks = rotor.ticks;
+    go_on(WH_R(1.0), 500);
+    TEST_ASSERT_TRUE(rig.guard.trip ==
+                     (rig.record.phase == WH_PHASE_SPIN_UP ? WH_TRIP_FASTER : WH_TRIP_OVERSPEED));
+    TEST_ASSERT_TRUE((wh_real)(rotor.ticks - begins_ticks) <= most_s * (wh_real)WH_RIG_TICKS_PER_S);
+}
+
+TEST(rig_lead, a_runaway_is_seen_at_any_place) {
+    uint64_t seed = 7;
+    kind = rotor_nominal();
+    const wh_real drive =
+        nominal_radps / kind.no_load_radps + kind.drag_Nms * nominal_radps / kind.stall_Nm;
+    for (unsigned place = 0; place < 46U; place++) { /* at intervals of 4 ms over a turn */
+        stand_at(WH_PHASE_SETTLE, (rotor_state){.ticks = UINT32_MAX - 2000000U,
+                                                .speed_radps = nominal_radps,
+                                                .seed = draw_bits(&seed)});
+        for (unsigned step = 0; step < 1000U + 2U * place; step++) {
+            turn(drive);
+        }
+        rig.run.since_ticks = rig.run.band_ticks = rig.run.ample_ticks = rotor.ticks;
+        run_away(WH_R(0.25));
+        /* the limit that docs/rig.md states */
+        TEST_ASSERT_TRUE(rotor.speed_radps < WH_R(475.0) * EVEN_RPM);
+    }
+}
+
+TEST(rig_lead, a_runaway_from_rest_is_seen) {
+    uint64_t seed = 8;
+    kind = rotor_nominal();
+    for (int place = -2; place <= 2; place++) {
+        /* within a few degrees of the hanging position, in which friction may hold it */
+        const wh_real off_rad = WH_R(0.04) * (wh_real)place;
+        stand_at(WH_PHASE_SPIN_UP,
+                 (rotor_state){.ticks = UINT32_MAX - 100000U,
+                               .angle_rad = place < 0 ? WH_RIG_TWO_PI + off_rad : off_rad,
+                               .seed = draw_bits(&seed)});
+        rig.run.volts = config.run.spin_up_V;
+        run_away(WH_R(0.35));
+    }
+}
+
+/* A friction of up to 0.1 N m vanishes at some instant, and the rotor becomes faster. With at least 0.7 times the
+ * inertia the rig must not trip: the control loop corrects the speed. */
+TEST(rig_lead, a_load_that_goes_away_is_no_runaway) {
+    uint64_t seed = 9;
+    for (unsigned trial = 0; trial < 60U; trial++) {
+        kind = rotor_nominal();
+        kind.inertia_kgm2 *=
+            WH_R(0.7) + WH_R(0.05) * (wh_real)(trial % 20U) * (wh_real)(trial % 6U);
+        kind.friction_Nm = WH_R(0.02) + WH_R(0.02) * (wh_real)(trial % 5U);
+        stand_at(WH_PHASE_SETTLE, (rotor_state){.ticks = UINT32_MAX - 1500000U,
+                                                .speed_radps = nominal_radps,
+                                                .seed = draw_bits(&seed)});
+        rig.run.volts += kind.friction_Nm / kind.stall_Nm * WH_RIG_RATED_V;
+        wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
+        rig.command = (wh_rig_command){WH_MOTOR_DRIVES, rig.run.volts};
+        go_on(AS_ASKED, 700U + (unsigned)(draw_bits(&seed) >> 32) % 90U);
+        kind.friction_Nm = WH_R(0.0);
+        go_on(AS_ASKED, 350U);
+        TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
+        TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SETTLE);
     }
 }

@@ -8,6 +8,10 @@
 /* === rig states ============================================================================== */
 /* Every pair of state and event, every named refusal, and the ends of the state armed. */
 
+/* Values that are no voltage and no speed. */
+#define STRANGE \
+    WH_R(1e30), (wh_real)__builtin_inff(), (wh_real)-__builtin_inff(), (wh_real)__builtin_nanf("")
+
 static even_rig even;
 static even_rig stood;
 
@@ -145,14 +149,7 @@ TEST(rig_states, what_arm_asks_for) {
     even = stood;
     even.inputs.clock_is_fallback = true;
     check_refused(arm(), WH_REFUSED_CLOCK, WH_RIG_IDLE);
-    const wh_real supplies_V[] = {WH_R(0.0),
-                                  WH_R(-24.0),
-                                  WH_R(10.0),
-                                  WH_R(38.0),
-                                  WH_R(1e30),
-                                  (wh_real)__builtin_inff(),
-                                  (wh_real)-__builtin_inff(),
-                                  (wh_real)__builtin_nanf("")};
+    const wh_real supplies_V[] = {WH_R(0.0), WH_R(-24.0), WH_R(10.0), WH_R(38.0), STRANGE};
     for (unsigned i = 0; i < sizeof supplies_V / sizeof supplies_V[0]; i++) {
         even = stood;
         even.inputs.supply_V = supplies_V[i];
@@ -189,14 +186,7 @@ TEST(rig_states, what_arm_asks_for) {
 }
 
 TEST(rig_states, what_start_and_set_ask_for) {
-    const wh_real wrong_rpm[] = {WH_R(0.0),
-                                 WH_R(-330.0),
-                                 WH_R(1.0),
-                                 WH_R(361.0),
-                                 WH_R(1e30),
-                                 (wh_real)__builtin_inff(),
-                                 (wh_real)-__builtin_inff(),
-                                 (wh_real)__builtin_nanf("")};
+    const wh_real wrong_rpm[] = {WH_R(0.0), WH_R(-330.0), WH_R(1.0), WH_R(361.0), STRANGE};
     for (unsigned running = 0; running < 2; running++) {
         const wh_rig_event event = running == 0 ? WH_EVENT_START : WH_EVENT_SET;
         const wh_rig_state state = running == 0 ? WH_RIG_ARMED : WH_RIG_RUNNING;
@@ -689,24 +679,13 @@ static wh_real any_value(void) {
                               WH_R(500.0) * EVEN_RPM,
                               WH_R(0.0),
                               WH_R(-35.0),
-                              WH_R(1e30),
-                              (wh_real)__builtin_inff(),
-                              (wh_real)-__builtin_inff(),
-                              (wh_real)__builtin_nanf("")};
+                              STRANGE};
     return values[draw_one_of(&seed, sizeof values / sizeof values[0])];
 }
 
 static wh_real any_supply_V(void) {
-    const wh_real supplies_V[] = {WH_RIG_RATED_V,
-                                  WH_R(12.0),
-                                  WH_R(36.0),
-                                  WH_R(14.0),
-                                  WH_R(0.0),
-                                  WH_R(-24.0),
-                                  WH_R(1e30),
-                                  (wh_real)__builtin_inff(),
-                                  (wh_real)-__builtin_inff(),
-                                  (wh_real)__builtin_nanf("")};
+    const wh_real supplies_V[] = {WH_RIG_RATED_V, WH_R(12.0),  WH_R(36.0), WH_R(14.0),
+                                  WH_R(0.0),      WH_R(-24.0), STRANGE};
     return supplies_V[draw_one_of(&seed, sizeof supplies_V / sizeof supplies_V[0])];
 }
 

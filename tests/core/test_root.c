@@ -5,10 +5,6 @@
 
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
-
 #if WH_DOUBLE
 typedef uint64_t word;
 #define BITS 52

@@ -11,10 +11,6 @@
 #include <math.h>
 #endif
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
-
 #define QUARTER (UINT32_C(1) << 30)
 #define SECTOR (UINT32_C(1) << 25) /* a sector of the sine table */
 

@@ -9,10 +9,6 @@
 #include "tests/core/draw.h"
 #include "tests/suites.h"
 
-#ifndef WH_TEST_SMALL
-#define WH_TEST_SMALL (!__STDC_HOSTED__)
-#endif
-
 enum {
     WIDTH = WH_TABLE_CUBIC + WH_TABLE_LINEAR,
     BITS_MOST = WH_TEST_SMALL ? 4 : 7,
