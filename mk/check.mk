@@ -137,7 +137,7 @@ CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage command_line comma
     prove recorded_bits recorded_lists settings_bits sizes suites summary swing trust undefined units \
     worst_step_marks,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := aliasing angle_parts apart arm asked_first blurred books_told busy busy_beside c_names choice coarse_tables contact_bound contact_centres contact_curved contact_devices \
+HOST_LESS_ASAN := aliasing angle_parts apart arm asked_first blurred books_told busy busy_beside c_names choice coarse_tables contact_bound contact_centres contact_curved \
     contact_holds contact_law contact_load contact_moments contact_rest contact_scenes contact_squeezed contact_start contact_together cost counts crossings cures describe devices \
     double_functions effect_parts effect_subsets effect_work effects enclosure energy_integral energy_kept exact_books far_origin far_slopes firstlight fixed_loss fixed_ranges \
     fixed_runs folded folded_numbers force_free forced_swing hard_cases hard_contacts hard_edges hard_origin hybrids image_rows jumped latex_runs leans ledger_scenes limits linkages \

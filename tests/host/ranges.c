@@ -5,8 +5,6 @@ static void look(const motion *m, range *r, unsigned count, bool first) {
     for (unsigned i = 0; i < count; i++) {
         const double value = motion_value(m, r[i].name);
         TEST_ASSERT_TRUE_MESSAGE(isfinite(value), r[i].name);
-        r[i].last = value;
-        r[i].first = first ? value : r[i].first;
         r[i].least = first ? value : fmin(r[i].least, value);
         r[i].most = first ? value : fmax(r[i].most, value);
     }
@@ -27,8 +25,6 @@ void ranges_of(const char *which, stepping how, double until_s, double every_s, 
 }
 
 double range_width(const range *r) { return r->most - r->least; }
-
-double range_drift(const range *r) { return fmax(r->most - r->first, r->first - r->least); }
 
 void expect_between(const char *what, double least, double most, double got) {
     printf("  %-62s %.6g (%.6g ... %.6g)\n", what, got, least, most);

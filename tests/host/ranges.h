@@ -7,8 +7,6 @@
 /* A quantity over a run. Set `name` ("X", "X'" or an output); the rest is filled in. SI. */
 typedef struct range {
     const char *name;
-    double first;
-    double last;
     double least;
     double most;
 } range;
@@ -18,8 +16,6 @@ void ranges_of(const char *which, stepping how, double until_s, double every_s, 
                unsigned count);
 
 double range_width(const range *r);
-
-double range_drift(const range *r);
 
 /* Fails the test unless least <= got <= most; prints a line either way. */
 void expect_between(const char *what, double least, double most, double got);

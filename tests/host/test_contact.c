@@ -330,105 +330,6 @@ static void check_energy(const engine_kind *kind, double most, double coarse_sha
 TEST(contact_curved, energy_is_accounted_for) { check_energy(&engine_double, 1e-4, 0.01); }
 TEST(contact_curved, energy_is_accounted_for_in_float) { check_energy(&engine_float, 1e-3, 1.0); }
 
-/* === contact devices ========================================================================== */
-/* Devices of the dissertation with a stop: the carriage at a stop (row S18, test 3), Halvorson's vehicle (S12). */
-
-static double pi(void) { return acos(-1.0); }
-
-/* --- S18, test 3 ----------------------------------------------------------------------------------------- */
-
-#define LB 0.45359237
-#define INCH 0.0254
-#define ECCENTRIC_KG (2.0 * (0.152 + 0.15) * LB)
-#define ALL_KG (4.0 * ECCENTRIC_KG)                                     /* weight ratio 1/3 */
-#define MOMENT_KG_M (2.0 * LB * INCH * (0.152 * 7.25 / 2 + 0.15 * 6.5)) /* sum of m r */
-
-/* Largest and least X over the next `turns` turns. A turn is not a whole number of steps. So in twenty turns some step
- * ends within a twentieth of a step of an extreme. The error is then (0.05 w h)^2/2, 2e-6 of the range. */
-static void swing(motion *m, double turns, double *least, double *most) {
-    const double until = motion_value(m, "theta") + turns * 2.0 * pi();
-    *least = HUGE_VAL;
-    *most = -HUGE_VAL;
-    while (motion_value(m, "theta") < until) {
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(m, 1));
-        *least = fmin(*least, motion_value(m, "X"));
-        *most = fmax(*most, motion_value(m, "X"));
-    }
-}
-
-static void check_walk(stepping how, double swing_bound, double speed_most) {
-    motion m;
-    double least;
-    double most;
-    motion_open(&m, "carriage_stop", how);
-    double nearest = motion_value(&m, "X");
-    for (unsigned i = 0; i < 55000; i++) {
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
-        nearest = fmin(nearest, motion_value(&m, "X"));
-    }
-    const double theta = motion_value(&m, "theta");
-    const double x_cm = motion_value(&m, "x_cm");
-    swing(&m, 20.0, &least, &most);
-    const double w = motion_value(&m, "theta'");
-    const double speed =
-        (motion_value(&m, "x_cm") - x_cm) * w / (motion_value(&m, "theta") - theta);
-    motion_close(&m);
-    printf("  %s: at last between %.6f and %.6f m\n", how.kind->name, least, most);
-    /* the stop is not passed; a float location leaves some 2^-24 of the step's distance */
-    expect_between("  nearest to the stop, m", -1e-9, 1e-3, nearest);
-    /* walked away: further than its swing */
-    expect_between("  mean place at last, m", 10.0 * MOMENT_KG_M / ALL_KG, 10.0,
-                   (least + most) / 2.0);
-    /* the project's result m r/(m + M), without friction; friction is 1/80 of the force here, and its effect on the
-     * swing is of second order */
-    const double free = MOMENT_KG_M / ALL_KG;
-    expect_between("  swing over m r/(m + M)", 1.0 - 1e-3, 1.0 + 1e-3, (most - least) / 2.0 / free);
-    /* closed form (Den Hartog, Forced vibrations with combined Coulomb and viscous friction, 1931). Without a spring
-     * the factor is sqrt(1 - (pi f/2 F)^2), f the friction, F the force's amplitude */
-    const double ratio = 0.05 * ALL_KG * 9.80665 / (MOMENT_KG_M * w * w);
-    const double closed = free * sqrt(1.0 - pi() * pi() * ratio * ratio / 4.0);
-    expect_between("  swing over the closed form, less 1", -swing_bound, swing_bound,
-                   (most - least) / 2.0 / closed - 1.0);
-    /* friction brakes the mean motion at a rate of 2 mu g/(pi swing w) = 0.28 per second: exp(-15) of 2 m/s */
-    expect_between("  mean velocity at last, m/s", -speed_most, speed_most, speed);
-}
-
-TEST(contact_devices, carriage_walks_away_from_the_stop_and_then_only_swings) {
-    /* see swing(); the closed form's speed is constant, the motor's ripples by 1e-5 */
-    check_walk(IN_DOUBLE, 2e-5, 1e-5);
-    /* X near 6 m in 24 bits: 2^-22 m in each of half a turn's 90 sums, of 0.064 m, as a random walk */
-    check_walk(IN_FLOAT, 1e-4, 1e-4);
-}
-
-/* --- S12 ------------------------------------------------------------------------------------------------- */
-
-/* The normal force oscillates around the weight, and the vehicle never leaves the ground. */
-TEST(contact_devices, normal_force_pulsates_round_the_weight) {
-    range r = {.name = "normal"};
-    motion m;
-    double sum = 0.0;
-    unsigned looks = 0;
-    motion_open(&m, "halvorson_ground", IN_DOUBLE);
-    motion_to(&m, 5.0);
-    const double turn = motion_value(&m, "theta") + 100.0 * 2.0 * pi();
-    r.least = HUGE_VAL;
-    r.most = 0.0;
-    while (motion_value(&m, "theta") < turn) {
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
-        const double N = motion_value(&m, "normal");
-        sum += N;
-        looks++;
-        r.least = fmin(r.least, N);
-        r.most = fmax(r.most, N);
-    }
-    motion_close(&m);
-    expect_between("S12: normal force, least, N", 0.1, 10.0, r.least);
-    expect_between("S12: normal force, most, N", 15.0, 30.0, r.most);
-    /* no net vertical motion: its mean is the weight, 1.33 kg; a hundred turns, cut at a step */
-    expect_between("S12: mean normal force over the weight", 1.0 - 1e-4, 1.0 + 1e-4,
-                   sum / looks / (1.33 * 9.81));
-}
-
 /* === contact law ============================================================================== */
 /* Random mechanisms with a constant mass matrix, whose contacts all act at one moment. The laws of
  * core/contact/contact_lcp.h and core/contact/contact_resolve.h are solved independently by trying every case (active
@@ -661,82 +562,286 @@ static void check_forces(const engine_kind *kind, double bound) {
 TEST(contact_law, forces_share_a_load_by_their_law) { check_forces(&engine_double, 1e-11); }
 TEST(contact_law, forces_share_a_load_by_their_law_in_float) { check_forces(&engine_float, 1e-4); }
 
-/* --- impacts and forces ---------------------------------------------------------------------------------------- */
+/* === contact friction ========================================================================= */
+/* Blocks that stick and slip (core/models/contacts.whirl). */
 
-/* Draws the same with loads in both directions, and speeds from fast to almost zero, so that some flights are too
- * short. */
-static bool draw_mixed(uint64_t *seed, drawn *b) {
-    if (!draw_impact(seed, DRAWN_STEP_S / 2.0, b)) {
-        return false;
+#define G 9.81
+
+/* A block that sticks does not move, to the bit. */
+static void check_sticks(const char *name, stepping how) {
+    motion m;
+    motion_open(&m, name, how);
+    for (uint64_t i = 0; i < m.instance->steps; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        TEST_ASSERT_TRUE(motion_value(&m, "s") == 0.0 && motion_value(&m, "s'") == 0.0);
     }
-    const double slow = 1.0 / (double)(1U << random_bits(seed) % 14U);
-    for (int i = 0; i < b->n; i++) {
-        b->rate[i] *= slow;
-        b->load[i] = drawn_whole(seed, -6, 6);
-    }
-    for (int k = 0; k < b->contacts; k++) {
-        drawn_contact *of = &b->contact[k];
-        of->offset *= slow;
-        of->limit = of->kind == 'f' ? drawn_whole(seed, 0, 3) / 4.0 : 0.0;
-    }
-    return true;
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_events(&m));
+    motion_close(&m);
 }
 
-static double broken(const motion *m, const drawn *b, int k, double time_s) {
-    const drawn_contact *of = &b->contact[k];
-    double total[64] = {0.0};
-    double left[DRAWN_MOST + 1] = {0.0};
-    double gap = -of->offset;
-    double rate = 0.0;
-    double impulse = 0.0;
-    int must = 0;
-    for (int i = 0; i < b->n; i++) {
-        const char name[] = {'x', (char)('0' + i), '\'', '\0'};
-        const char value[] = {'x', (char)('0' + i), '\0'};
-        gap += of->row[i] * motion_value(m, value);
-        rate += of->row[i] * motion_value(m, name);
-        must = of->row[i] != 0.0 ? i : must;
+/* The incline's scene lasts ten minutes. */
+TEST(contact_friction, blocks_stick) {
+    static const char *const scenes[] = {"incline_sticks", "table_sticks"};
+    for (int i = 0; i < 2; i++) {
+        check_sticks(scenes[i], IN_DOUBLE);
+        check_sticks(scenes[i], IN_FLOAT);
+        check_sticks(scenes[i], IN_FLOAT_COMPENSATED);
     }
-    m->kind->ledger(m->run, total, left);
-    const double *entry = total + m->image->ledger.smooth + k * (1 + b->n);
-    impulse = entry[1 + must] / of->row[must];
-    const double gave_J = entry[0]; /* no contact adds energy */
-    if (of->kind == 's') {          /* only pushes, and is not penetrated */
-        return fmax(fmax(gave_J, -impulse), -gap);
-    }
-    if (of->kind == 'f') { /* within its limit: no impulse */
-        return fmax(gave_J, fabs(impulse) - of->limit * time_s);
-    }
-    return fmax(fmax(gave_J, fabs(gap)), fabs(rate));
 }
 
-TEST(contact_law, no_contact_does_more_than_it_can) {
-    const long runs = wanted_runs_contact_law((long)few_or_all(12, 40));
-    uint64_t seed = 73;
-    double worst = 0.0;
-    int over = 0;
-    for (long done = 0; done < runs;) {
-        drawn b;
+/* Coefficients to either side of tan 10 degrees. */
+TEST(contact_friction, block_sticks_up_to_the_slope) {
+    for (int side = -1; side <= 1; side += 2) {
         motion m;
-        if (!draw_mixed(&seed, &b)) {
-            continue;
+        char set[64];
+        stepping how = IN_DOUBLE;
+        snprintf(set, sizeof set, "mu=%.17g", tan(acos(-1.0) / 18.0) * (1.0 + 1e-9 * side));
+        how.set = set;
+        motion_open(&m, "incline_slides", how);
+        motion_to(&m, 10.0);
+        if (side > 0) {
+            TEST_ASSERT_TRUE(motion_value(&m, "s") == 0.0);
+        } else {
+            /* closed form: g sin 10 deg 1e-9 t^2/2, of a difference of two numbers rounded to 2e-16 */
+            const double slides = G * sin(acos(-1.0) / 18.0) * 1e-9 * 50.0;
+            expect_between("slides by, just below, over the closed form", 1.0 - 1e-6, 1.0 + 1e-6,
+                           motion_value(&m, "s") / slides);
         }
-        done++;
-        drawn_open(&m, &b, &engine_double);
-        for (int step = 1; step <= 8; step++) {
-            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
-            for (int k = 0; k < b.contacts; k++) {
-                const double off =
-                    contacts_overruns(&m) == 0 ? broken(&m, &b, k, step * DRAWN_STEP_S) : 0.0;
-                if (off > 1e-11) {
-                    printf("  case %ld, step %d: contact %d by %.1e\n", done, step, k, off);
-                }
-                worst = fmax(worst, off);
-            }
-        }
-        over += contacts_overruns(&m) > 0;
         motion_close(&m);
     }
-    printf("%ld mechanisms: beyond what they can by %.1e; %d with overruns\n", runs, worst, over);
-    TEST_ASSERT_TRUE(worst <= 1e-11 && over <= runs / 10);
 }
+
+/* mu_s g/w^2 is the largest amplitude without slip. */
+TEST(contact_friction, block_slips_from_the_closed_forms_amplitude_on) {
+    const double w = 4.0 * acos(-1.0);
+    for (int side = -1; side <= 1; side += 2) {
+        motion m;
+        char set[64];
+        stepping how = IN_DOUBLE;
+        snprintf(set, sizeof set, "A=%.17g m", 0.4 * G / (w * w) * (1.0 + 1e-4 * side));
+        how.set = set;
+        motion_open(&m, "table_sticks", how);
+        motion_to(&m, 1.0);
+        TEST_ASSERT_TRUE((contacts_events(&m) > 0) == (side > 0));
+        TEST_ASSERT_TRUE((fabs(motion_value(&m, "s")) > 0.0) == (side > 0));
+        motion_close(&m);
+    }
+}
+
+/* === contact stops ============================================================================ */
+/* Balls on stops (core/models/contacts.whirl), with closed forms. */
+
+/* Finds the first moment of rest, then checks a minute of rest. */
+static void check_rest(stepping how, double height_most) {
+    motion m;
+    double rest_s = 0.0;
+    double worst = 0.0;
+    double bounced = 1.0;
+    unsigned bounces = 0;
+    motion_open(&m, "ball_bounces", how);
+    const uint64_t steps = m.instance->steps;
+    uint64_t events = 0;
+    for (uint64_t i = 1; i <= steps; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double z = motion_value(&m, "z");
+        const double v = motion_value(&m, "z'");
+        const bool rests = z == 0.0 && v == 0.0;
+        if (rests && rest_s <= 0.0) {
+            rest_s = (double)i * 1e-3;
+        }
+        TEST_ASSERT_TRUE_MESSAGE(rests || rest_s <= 0.0, "left the stop again");
+        if (contacts_events(&m) != events && !rests) {
+            /* energy gives the height of this bounce; closed form: e^2 of the previous height */
+            TEST_ASSERT_EQUAL_UINT64_MESSAGE(1, contacts_events(&m) - events, "two bounces a step");
+            bounced *= 0.25;
+            bounces++;
+            worst = fmax(worst, fabs(z + v * v / (2.0 * G) - bounced));
+        }
+        events = contacts_events(&m);
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    motion_close(&m);
+    printf("  %s\n", how.kind->name);
+    /* closed form: the bounces' times are a geometric series, sqrt(2 h/g) (1 + e)/(1 - e) */
+    const double closed = 3.0 * sqrt(2.0 / G);
+    expect_between("  at rest after, s", closed - 1e-3, closed + 1e-3, rest_s);
+    expect_between("  bounces whose height was looked at", 8.0, 14.0, bounces);
+    expect_between("  height after a bounce, off by, m", 0.0, height_most, worst);
+}
+
+TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
+    check_rest(IN_DOUBLE, 1e-6); /* the project's bound */
+    /* 450 sums of the first fall, each rounded by at most 2^-24 of 4.4 m/s: 1.2e-4 m/s, times v/g */
+    check_rest(IN_FLOAT, 5.3e-5);
+}
+
+TEST(contact_stops, too_many_bounces_are_told_and_end) {
+    motion m;
+    motion_open(&m, "ball_between", IN_DOUBLE);
+    const double start = motion_value(&m, "energy");
+    for (uint64_t i = 0; i < m.instance->steps; i++) {
+        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
+        const double z = motion_value(&m, "z");
+        TEST_ASSERT_TRUE(z >= -1e-12 && z <= 1e-3 + 1e-12);
+        TEST_ASSERT_TRUE(motion_value(&m, "energy") <= start * (1.0 + 1e-9));
+    }
+    TEST_ASSERT_TRUE(contacts_overruns(&m) >= 1);
+    motion_close(&m);
+    /* a step short enough for its bounces handles all of them: 25 m/s over 1 mm are 25000 per second */
+    motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
+    motion_to(&m, 0.1);
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    /* closed form: E goes as v^2, and 1 mm of height takes 4e-4 m/s: 2500 to the bounce */
+    expect_between("bounces in 0.1 s", 2498.0, 2502.0, (double)contacts_events(&m));
+    expect_between("energy kept", 1.0 - 1e-9, 1.0 + 1e-9, motion_value(&m, "energy") / start);
+    motion_close(&m);
+}
+
+/* The restitution of the balls depends on the impact speed. A warning must appear where it is outside 0 to 1, and only there. */
+TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
+    dice d = dice_of("contact_stops", 5);
+    const unsigned cases = dice_cases(24);
+    unsigned told = 0;
+    for (unsigned i = 0; i < cases; i++) {
+        char text[400];
+        const double height = dice_between(&d, 0.1, 2.0);
+        const double speed = sqrt(2.0 * G * height);
+        const double e = dice_between(&d, -0.6, 1.6);
+        /* the body starts at the speed e - slope speed */
+        const double slope = dice_between(&d, -0.2, 0.2);
+        const double begin = e - slope * speed;
+        snprintf(text, sizeof text,
+                 "mechanism ball\ncoordinate z [m]\nT = 1 [kg]*z'^2/2\nV = 9.81 [N]*z\n"
+                 "stop z >= 0 restitution %.17g + %.17g [s/m]*abs(z')\n"
+                 "scene s {\n  start z = %.17g [m]\n  until %.17g [s]\n}\n",
+                 begin, slope, height, speed / G + 0.01);
+        said what;
+        command_say_model(command_run, text, &what);
+        const char *warning = strstr(what.err, "the restitution was outside 0 .. 1 in 1 impact");
+        const bool outside = e < 0.0 || e > 1.0;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
+        TEST_ASSERT_TRUE_MESSAGE((warning != NULL) == outside, text);
+        if (warning != NULL) {
+            double value;
+            double begin_s;
+            const char *rest = said_number(strstr(warning, "first ") + 6, &value);
+            said_number(said_words(rest, "in the step after t ="), &begin_s);
+            expect_between("restitution", e - 1e-5, e + 1e-5, value);
+            expect_between("its step", speed / G - 1.001e-3, speed / G + 1e-6, begin_s);
+            told++;
+        }
+    }
+    TEST_ASSERT_TRUE(4 * told >= cases || cases < 24);
+}
+
+/* === contact redundant ======================================================================== */
+/* A plate on two to five supports in a line, more than needed: the forces are not unique, but
+ * the motion is. The plate rests, or leaves all supports at once when they accelerate downwards faster than gravity, or
+ * tips over the outermost one under a torque. Compared with closed forms. */
+
+enum { PLATE_TEXT = 2000 };
+
+typedef struct plate {
+    int supports;
+    double place_m[5]; /* rising; the last is the furthest right */
+    double mass_kg;
+    double inertia_kgm2;
+    double rate;   /* of the clock, rad/s */
+    double height; /* amplitude of the supports' swing, m, or of the torque, N m */
+} plate;
+
+static plate plate_drawn(dice *d) {
+    plate p = {.supports = 2 + (int)dice_one_of(d, 4)};
+    double at = -dice_between(d, 0.2, 1.0);
+    for (int i = 0; i < p.supports - 1; i++) {
+        p.place_m[i] = at * (1.0 - (double)i / p.supports);
+    }
+    p.place_m[p.supports - 1] = dice_between(d, 0.1, 1.0);
+    p.mass_kg = dice_between(d, 0.5, 3.0);
+    p.inertia_kgm2 = dice_between(d, 0.05, 1.0);
+    p.rate = dice_between(d, 2.0, 20.0);
+    return p;
+}
+
+/* With `falls` the supports move as height sin(c), and y is the plate's height above them. Otherwise a torque tips the plate
+ * to the right. */
+static void plate_write(const plate *p, bool falls, char text[PLATE_TEXT]) {
+    int at = snprintf(text, PLATE_TEXT,
+                      "mechanism plate\ncoordinate y [m]\ncoordinate a [rad]\ncoordinate c [rad]\n"
+                      "T = %.17g [kg]*y'^2/2 + %.17g [kg*m^2]*a'^2/2 + 1 [kg*m^2]*c'^2/2\n"
+                      "V = %.17g [N]*y\n",
+                      p->mass_kg, p->inertia_kgm2, p->mass_kg * G);
+    at += falls ? snprintf(text + at, (size_t)(PLATE_TEXT - at), "Q(y) = %.17g [N]*sin(c)\n",
+                           p->mass_kg * p->height * p->rate * p->rate)
+                : snprintf(text + at, (size_t)(PLATE_TEXT - at), "Q(a) = %.17g [N*m]*sin(c)\n",
+                           p->height);
+    for (int i = 0; i < p->supports; i++) {
+        at += snprintf(text + at, (size_t)(PLATE_TEXT - at),
+                       "stop y - %.17g [m]*a >= 0 [m] restitution 0\n", p->place_m[i]);
+    }
+    snprintf(text + at, (size_t)(PLATE_TEXT - at),
+             "scene s { start c' = %.17g [rad/s]\nstep 1 [ms]\nuntil 1 [s] }\n", p->rate);
+}
+
+/* Largest errors of place and angle at the steps until `until_s`. */
+static double plate_run(const plate *p, bool falls, const engine_kind *kind, double until_s) {
+    char text[PLATE_TEXT];
+    motion m;
+    double most = 0.0;
+    plate_write(p, falls, text);
+    motion_open_text(&m, text, (stepping){.kind = kind, .method = WH_RK4});
+    const double edge = p->place_m[p->supports - 1];
+    const double weight = p->mass_kg * G;
+    const double begins = falls ? asin(G / (p->height * p->rate * p->rate)) / p->rate
+                                : asin(weight * edge / p->height) / p->rate;
+    const double turned = p->inertia_kgm2 + p->mass_kg * edge * edge;
+    for (int k = 1; k * 1e-3 < until_s; k++) {
+        const double t = k * 1e-3;
+        const double c = p->rate * t;
+        const double c0 = p->rate * begins;
+        const double dt = t - begins;
+        double y = 0.0;
+        double a = 0.0;
+        if (dt > 0.0 && falls) {
+            y = p->height * (sin(c0) - sin(c) + p->rate * cos(c0) * dt) - G * dt * dt / 2.0;
+        } else if (dt > 0.0) {
+            a = (p->height * (sin(c0) - sin(c) + cos(c0) * p->rate * dt) / (p->rate * p->rate) -
+                 weight * edge * dt * dt / 2.0) /
+                turned;
+            y = edge * a;
+        }
+        TEST_ASSERT_EQUAL_INT_MESSAGE(WH_OK, motion_step(&m, 1), text);
+        most = fmax(most, fmax(fabs(motion_value(&m, "y") - y), fabs(motion_value(&m, "a") - a)));
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
+    motion_close(&m);
+    return most;
+}
+
+static void check_plates(bool falls, const char *words) {
+    dice d = dice_of("redundant", falls ? 15005 : 15006);
+    const unsigned cases = dice_cases(few_or_all(10, 100));
+    double worst[2] = {0.0, 0.0};
+    for (unsigned i = 0; i < cases; i++) {
+        plate p = plate_drawn(&d);
+        double until_s = 0.0;
+        if (falls) {
+            /* the plate flies from sin c0 = share until shortly after the top of the supports' swing */
+            const double share = dice_between(&d, 0.3, 0.9);
+            p.height = G / (share * p.rate * p.rate);
+            until_s = 1.7 / p.rate;
+        } else {
+            p.height = p.mass_kg * G * p.place_m[p.supports - 1] / dice_between(&d, 0.3, 0.9);
+            until_s = 1.55 / p.rate;
+        }
+        worst[0] = fmax(worst[0], plate_run(&p, falls, &engine_double, fmin(until_s, 1.0)));
+        worst[1] = fmax(worst[1], plate_run(&p, falls, &engine_float, fmin(until_s, 1.0)));
+    }
+    printf("  %s, %u plates: off by at most %.1e in double, %.1e in float\n", words, cases,
+           worst[0], worst[1]);
+    TEST_ASSERT_TRUE(worst[0] < 1e-9);
+    TEST_ASSERT_TRUE(worst[1] < 1e-5);
+}
+
+TEST(contact_redundant, supports_fall_away) { check_plates(true, "supports that fall away"); }
+TEST(contact_redundant, plates_tip) { check_plates(false, "plates that tip"); }

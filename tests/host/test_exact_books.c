@@ -303,106 +303,11 @@ TEST(force_free, momentum_and_centre_of_mass_stay_at_each_scenes_own_step) {
 }
 
 /* === ledger scenes ============================================================================ */
-/* Energy and momentum balances of the built-in scenes: they close, attribute each change, and leave the run
- * unchanged. */
-
-enum { ENTRIES_MAX = 400 };
-
-typedef struct account_book {
-    double smooth; /* sum of the entries of energies, inputs and dampers */
-    double contact[16];
-    double left_over; /* numerical drift */
-} account_book;
-
-/* The account of the energy (name NULL) or of a coordinate's momentum. */
-static account_book book_of(const motion *m, const char *name) {
-    const image *p = m->image;
-    const image_ledger *l = &p->ledger;
-    static double total[ENTRIES_MAX];
-    static double error[ENTRIES_MAX];
-    TEST_ASSERT_TRUE(l->kept);
-    TEST_ASSERT_TRUE(l->entries <= ENTRIES_MAX);
-    int account = 0;
-    while (name != NULL &&
-           (account == 0 ||
-            strcmp(m->equations->unknowns[l->unknown[account]].symbol->name, name) != 0)) {
-        account++;
-        TEST_ASSERT_TRUE_MESSAGE(account < l->accounts, name);
-    }
-    m->kind->ledger(m->run, total, error);
-    account_book book = {.left_over = error[account]};
-    for (int i = 0; i < l->smooth; i++) {
-        book.smooth += l->entry[i].account == account ? total[i] : 0.0;
-    }
-    for (int k = 0; k < p->contacts; k++) {
-        book.contact[k] = total[l->smooth + k * (1 + p->coordinates) + account];
-    }
-    return book;
-}
-
-static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
-
-static account_book run_to_end(motion *m, const char *scene_name, const char *account) {
-    motion_open(m, scene_name, booked);
-    motion_to(m, m->instance->until_s);
-    return book_of(m, account);
-}
-
-/* --- scenes with contacts ------------------------------------------------------------------------ */
-
-/* The carriage's net momentum comes from stop and friction alone: within 1e-9 N s, over 60 s of impacts, slips and
- * sticks. */
-TEST(ledger_scenes, the_carriages_momentum_is_from_stop_and_friction) {
-    motion m;
-    motion_open(&m, "carriage_stop", booked);
-    const double before = motion_value(&m, "momentum");
-    motion_to(&m, m.instance->until_s);
-    const account_book book = book_of(&m, "X");
-    const double net = motion_value(&m, "momentum") - before;
-    TEST_ASSERT_TRUE(book.smooth == 0.0);
-    TEST_ASSERT_TRUE(book.contact[0] > 0.1);  /* the stop pushes away from itself */
-    TEST_ASSERT_TRUE(book.contact[1] < -0.1); /* friction ends the motion */
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, net, book.contact[0] + book.contact[1]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over);
-    motion_close(&m);
-}
-
-/* Halvorson's vehicle gets all its momentum from the ground. Without friction there is no entry, and its momentum lies
- * within the account's drift. */
-TEST(ledger_scenes, the_vehicles_momentum_is_from_the_ground) {
-    motion m;
-    account_book book = run_to_end(&m, "halvorson_ground", "X");
-    TEST_ASSERT_TRUE(book.smooth == 0.0);
-    TEST_ASSERT_TRUE(fabs(book.contact[0]) > 1e-3);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, motion_value(&m, "momentum"), book.contact[0]);
-    motion_close(&m);
-
-    book = run_to_end(&m, "halvorson_smooth", "X");
-    TEST_ASSERT_TRUE(book.smooth == 0.0);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, book.left_over);
-    TEST_ASSERT_TRUE(fabs(motion_value(&m, "momentum")) <= fabs(book.left_over) + 1e-15);
-    motion_close(&m);
-}
-
-/* The magnets act between disc and frame: they take energy, but give the carriage no momentum. */
-TEST(ledger_scenes, the_magnets_give_the_carriage_nothing) {
-    motion m;
-    const account_book energy = run_to_end(&m, "thomson_magnet", NULL);
-    const account_book carriage = book_of(&m, "X");
-    TEST_ASSERT_TRUE(energy.contact[0] < -1.0);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, energy.left_over);
-    TEST_ASSERT_TRUE(carriage.contact[0] == 0.0 && carriage.smooth == 0.0);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-8, 0.0, carriage.left_over);
-    motion_close(&m);
-}
-
-/* --- all scenes ---------------------------------------------------------------------------------- */
-
-static bool has_energies(const scene *of) { return !of->mechanism->is_system; }
+/* The energy balance of a built-in scene leaves the run unchanged. Its entries: test_contact.c. */
 
 static int check_bits_with_books(const scene *s) {
     static const engine_kind *const kinds[] = {&engine_float, &engine_double};
-    if (!has_energies(s)) {
+    if (s->mechanism->is_system) {
         return 0;
     }
     for (int k = 0; k < 2; k++) {
