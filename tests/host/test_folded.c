@@ -9,13 +9,12 @@
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 
-#include "by_bodies.h"
 #include "command.h"
 #include "motion.h"
 
 /* === folded =================================================================================== */
 
-enum { MOST = BODIES_MOST, LINKS = 4, GROUND = -1 };
+enum { MOST = 3, LINKS = 4, GROUND = -1 };
 
 typedef struct link {
     int of;
@@ -149,35 +148,70 @@ static void held_text(const held *h, char *text, size_t size) {
 
 /* --- the reference ---------------------------------------------------------------------------------------------- */
 
-static void accelerate(const void *of, const bodies_state *s, long double *a_mps2) {
-    const held *h = of;
+typedef struct bodies_state {
+    long double x_m[MOST];
+    long double v_mps[MOST];
+} bodies_state;
+
+static bodies_state slope_of(const held *h, const bodies_state *s) {
+    bodies_state slope = {{0.0L}, {0.0L}};
+    for (int b = 0; b < h->bodies; b++) {
+        slope.x_m[b] = s->v_mps[b];
+    }
     for (int i = 0; i < h->links; i++) {
         const link *l = &h->link[i];
         const long double x = s->x_m[l->of] - (l->to != GROUND ? s->x_m[l->to] : 0.0L);
         const long double v = s->v_mps[l->of] - (l->to != GROUND ? s->v_mps[l->to] : 0.0L);
         const long double pull = (long double)l->spring_Npm * x + (long double)l->damper_Nspm * v;
-        a_mps2[l->of] -= pull / (long double)h->mass_kg[l->of];
+        slope.v_mps[l->of] -= pull / (long double)h->mass_kg[l->of];
         if (l->to != GROUND) {
-            a_mps2[l->to] += pull / (long double)h->mass_kg[l->to];
+            slope.v_mps[l->to] += pull / (long double)h->mass_kg[l->to];
         }
+    }
+    return slope;
+}
+
+static void add(bodies_state *to, long double by, const bodies_state *s) {
+    for (int i = 0; i < MOST; i++) {
+        to->x_m[i] += by * s->x_m[i];
+        to->v_mps[i] += by * s->v_mps[i];
     }
 }
 
-static void counted(const void *of, const long double *x, long double *q) {
-    const held *h = of;
-    for (int b = 0; b < h->bodies; b++) {
-        q[b] = x[b] - (b > 0 ? x[b - 1] : 0.0L);
+static void step_bodies(const held *h, bodies_state *s) {
+    static const long double node[4] = {0.0L, 0.5L, 0.5L, 1.0L};
+    static const long double weight[4] = {1.0L / 6.0L, 1.0L / 3.0L, 1.0L / 3.0L, 1.0L / 6.0L};
+    const long double step_s = (long double)h->step_s;
+    bodies_state next = *s;
+    bodies_state slope = {{0.0L}, {0.0L}};
+    for (int stage = 0; stage < 4; stage++) {
+        bodies_state at = *s;
+        add(&at, node[stage] * step_s, &slope);
+        slope = slope_of(h, &at);
+        add(&next, weight[stage] * step_s, &slope);
     }
+    *s = next;
 }
 
 /* With the scene's own step: the coordinates at the end, and the range of each. */
 static void run_by_bodies(const held *h, long double *end, double *range) {
-    const by_bodies b = {h, h->bodies, h->step_s, h->steps, accelerate, counted};
-    long double start[MOST] = {0.0L};
+    bodies_state s = {{0.0L}, {0.0L}};
+    double low[MOST] = {0.0};
+    double high[MOST] = {0.0};
     for (int i = 0; i < h->bodies; i++) {
-        start[i] = (long double)h->start[i] + (i > 0 ? start[i - 1] : 0.0L);
+        s.x_m[i] = (long double)h->start[i] + (i > 0 ? s.x_m[i - 1] : 0.0L);
     }
-    by_bodies_run(&b, start, end, range);
+    for (int k = 0; k <= h->steps; k++) {
+        if (k > 0) {
+            step_bodies(h, &s);
+        }
+        for (int i = 0; i < h->bodies; i++) {
+            end[i] = s.x_m[i] - (i > 0 ? s.x_m[i - 1] : 0.0L);
+            low[i] = k == 0 ? (double)end[i] : fmin(low[i], (double)end[i]);
+            high[i] = k == 0 ? (double)end[i] : fmax(high[i], (double)end[i]);
+            range[i] = high[i] - low[i];
+        }
+    }
 }
 
 /* --- messages ---------------------------------------------------------------------------------------------------- */
@@ -189,7 +223,9 @@ typedef struct seen {
     bool trusted; /* trusted to the end */
     /* `whirl trust` answered "unknown", because the bound on round-off is too large */
     bool untold;
-    double off; /* largest error relative to the coordinate's range */
+    bool singular;     /* the mass matrix is nearly singular */
+    double off;        /* largest error relative to the coordinate's range */
+    double off_of_all; /* largest error relative to the largest range */
 } seen;
 
 /* Two runs with the same folded numbers cannot show the error. */
@@ -206,6 +242,7 @@ static seen see(const held *h) {
     seen s = {.off = 0.0};
     long double wanted[MOST];
     double range[MOST];
+    double largest = 0.0;
     held_text(h, text, sizeof text);
     command_say_model(command_run, text, &what);
     s.refused = what.status == 2 && (strstr(what.err, "singular mass matrix") != NULL ||
@@ -216,6 +253,7 @@ static seen see(const held *h) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     s.told = strstr(what.err, "[accuracy]") != NULL || strstr(what.err, "[constants]") != NULL;
     s.warned = strstr(what.err, "warning") != NULL;
+    s.singular = strstr(what.err, "nearly singular") != NULL;
     s.trusted = strstr(what.out, "to the end: every") != NULL;
     s.untold = strstr(what.out, "unknown: double has") != NULL;
     TEST_ASSERT_TRUE_MESSAGE(!s.trusted || !s.warned, what.err);
@@ -224,10 +262,16 @@ static seen see(const held *h) {
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, (uint64_t)h->steps));
     run_by_bodies(h, wanted, range);
     for (int b = 0; b < h->bodies; b++) {
+        largest = fmax(largest, range[b]);
+    }
+    for (int b = 0; b < h->bodies; b++) {
         char name[8];
         snprintf(name, sizeof name, "q%d", b);
         const double off = fabs((double)((long double)motion_value(&m, name) - wanted[b]));
-        s.off = range[b] > 1e-3 ? fmax(s.off, off / range[b]) : s.off;
+        if (range[b] > fmin(1e-3, 2e-3 * largest)) { /* a smaller one may be round-off */
+            s.off = fmax(s.off, off / range[b]);
+        }
+        s.off_of_all = fmax(s.off_of_all, off / largest);
     }
     motion_close(&m);
     if (s.off > 1e-3) {
@@ -405,6 +449,192 @@ TEST(folded, what_is_nearly_the_same) {
     }
 }
 
+/* === blurred ================================================================================== */
+/* Bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few digits of their
+ * mass matrix, also in double, so two runs can agree on a wrong result. A wrong run must have a warning. Coordinates
+ * relative to the heavier body are accurate and cause no warning. */
+
+typedef struct line {
+    int bodies;
+    double mass_kg[MOST];
+    double spring_Npm[MOST]; /* spring between a body and the previous one; [0] to the ground */
+    double start_m[MOST];
+    int order[MOST]; /* start of each body, relative to the previous one; [0] to the ground */
+} line;
+
+static held held_of(const line *l) {
+    held h = {.bodies = l->bodies, .links = l->bodies, .step_s = 1e-3, .steps = 2000};
+    int at[MOST] = {0};
+    for (int i = 0; i < l->bodies; i++) {
+        at[l->order[i]] = i;
+    }
+    for (int i = 0; i < l->bodies; i++) {
+        const int b = l->order[i];
+        h.mass_kg[i] = l->mass_kg[b];
+        h.start[i] = l->start_m[b] - (i > 0 ? l->start_m[l->order[i - 1]] : 0.0);
+        h.link[i] = (link){i, b > 0 ? at[b - 1] : GROUND, l->spring_Npm[b], 0.0};
+    }
+    return h;
+}
+
+static seen see_line(const line *l) {
+    const held h = held_of(l);
+    return see(&h);
+}
+
+/* The stiffnesses are similar, at most about 20 rad/s. Whether round-off of a stiff spring hides a soft one is not
+ * tested here. */
+static line draw_line(dice *d, double decades) {
+    line l = {.bodies = 2 + (int)dice_one_of(d, 2)};
+    for (int b = 0; b < l.bodies; b++) {
+        l.mass_kg[b] = pow(10.0, dice_between(d, -decades / 2.0, decades / 2.0));
+        l.start_m[b] = dice_between(d, -0.1, 0.1);
+        l.order[b] = b;
+    }
+    double least = l.mass_kg[0];
+    for (int b = 1; b < l.bodies; b++) {
+        least = fmin(least, l.mass_kg[b]);
+    }
+    for (int b = 0; b < l.bodies; b++) {
+        l.spring_Npm[b] = least * dice_between(d, 25.0, 200.0);
+    }
+    for (int i = l.bodies - 1; i > 0; i--) { /* random order */
+        const int with = (int)dice_one_of(d, (unsigned)i + 1U);
+        const int swap = l.order[i];
+        l.order[i] = l.order[with];
+        l.order[with] = swap;
+    }
+    return l;
+}
+
+/* Orders the bodies so that each is measured relative to the heavier one. */
+static void count_from_heavier(line *l) {
+    for (int i = 1; i < l->bodies; i++) {
+        for (int k = i; k > 0 && l->mass_kg[l->order[k]] > l->mass_kg[l->order[k - 1]]; k--) {
+            const int swap = l->order[k];
+            l->order[k] = l->order[k - 1];
+            l->order[k - 1] = swap;
+        }
+    }
+}
+
+/* Largest ratio of a body's mass to that of the lighter body relative to which it is measured. */
+static double against_the_grain(const line *l) {
+    double most = 1.0;
+    double lightest = l->mass_kg[l->order[0]];
+    for (int i = 1; i < l->bodies; i++) {
+        most = fmax(most, l->mass_kg[l->order[i]] / lightest);
+        lightest = fmin(lightest, l->mass_kg[l->order[i]]);
+    }
+    return most;
+}
+
+TEST(blurred, what_is_off_is_told) {
+    dice d = dice_of("blurred", 11);
+    const unsigned cases = dice_cases(usual_or(few_or_all(40, 400), 6));
+    unsigned refused = 0;
+    unsigned warned = 0;
+    unsigned off = 0;
+    unsigned quiet = 0;
+    double worst_quiet = 0.0;
+    double worst_cured = 0.0;
+    for (unsigned k = 0; k < cases; k++) {
+        line l = draw_line(&d, dice_between(&d, 8.0, 28.0));
+        const seen s = see_line(&l);
+        const double grain = against_the_grain(&l);
+        char told[200];
+        snprintf(told, sizeof told, "case %u: a ratio of %.2g, off by %.2e of its range, %s, %s", k,
+                 grain, s.off, s.singular ? "warned" : "not warned",
+                 s.trusted ? "trusted" : "not trusted");
+        TEST_ASSERT_TRUE_MESSAGE(!s.refused || grain > 5e12, told);
+        TEST_ASSERT_TRUE_MESSAGE(s.refused || s.off < 1e-3 || !s.trusted, told);
+        TEST_ASSERT_TRUE_MESSAGE(!s.singular || grain > 2e10, told);
+        TEST_ASSERT_TRUE_MESSAGE(s.singular || s.refused || grain < 2e12, told);
+        refused += s.refused ? 1U : 0U;
+        warned += s.singular ? 1U : 0U;
+        off += !s.refused && s.off > 1e-3 ? 1U : 0U;
+        if (!s.refused && !s.singular) {
+            quiet++;
+            worst_quiet = fmax(worst_quiet, s.off_of_all);
+        }
+        count_from_heavier(&l);
+        const seen cured = see_line(&l);
+        TEST_ASSERT_FALSE_MESSAGE(cured.refused || cured.singular, told);
+        TEST_ASSERT_TRUE_MESSAGE(cured.off_of_all < 1e-9, told);
+        worst_cured = fmax(worst_cured, cured.off_of_all);
+    }
+    printf(
+        "  %u lines of bodies: %u refused, %u warned of, %u off by more than a thousandth; %u quiet, off by at most "
+        "%.1e; counted from the heavier body at most %.1e\n",
+        cases, refused, warned, off, quiet, worst_quiet, worst_cured);
+    TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
+}
+
+/* The mass of the light body depends on the position of the heavy one, so no constants are folded at derivation. Only
+ * the round-off of each step loses digits. */
+static void varying_text(double light_kg, double ratio, double spring_Npm, double start_m,
+                         char *text, size_t size) {
+    snprintf(text, size,
+             "mechanism varying\ncoordinate x [m]\ncoordinate s [m]\n"
+             "parameter M = %.17g [kg]\nparameter m = %.17g [kg]\nparameter l = 100 [m]\n"
+             "T = M*exp(s/l)*x'^2/2 + m*(x' + s')^2/2\nV = %.17g [N/m]*s^2/2\n"
+             "scene s { start s = %.17g [m]\nstep 1 [ms]\nuntil 2 [s] }\n",
+             light_kg, light_kg * ratio, spring_Npm, start_m);
+}
+
+/* The two runs of `whirl trust` always agree, so agreement must not be taken for accuracy. */
+TEST(blurred, no_trust_in_what_both_have_wrong) {
+    dice d = dice_of("blurred", 13);
+    for (int k = 0; k < 12; k++) {
+        char text[2000];
+        said what;
+        const bool is_lost = k % 2 == 0;
+        const double ratio =
+            pow(10.0, is_lost ? dice_between(&d, 12.3, 12.6) : dice_between(&d, 2.0, 9.0));
+        const double light_kg = pow(10.0, dice_between(&d, -6.0, 2.0));
+        const line l = {.bodies = 2,
+                        .mass_kg = {light_kg, light_kg * ratio},
+                        .spring_Npm = {0.0, light_kg * dice_between(&d, 25.0, 200.0)},
+                        .start_m = {0.0, dice_between(&d, 0.05, 0.1)},
+                        .order = {0, 1}};
+        for (int varies = 0; varies < 2; varies++) {
+            if (varies == 0) {
+                const held h = held_of(&l);
+                held_text(&h, text, sizeof text);
+            } else {
+                varying_text(light_kg, ratio, l.spring_Npm[1], l.start_m[1], text, sizeof text);
+            }
+            command_say_model(command_trust, text, &what);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
+            TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "trusted to the end") == NULL) == is_lost,
+                                     what.out);
+            /* the loss by constant folding is reported with another number */
+            const bool by_rounding = strstr(what.out, "unknown") != NULL;
+            TEST_ASSERT_TRUE_MESSAGE(is_lost ? by_rounding || varies == 0 : !by_rounding, what.out);
+        }
+    }
+}
+
+TEST(blurred, equations_that_say_nearly_the_same) {
+    dice d = dice_of("blurred", 12);
+    for (int decade = 2; decade <= 14; decade++) {
+        char text[400];
+        said what;
+        const double share = pow(10.0, -decade) * dice_between(&d, 1.0, 2.0);
+        snprintf(text, sizeof text,
+                 "mechanism near\nstate x\nstate y\n"
+                 "equation x' + y' = 1 [1/s]\nequation x' + %.17g*y' = 1 [1/s]\n"
+                 "scene s { step 1 [ms]\nuntil 10 [ms] }\n",
+                 1.0 + share);
+        command_say_model(command_run, text, &what);
+        const bool warned = strstr(what.err, "two equations are nearly the same") != NULL;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(decade < 14 ? said_owes(what.err) : 2, what.status, what.err);
+        TEST_ASSERT_TRUE_MESSAGE(warned == (decade == 12 || decade == 13) || decade == 11,
+                                 what.err);
+        TEST_ASSERT_TRUE(said_owes(what.err) == 0 || strstr(what.out, "to the end: every") == NULL);
+    }
+}
+
 /* === folded numbers =========================================================================== */
 /* A soft spring whose rate is computed from much larger numbers, by parameters or in the formula: differences,
  * quotients, roots and functions. It acts on a mass, or determines the mass's start, a push, friction or an event's
@@ -447,10 +677,6 @@ typedef struct drawn {
     double end_s;
     char text[2000];
 } drawn;
-
-static double power_of_ten_folded_numbers(dice *d, double low, double high) {
-    return pow(10.0, dice_between(d, low, high));
-}
 
 /* The number that makes k of K, and the k that it yields exactly. */
 static double made_by(const maker *of, double part, long double *of_hard) {
@@ -540,8 +766,8 @@ static void draw_folded_numbers(dice *d, drawn *w) {
                  .use = (use)dice_one_of(d, USES),
                  .inside = dice_one_of(d, 3) == 0};
     const maker *of = &makers[w->maker];
-    const double drawn_Npm = power_of_ten_folded_numbers(d, -4.0, 2.0);
-    const double part = power_of_ten_folded_numbers(d, -18.0, -3.0);
+    const double drawn_Npm = power_of_ten(d, -4.0, 2.0);
+    const double part = power_of_ten(d, -18.0, -3.0);
     char numbers[300];
     long double of_hard;
     w->hard_Npm = drawn_Npm / part;
@@ -639,7 +865,7 @@ TEST(folded_numbers, what_stands_for_want_of_digits) {
         char q[200];
         char text[600];
         said what;
-        snprintf(length, sizeof length, "%.3e", power_of_ten_folded_numbers(&d, 6.0, 18.0));
+        snprintf(length, sizeof length, "%.3e", power_of_ten(&d, 6.0, 18.0));
         snprintf(q, sizeof q, force[dice_one_of(&d, 5)], length, length);
         snprintf(text, sizeof text,
                  "mechanism drawn\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nQ(x) = %s\n"
@@ -668,7 +894,7 @@ TEST(folded_numbers, what_leaves_all_bounds) {
     for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
         char text[500];
         said what;
-        const double large = power_of_ten_folded_numbers(&d, 18.5, 21.0);
+        const double large = power_of_ten(&d, 18.5, 21.0);
         snprintf(text, sizeof text,
                  "mechanism drawn\ncoordinate x [m]\nparameter b = exp((%.17g + %.17g) - %.17g)\n"
                  "T = 1 [kg]*x'^2/2\nV = b*1 [N/m]*x^2/2\n"
