@@ -59,25 +59,6 @@ linkage linkage_draw(uint64_t *seed) {
     return of;
 }
 
-linkage linkage_mirrored(const linkage *of) {
-    linkage m = *of;
-    m.gravity_mps2[1] = -m.gravity_mps2[1];
-    for (int k = 0; k < m.bodies; k++) {
-        linkage_body *b = &m.body[k];
-        b->rail_rad = -b->rail_rad;
-        if (!b->slides) {
-            b->rest = -b->rest;
-            b->drive = -b->drive;
-            m.start[k] = -m.start[k];
-            m.start_rate[k] = -m.start_rate[k];
-        }
-    }
-    for (int k = 0; k < m.springs; k++) {
-        m.spring[k].y_m = -m.spring[k].y_m;
-    }
-    return m;
-}
-
 enum { KINETIC, POTENTIAL, DISSIPATION, FORCE, SUMS = FORCE + LINKAGE_BODIES, SUM_TEXT = 4096 };
 
 typedef struct writer {

@@ -46,8 +46,6 @@ typedef struct linkage {
 
 /* Every body has mass and inertia, so the mass matrix is positive definite. */
 linkage linkage_draw(uint64_t *seed);
-/* The mirrored linkage, with -y for y: angles and torques change sign, displacements along rails do not. */
-linkage linkage_mirrored(const linkage *of);
 
 typedef enum linkage_forces {
     LINKAGE_BARE,   /* no drives, dampers and springs */

@@ -281,8 +281,8 @@ TEST(leans, origins_and_potentials) {
 
 /* === linkages ================================================================================= */
 /* Random planar linkages. The accelerations and motions derived from their text are compared with numeric derivatives
- * of the same energies (linkage.h). Reflection, the order of the statements, and forces in effects instead of the
- * mechanism must not change the motion. The residual of the energy balance must be small. WHIRL_CASES=10000
+ * of the same energies (linkage.h). Forces in effects instead of the mechanism must not change the
+ * motion. The residual of the energy balance must be small. WHIRL_CASES=10000
  * WHIRL_SEED=... chooses other cases. */
 
 enum { LINKAGES_STATES = 10, STEPS = 100 };
@@ -451,40 +451,6 @@ TEST(linkages, motions_are_those_of_the_energies) {
 }
 
 /* --- invariances --------------------------------------------------------------------------------------------- */
-
-TEST(linkages, a_mirror_image_moves_as_the_mirror_image) {
-    dice d = dice_of("linkages", 14);
-    double worst = 0.0;
-    for (unsigned k = 0; k < cases(); k += ONE_IN) {
-        const linkage of = drawn_linkage(&d, k);
-        const linkage other = linkage_mirrored(&of);
-        const moved found = run_of(&of, as_usual, &engine_double);
-        moved mirrored = run_of(&other, as_usual, &engine_double);
-        for (int i = 0; i < of.bodies; i++) {
-            const double sign = of.body[i].slides ? 1.0 : -1.0;
-            mirrored.value[i] *= sign;
-            mirrored.value[LINKAGE_BODIES + i] *= sign;
-        }
-        const double off = apart(&of, &found, &mirrored);
-        expect(off < 1e-9, "the mirror image is off", off, text_of_linkages(&of, as_usual));
-        worst = fmax(worst, off);
-    }
-    printf("  the mirror image is off by at most %.1e\n", worst);
-}
-
-TEST(linkages, the_order_of_the_file_does_not_matter) {
-    dice d = dice_of("linkages", 14);
-    double worst = 0.0;
-    for (unsigned k = 1; k < cases(); k += ONE_IN) {
-        const linkage of = drawn_linkage(&d, k);
-        const moved found = run_of(&of, as_usual, &engine_double);
-        const moved other = run_of(&of, backwards, &engine_double);
-        const double off = apart(&of, &found, &other);
-        expect(off < 1e-9, "written backwards it is off", off, text_of_linkages(&of, as_usual));
-        worst = fmax(worst, off);
-    }
-    printf("  written backwards it is off by at most %.1e\n", worst);
-}
 
 /* A disabled effect leaves every bit unchanged. An enabled effect changes the order of a sum, and so the last bits of the
  * coefficients. */

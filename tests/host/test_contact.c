@@ -440,7 +440,7 @@ static void check_impacts(draw_moment *draw, const engine_kind *kind, double bou
     int unsolved = 0;
     int booked = 0;
     for (long done = 0; done < runs;) {
-        const double impact_s = DRAWN_STEP_S * (double)(1U + random_bits(&seed) % 7U) / 8.0;
+        const double impact_s = DRAWN_STEP_S * (double)(random_bits(&seed) % 8U) / 8.0;
         drawn b;
         motion m;
         double lambda[DRAWN_CONTACTS] = {0.0};

@@ -534,24 +534,6 @@ TEST(contact_load, an_assignment_lifts_or_throws_what_rests) {
     }
 }
 
-TEST(contact_load, an_input_moves_a_stop) {
-    for (int i = 0; each_number(i) != NULL; i++) {
-        motion m;
-        motion_open_text(&m, FLOOR "}\n", *each_number(i));
-        motion_to(&m, 0.5);
-        m.kind->set_input(m.run, 0, -1.0);
-        motion_to(&m, 0.7);
-        const double bound = each_number(i)->kind == &engine_float ? 1e-5 : 1e-9;
-        expect_between("fallen for 0.2 s", -bound, bound, motion_value(&m, "y") + 0.5 * G * 0.04);
-        motion_to(&m, 3.0);
-        TEST_ASSERT_TRUE(motion_value(&m, "y") == -1.0 && motion_value(&m, "y'") == 0.0);
-        m.kind->set_input(m.run, 0, 0.5);
-        motion_to(&m, 3.1);
-        TEST_ASSERT_TRUE(motion_value(&m, "y") == 0.5 && motion_value(&m, "y'") == 0.0);
-        motion_close(&m);
-    }
-}
-
 /* If an input makes the restitution less than 0 or more than 1, the nearer end counts, so that no energy appears. */
 TEST(contact_load, restitution_has_its_range_while_running) {
     motion m;
@@ -593,23 +575,6 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     }
     TEST_ASSERT_TRUE(booked);
     motion_close(&m);
-}
-
-/* A crossing exactly at a step's end is located like any other: 0.5 = 32 steps of 1/64 s. */
-TEST(contact_load, a_crossing_at_a_steps_end_is_located) {
-    static const char text[] =
-        "mechanism clock\ncoordinate c [rad]\ncoordinate x [m]\nparameter J = 1 [kg*m^2]\n"
-        "parameter m = 1 [kg]\nT = J*c'^2/2 + m*x'^2/2\n"
-        "scene s {\n  start c' = 1 [rad/s], x' = 1 [m/s]\n"
-        "  when x crosses 0.5 [m] rising { set x = 0 }\n  step 15.625 [ms]\n  until 0.875 [s]\n}\n";
-    for (int i = 0; each_number(i) != NULL; i++) {
-        motion m;
-        motion_open_text(&m, text, *each_number(i));
-        motion_to(&m, 0.875);
-        const double bound = each_number(i)->kind == &engine_float ? 1e-7 : 1e-14;
-        expect_between("x, less the closed form", -bound, bound, motion_value(&m, "x") - 0.375);
-        motion_close(&m);
-    }
 }
 
 /* === contact rest ============================================================================= */

@@ -471,24 +471,28 @@ TEST(contact_squeezed, nothing_leaves_a_cage) { watch_many(run_cage); }
 /* === crossings ================================================================================ */
 /* Several crossings have assignments. Each makes its own assignment, at its own time. */
 
-/* x moves on at 1 m/s and crosses a level every second; each crossing sets rates of some of y, z, u. */
+/* x moves on at 1 m/s and crosses a level every second, within a step or exactly at its end (32/64 s); each crossing sets
+ * rates of some of y, z, u. */
 TEST(crossings, each_crossing_sets_its_own) {
     static const char *const others[] = {"y", "z", "u"};
     uint64_t seed = 47;
     for (int round = 0; round < 40; round++) {
         const int levels = 2 + round % 4;
+        const bool at_end = round % 3 == 0;
+        const double part = at_end ? 0.5 : 0.505;
         char text[2048];
         size_t length = (size_t)snprintf(
             text, sizeof text,
             "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate z [m]\ncoordinate u [m]\n"
             "T = 1 [kg]*(x'^2 + y'^2 + z'^2 + u'^2)/2\n"
-            "scene s {\nstep 10 [ms]\nuntil 10 [s]\nstart x' = 1 [m/s]\n");
+            "scene s {\nstep %g [ms]\nuntil 10 [s]\nstart x' = 1 [m/s]\n",
+            at_end ? 15.625 : 10.0);
         double rate[3] = {0.0};
         double rates[6][3]; /* rates after each level of rounds */
         memcpy(rates[0], rate, sizeof rate);
         for (int level = 0; level < levels; level++) {
             length += (size_t)snprintf(text + length, sizeof text - length,
-                                       "when x crosses %d.505 [m] rising { set", level);
+                                       "when x crosses %g [m] rising { set", level + part);
             const unsigned which = 1 + (unsigned)(random_bits(&seed) % 7);
             bool first = true;
             for (unsigned k = 0; k < 3; k++) {
@@ -514,7 +518,7 @@ TEST(crossings, each_crossing_sets_its_own) {
                 snprintf(name, sizeof name, "%s'", others[k]);
                 TEST_ASSERT_DOUBLE_WITHIN(1e-12, rates[level][k], motion_value(&m, name));
                 moved[k] +=
-                    level == 0 ? 0.0 : 0.505 * rates[level - 1][k] + 0.495 * rates[level][k];
+                    level == 0 ? 0.0 : part * rates[level - 1][k] + (1.0 - part) * rates[level][k];
                 TEST_ASSERT_DOUBLE_WITHIN(1e-9, moved[k], motion_value(&m, others[k]));
             }
         }
