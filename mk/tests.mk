@@ -193,7 +193,7 @@ $(eval $(call tool,long_runs,$(LIBS_ALL),tests/host/motion.c $(UNITY_DIR)/unity.
 $(eval $(call tool,tel_check))
 $(eval $(call tool,mechanisms,$(LIBS_ALL),tests/host/mechanism.c))
 $(eval $(call tool,linkages,,tests/host/linkage.c))
-$(eval $(call tool,faults,$(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE),$(wildcard tests/host/faults_*.c)))
+$(eval $(call tool,faults,$(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DOUBLE),tests/host/faults_campaign.c))
 # The rig's station in simulated time, on a line of a given speed.
 $(B)/tools/sim_station: $(call objects,float,boards/programs/station.c tests/tools/sim_board.c) \
     $(call libraries,float,station rig virtual whirl scenes)

@@ -7,34 +7,10 @@
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 
-/* --- the controller's words (faults_words.c) ---------------------------------------------------------------------------*/
-
-typedef struct rig_stage {
-    char when[32]; /* NOTE=VALUE */
-    const char *word;
-    double span_s; /* mean duration in a healthy run, s */
-} rig_stage;
-
 /* The firmware's notes in the order of hal/frames/rig_frames.h: HAL_NOTES values. */
 #define NOTE_ONE(name, word, unit) +1
 enum { HAL_NOTES = HAL_NOTE_ROWS(NOTE_ONE) };
 #undef NOTE_ONE
-
-enum { RIG_STAGES_MAX = 16 };
-unsigned rig_stages(rig_stage *stage);
-int rig_stage_of(const float *note); /* -1: no stage */
-bool rig_is_tripped(const float *note);
-bool rig_is_idle(const float *note);
-bool rig_may_drive(const float *note);
-const char *rig_tripped_when(void); /* NOTE=VALUE */
-const char *rig_trip_word(int trip);
-double rig_limit_rpm(void);
-double rig_nominal_rpm(void);
-/* The greatest speed allowed before the enable is off, if the drive ignores the voltage in a run at target_rpm. */
-double rig_caught_rpm(double target_rpm);
-
-/* --- options
- * ---------------------------------------------------------------------------------------------------------- */
 
 typedef struct campaign {
     const char *plant;
@@ -49,16 +25,7 @@ typedef struct campaign {
     int jobs;
 } campaign;
 
-/* Does the board's firmware run in an emulator, which counts instructions? */
-bool campaign_is_emulated(const campaign *c);
-bool campaign_has_dials(const campaign *c);
-
-/* --- random cases (faults_draw.c)
- * ----------------------------------------------------------------------------------- */
-
-enum { CAMPAIGN_ROWS_MAX = 64 };
-unsigned campaign_rows(void);
-const char *campaign_row_word(unsigned row);
+/* --- random cases --------------------------------------------------------------------------------- */
 
 typedef struct campaign_case {
     unsigned row;
@@ -77,15 +44,12 @@ typedef struct campaign_case {
     char words[400]; /* arguments of --fault: the fault and the noise of every run */
 } campaign_case;
 
-/* Is the fault of this case its only one? */
-bool campaign_is_alone(const campaign_case *one);
-
 /* Does the campaign have any fault with the requested word, for this firmware? */
 bool campaign_has_any(const campaign *c);
 
 void campaign_draw(campaign_case *one, const campaign *c, unsigned i);
 
-/* --- how a run is judged (faults_judge.c) --------------------------------------------------------------------------*/
+/* --- how a run is judged -------------------------------------------------------------------------- */
 
 /* Bins of this many instructions per control step; the last collects all larger counts. */
 enum { STEP_BIN = 250, STEP_BINS = 9 };
@@ -197,9 +161,8 @@ typedef struct judge {
 tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
 void judge_end(judge *j, const lockstep_report *report);
 
-/* --- summary (faults_table.c) ------------------------------------------------------------------------------------- */
+/* --- summary --------------------------------------------------------------------------------------- */
 
-void campaign_print_command(FILE *out, const campaign *c, unsigned i);
 /* Prints the matrix and the worst runs in Markdown. Returns the exit status. */
 int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count);
 
