@@ -161,22 +161,24 @@ static void list(reader *r, char until) {
             if (*r->at == '\\') {
                 widest = r->width > widest ? r->width : widest;
                 r->width = from;
+                bare = false;
             }
             r->at += *r->at == '&' ? 1 : 2;
             continue;
         }
-        static const char functions[] = " sin cos tan sinh cosh tanh ";
-        const size_t length = *r->at == '\\' ? strspn(r->at + 1, "acdefghinostl") : 0;
+        static const char functions[] = " sin cos tan sinh cosh tanh operatorname exp min max ";
+        const size_t length = *r->at == '\\' ? strspn(r->at + 1, "acdefghimnoprstx") : 0;
         const char *found = functions;
-        while (length >= 3 && (found = strstr(found + 1, " ")) != NULL &&
+        while (length >= 3 && found != NULL &&
                (strncmp(found + 1, r->at + 1, length) != 0 || found[1 + length] != ' ')) {
+            found = strstr(found + 1, " ");
         }
         const bool is_function = length >= 3 && found != NULL;
         if (bare && !opens && strncmp(r->at, "\\left(", 6) == 0) {
             fail(r, "a parenthesis behind a function without one");
             break;
         }
-        bare = bare && strchr("+-=", *r->at) == NULL;
+        bare = bare && strchr("+-=,", *r->at) == NULL;
         nucleus(r);
         bool has[2] = {false, false};
         for (skip(r); r->problem == NULL && (*r->at == '^' || *r->at == '_'); skip(r)) {
