@@ -24,4 +24,8 @@ extern const unsigned suite_count;
     void test_##suite##_##name(void); \
     void test_##suite##_##name(void)
 
+/* Reals of the build, compared as floats. */
+#define CHECK_NEAR(most, wanted, found) \
+    TEST_ASSERT_FLOAT_WITHIN((float)(most), (float)(wanted), (float)(found))
+
 #endif

@@ -7,7 +7,7 @@
 
 #include "core/angle.h"
 
-#include "unity.h"
+#include "tests/suites.h"
 
 wh_rig_config even_config(void) {
     wh_rig_config config = wh_rig_standard;
@@ -211,7 +211,7 @@ void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure) {
     even_go_on_until(even, EVEN_NEVER);
     TEST_ASSERT_TRUE(even_is_over(even));
     TEST_ASSERT_TRUE(even->command.way != WH_MOTOR_DRIVES);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even->command.volts);
+    CHECK_NEAR(0.0f, 0.0f, even->command.volts);
 }
 
 bool even_is_done(const even_rig *even) {

@@ -4,6 +4,7 @@
 #include "build/gen/scenes.h"
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
 
@@ -44,12 +45,7 @@ wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm) {
     return wh_observer_start(&fed->observing, &fed->observer, fed->rotor.ticks);
 }
 
-static wh_real sine_of(wh_real rad) {
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(rad), &sine, &cosine);
-    return sine;
-}
+static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
 static void take_marks(fed_rotor *fed) {
     const rotor_state *truth = &fed->rotor;

@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "tests/scattered.h"
-#include "unity.h"
+#include "tests/suites.h"
 
 #if !WH_DOUBLE
 
@@ -110,8 +110,8 @@ void plant_go_on_to_the_end(on_plant *on) { plant_go_on_until(on, WH_PHASES); }
 void plant_check_stopped(const on_plant *on) {
     TEST_ASSERT_TRUE(is_over(on));
     TEST_ASSERT_TRUE(on->command.way != WH_MOTOR_DRIVES);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, on->command.volts);
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
+    CHECK_NEAR(0.0f, 0.0f, on->command.volts);
+    CHECK_NEAR(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
 }
 
 bool plant_is_done(const on_plant *on) {

@@ -140,11 +140,10 @@ static void check_turn(const wh_lockin_turn *turn, const made_up *made) {
     wh_real amplitude;
     wh_real phase;
     wh_polar(turn->force_N.at[1], -turn->force_N.at[2], &amplitude, &phase);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)made->amplitude_N, (float)made->amplitude_N,
-                             (float)amplitude);
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)(made->phase_rad / DEG), (float)(phase / DEG));
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)made->mean_N, (float)turn->force_N.at[0]);
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)made->mean_N, (float)turn->mean_N);
+    CHECK_NEAR(1e-4f * (float)made->amplitude_N, made->amplitude_N, amplitude);
+    CHECK_NEAR(0.01f, made->phase_rad / DEG, phase / DEG);
+    CHECK_NEAR(0.01f, made->mean_N, turn->force_N.at[0]);
+    CHECK_NEAR(0.01f, made->mean_N, turn->mean_N);
 }
 
 /* All turns count except turn 1, which has no turn before it. */
@@ -173,12 +172,12 @@ TEST(lockin, known_phase_and_amplitude_are_found) {
         made.first_ticks = i % 2U == 0 ? 0U : UINT32_MAX - 600000U; /* the timer wraps in a turn */
         run(&made, 6);
         check_all(&made, 6);
-        TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.0f, (float)turns[5].residual_N);
+        CHECK_NEAR(0.01f, 0.0f, turns[5].residual_N);
         TEST_ASSERT_TRUE(turns[5].samples >= 90U && turns[5].samples <= 91U);
         /* the load at the sensors, interpolated linearly between two samples */
         for (unsigned sensor = 0; sensor < 2; sensor++) {
             const wh_real at = load_of(&made, (wh_real)sensor * WH_R(0.25));
-            TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)at, (float)turns[5].at_pulse_N[sensor]);
+            CHECK_NEAR(0.05f, at, turns[5].at_pulse_N[sensor]);
         }
     }
 }
@@ -205,11 +204,11 @@ TEST(lockin, other_orders_are_rejected) {
         made.phase_rad = WH_R(0.7);
         run(&made, 6);
         for (unsigned i = 2; i < turns_done; i++) {
-            TEST_ASSERT_FLOAT_WITHIN(0.06f, 0.0f, (float)turns[i].force_N.at[1]); /* 0.1 % */
-            TEST_ASSERT_FLOAT_WITHIN(0.06f, 0.0f, (float)turns[i].force_N.at[2]);
+            CHECK_NEAR(0.06f, 0.0f, turns[i].force_N.at[1]); /* 0.1 % */
+            CHECK_NEAR(0.06f, 0.0f, turns[i].force_N.at[2]);
             /* orders 0 to 2 are no part of the residual; the higher orders are */
-            TEST_ASSERT_FLOAT_WITHIN(order > 2 ? 0.3f : 0.05f, order > 2 ? 43.65f : 0.0f,
-                                     (float)turns[i].residual_N); /* 60/sqrt(2) sqrt(91/86) */
+            CHECK_NEAR(order > 2 ? 0.3f : 0.05f, order > 2 ? 43.65f : 0.0f,
+                       turns[i].residual_N); /* 60/sqrt(2) sqrt(91/86) */
         }
     }
 }
@@ -397,10 +396,8 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
         wh_turn_angle_start(&rotor, &wanted);
         wh_turn_angle_shape(&rotor, &wanted, speed);
         wh_turn_angle_shape(&rotor, &wanted, speed);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)rotor.pulse_rad[0],
-                                 (float)wh_turn_angle_at(&wanted, WH_R(0.0)));
-        TEST_ASSERT_FLOAT_WITHIN(3e-6f, (float)(rotor.pulse_rad[0] + WH_RIG_TWO_PI),
-                                 (float)wh_turn_angle_at(&wanted, WH_R(1.0)));
+        CHECK_NEAR(1e-6f, rotor.pulse_rad[0], wh_turn_angle_at(&wanted, WH_R(0.0)));
+        CHECK_NEAR(3e-6f, rotor.pulse_rad[0] + WH_RIG_TWO_PI, wh_turn_angle_at(&wanted, WH_R(1.0)));
         /* the part of the turn's time at which the angle is that of sensor 2 */
         wh_real ratio = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
@@ -414,12 +411,11 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
             wh_turn_angle_shape(&said, &found, speed);
             wh_turn_angle_by_ratio(&said, &found, ratio);
         }
-        TEST_ASSERT_FLOAT_WITHIN(2e-4f, 1.0f, (float)(found.inertia_kgm2 / rotor.inertia_kgm2));
+        CHECK_NEAR(2e-4f, 1.0f, found.inertia_kgm2 / rotor.inertia_kgm2);
         wh_turn_angle_shape(&said, &found, speed);
         for (unsigned i = 0; i <= 16; i++) {
             const wh_real part = (wh_real)i / WH_R(16.0);
-            TEST_ASSERT_FLOAT_WITHIN(5e-5f, (float)wh_turn_angle_at(&wanted, part),
-                                     (float)wh_turn_angle_at(&found, part));
+            CHECK_NEAR(5e-5f, wh_turn_angle_at(&wanted, part), wh_turn_angle_at(&found, part));
         }
     }
 }
@@ -430,12 +426,11 @@ TEST(lockin, level_arms_turn_evenly) {
     wh_turn_angle angle;
     wh_turn_angle_start(&rotor, &angle);
     wh_turn_angle_shape(&rotor, &angle, WH_R(30.0));
-    TEST_ASSERT_FLOAT_WITHIN(
-        1e-4f, 0.1f,
-        (float)wh_turn_angle_by_ratio(&rotor, &angle, WH_R(0.25) - WH_R(0.1) / WH_RIG_TWO_PI));
+    CHECK_NEAR(1e-4f, 0.1f,
+               wh_turn_angle_by_ratio(&rotor, &angle, WH_R(0.25) - WH_R(0.1) / WH_RIG_TWO_PI));
     TEST_ASSERT_TRUE(angle.inertia_kgm2 == rotor.inertia_kgm2 && angle.ratios == 0);
     for (unsigned i = 0; i <= 8; i++) {
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 6.2831853f * (float)i / 8.0f,
-                                 (float)wh_turn_angle_at(&angle, (wh_real)i / WH_R(8.0)));
+        CHECK_NEAR(1e-6f, 6.2831853f * (float)i / 8.0f,
+                   wh_turn_angle_at(&angle, (wh_real)i / WH_R(8.0)));
     }
 }

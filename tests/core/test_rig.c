@@ -28,12 +28,11 @@ TEST(rig, a_gap_keeps_the_speed_and_counts) {
     const uint32_t last = ticks - 3U * QUARTER;
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, last + 3U * QUARTER));
     TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, last + 5U * QUARTER));
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.227275f,
-                             (float)wh_speed_silence_s(&speed, last + 5U * QUARTER));
+    CHECK_NEAR(1e-5f, 0.227275f, wh_speed_silence_s(&speed, last + 5U * QUARTER));
     ticks += 4U * QUARTER;
     TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, ticks));
     TEST_ASSERT_EQUAL_UINT32(2, speed.lost);
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, 330.0f, rpm(speed.turn_radps));
+    CHECK_NEAR(0.01f, 330.0f, rpm(speed.turn_radps));
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, ticks + 3U * QUARTER));
 }
 
@@ -51,7 +50,7 @@ TEST(rig, three_lost_running_are_a_gap) {
         TEST_ASSERT_EQUAL_UINT32(2, speed.lost);
         TEST_ASSERT_EQUAL_UINT32(1, speed.restarts);
         TEST_ASSERT_TRUE(speed.interval_radps == WH_R(0.0));
-        TEST_ASSERT_FLOAT_WITHIN(0.01f, 330.0f, rpm(speed.turn_radps));
+        CHECK_NEAR(0.01f, 330.0f, rpm(speed.turn_radps));
     }
 }
 
@@ -68,7 +67,7 @@ TEST(rig, impossible_pulses_are_rejected) {
     TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 1, ticks + QUARTER));
     TEST_ASSERT_EQUAL_UINT32(4, speed.rejected);
     TEST_ASSERT_EQUAL_UINT32(0, speed.lost);
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, 330.0f, rpm(speed.turn_radps));
+    CHECK_NEAR(0.01f, 330.0f, rpm(speed.turn_radps));
 }
 
 /* If no turn is known, no pulse can be overdue, after any time. */
@@ -93,7 +92,7 @@ TEST(rig, the_cells_counts_are_newtons) {
                                  .period_ticks = 2000,
                                  .raw_max = INT32_C(100000)};
     wh_load load = wh_cell_load(&cell, 100, INT32_C(-50000), WH_LOAD_OK);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 498.0f, (float)load.force_N);
+    CHECK_NEAR(1e-4f, 498.0f, load.force_N);
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX - 199U, load.ticks);
     TEST_ASSERT_TRUE(load.status == WH_LOAD_OK);
     static const int32_t raw[] = {99999, -99999, 100000, -100000, INT32_MAX, INT32_MIN + 1};

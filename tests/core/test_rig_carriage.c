@@ -122,22 +122,20 @@ TEST(rig_carriage, mount) {
     wh_rig_config config = wh_rig_standard;
     wh_carriage_mount(&config, &carriage);
     const wh_rotor_config *turns = &config.measure.rotor;
-    TEST_ASSERT_FLOAT_WITHIN(4e-9f, (float)WH_RIG_UNBALANCE_KGM, (float)turns->unbalance_kgm);
-    TEST_ASSERT_FLOAT_WITHIN(1e-9f, (float)WH_RIG_INERTIA_KGM2, (float)turns->inertia_kgm2);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.75f, (float)config.measure.result.mount_factor);
+    CHECK_NEAR(4e-9f, WH_RIG_UNBALANCE_KGM, turns->unbalance_kgm);
+    CHECK_NEAR(1e-9f, WH_RIG_INERTIA_KGM2, turns->inertia_kgm2);
+    CHECK_NEAR(1e-6f, 0.75f, config.measure.result.mount_factor);
     /* S^2/(M + m), M three times m */
-    TEST_ASSERT_FLOAT_WITHIN(3e-8f, 0.0351631f * 0.0351631f / (4.0f * 0.2739698f),
-                             (float)turns->yields_kgm2);
-    TEST_ASSERT_FLOAT_WITHIN(1e-8f, 0.75f * (float)wh_rig_standard.guard.load_still_kgm,
-                             (float)config.guard.load_still_kgm);
+    CHECK_NEAR(3e-8f, 0.0351631f * 0.0351631f / (4.0f * 0.2739698f), turns->yields_kgm2);
+    CHECK_NEAR(1e-8f, 0.75f * (float)wh_rig_standard.guard.load_still_kgm,
+               config.guard.load_still_kgm);
     TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_COMPENSATION_NEVER &&
                      config.observer.scene == NULL);
 
     /* arms without discs: their unbalance is neglected */
     const wh_carriage bare = {.disc_m = WH_R(0.0), .ratio = WH_R(0.0)};
     wh_carriage_mount(&config, &bare);
-    TEST_ASSERT_FLOAT_WITHIN(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f,
-                             (float)turns->unbalance_kgm);
+    CHECK_NEAR(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f, turns->unbalance_kgm);
     TEST_ASSERT_TRUE(turns->yields_kgm2 == WH_R(0.0) &&
                      config.measure.result.mount_factor == WH_R(1.0));
 }
@@ -153,9 +151,8 @@ TEST(rig_carriage, swing) {
             const wh_real part = config.measure.result.mount_factor;
             const wh_real moment = config.measure.rotor.unbalance_kgm;
             /* without the discs, 0.136 kg, the inertia is smaller */
-            TEST_ASSERT_FLOAT_WITHIN(
-                1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),
-                (float)(config.measure.rotor.inertia_kgm2 - WH_RIG_INERTIA_KGM2));
+            CHECK_NEAR(1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),
+                       config.measure.rotor.inertia_kgm2 - WH_RIG_INERTIA_KGM2);
             /* if the force is 10 % above the expected one, so is the motion of the carriage */
             const wh_measured force = {.amplitude_N = WH_R(1.1) * part * moment * WH_R(900.0),
                                        .expected_N = part * moment * WH_R(900.0)};

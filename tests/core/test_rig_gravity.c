@@ -3,6 +3,7 @@
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
 #include "draw.h"
@@ -20,12 +21,7 @@ static void check_between(wh_real least, wh_real most, wh_real value) {
     TEST_ASSERT_TRUE(value > least && value < most);
 }
 
-static wh_real sine_of(wh_real rad) {
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(rad), &sine, &cosine);
-    return sine;
-}
+static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
 /* --- its voltage -------------------------------------------------------------------------------------- */
 
@@ -51,8 +47,8 @@ TEST(rig_gravity, it_says_gravitys_voltage) {
             const wh_real all = part * config.weight_Nm / WH_R(1.5) * sine_of(at);
             const wh_real most = WH_R(0.3);
             const wh_real wanted = all > most ? most : all < -most ? -most : all;
-            TEST_ASSERT_FLOAT_WITHIN(i < 3U ? 5e-4f : 5e-3f, (float)wanted, (float)said);
-            TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)part, (float)feed.part);
+            CHECK_NEAR(i < 3U ? 5e-4f : 5e-3f, wanted, said);
+            CHECK_NEAR(1e-4f, part, feed.part);
         }
     }
 }
@@ -72,7 +68,7 @@ TEST(rig_gravity, it_says_nothing_without_an_angle) {
     fed.observer.valid = true;
     TEST_ASSERT_TRUE(WH_ABS(wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer,
                                                  now, FED_STEP_S)) < WH_R(0.001));
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.004f, (float)fed.compensation.part);
+    CHECK_NEAR(1e-6f, 0.004f, fed.compensation.part);
     fed.feeding.fade_s = WH_R(0.0);
     wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer, now, FED_STEP_S);
     TEST_ASSERT_TRUE(fed.compensation.part == WH_R(1.0));
@@ -100,7 +96,7 @@ static void run_at(wh_real rpm) {
     fed_rotor_run(&fed, rpm, WH_R(3.0));
     TEST_ASSERT_FALSE(fed.stood);
     /* the last, incomplete turn adds some ripple to the mean */
-    TEST_ASSERT_FLOAT_WITHIN(2.5f, (float)rpm, (float)fed_rotor_mean_rpm(&fed));
+    CHECK_NEAR(2.5f, rpm, fed_rotor_mean_rpm(&fed));
 }
 
 static void begin(fed_by by) {
@@ -237,13 +233,12 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
             wh_turn_angle_by_ratio(&rotor, &found, ratio);
         }
         TEST_ASSERT_EQUAL_UINT32(12, found.ratios);
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)wanted.part, (float)found.part);
+        CHECK_NEAR(1e-3f, wanted.part, found.part);
         TEST_ASSERT_TRUE(found.inertia_kgm2 == rotor.inertia_kgm2);
         wh_turn_angle_shape(&rotor, &found, speed);
         for (unsigned i = 0; i <= 16; i++) {
             const wh_real part = (wh_real)i / WH_R(16.0);
-            TEST_ASSERT_FLOAT_WITHIN(2e-4f, (float)wh_turn_angle_at(&wanted, part),
-                                     (float)wh_turn_angle_at(&found, part));
+            CHECK_NEAR(2e-4f, wh_turn_angle_at(&wanted, part), wh_turn_angle_at(&found, part));
         }
         wh_turn_angle_compensate(&found, false, WH_R(0.0625));
         TEST_ASSERT_TRUE(found.part == WH_R(1.0) && found.ratios == 0);
@@ -270,7 +265,7 @@ TEST(rig_gravity, the_lockin_is_told) {
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
     lockin.angle.drive_V = WH_R(0.71) * WH_R(16.0) * weight_Nm;
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.29f, (float)lockin.angle.cut);
+    CHECK_NEAR(1e-6f, 0.29f, lockin.angle.cut);
     wh_lockin_compensate(&lockin, false, WH_R(0.0625));
     wh_turn_angle_shape(rotor, &lockin.angle, WH_R(100.0) * RPM);
     TEST_ASSERT_TRUE(lockin.angle.cut == WH_R(0.0));
@@ -328,7 +323,7 @@ TEST(rig_gravity, the_answer_to_a_pulse) {
         }
         const double sum = root(turning * turning + slope * slope);
         const double most = 0.01 * size + 1e-5;
-        TEST_ASSERT_FLOAT_WITHIN((float)most, (float)(size * turning / sum), (float)off[0]);
-        TEST_ASSERT_FLOAT_WITHIN((float)most, (float)(-size * slope / sum), (float)off[1]);
+        CHECK_NEAR(most, size * turning / sum, off[0]);
+        CHECK_NEAR(most, -size * slope / sum, off[1]);
     }
 }

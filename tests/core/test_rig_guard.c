@@ -127,19 +127,16 @@ TEST(rig_guard, the_bound_is_what_gravity_makes_of_a_speed) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
         4.0 * (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;
-    TEST_ASSERT_FLOAT_WITHIN(0.05f, (float)root(falls2), (float)config->fall_radps);
+    CHECK_NEAR(0.05f, root(falls2), config->fall_radps);
     for (unsigned rpm_led = 0; rpm_led <= 340U; rpm_led += 20U) {
         const double base = (double)((wh_real)rpm_led * RPM);
         const float wanted = (float)root(1.03 * 1.03 * base * base + falls2);
-        TEST_ASSERT_FLOAT_WITHIN(0.05f, wanted,
-                                 (float)wh_guard_bound_radps(config, (wh_real)base, true));
-        TEST_ASSERT_FLOAT_WITHIN(0.001f, 1.03f * (float)base,
-                                 (float)wh_guard_bound_radps(config, (wh_real)base, false));
+        CHECK_NEAR(0.05f, wanted, wh_guard_bound_radps(config, (wh_real)base, true));
+        CHECK_NEAR(0.001f, 1.03f * (float)base, wh_guard_bound_radps(config, (wh_real)base, false));
     }
     const float most = 1.1f * (float)config->limit_radps;
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, most, (float)wh_guard_bound_radps(config, WH_R(90.0), true));
-    TEST_ASSERT_FLOAT_WITHIN(
-        1e-3f, most, (float)wh_guard_bound_radps(config, (wh_real)__builtin_nanf(""), true));
+    CHECK_NEAR(1e-3f, most, wh_guard_bound_radps(config, WH_R(90.0), true));
+    CHECK_NEAR(1e-3f, most, wh_guard_bound_radps(config, (wh_real)__builtin_nanf(""), true));
 }
 
 TEST(rig_guard, lost_pulses_and_silence_trip) {

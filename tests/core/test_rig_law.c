@@ -17,9 +17,8 @@ TEST(rig_law, silence_goes_on_over_the_wrap) {
         wh_speed speed;
         wh_speed_start(&speed, wh_rig_standard.impossible_radps);
         TEST_ASSERT_TRUE(wh_speed_pulse(&speed, 0, then));
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)passed * 1e-6f,
-                                 (float)wh_speed_silence_s(&speed, then + passed));
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_speed_silence_s(&speed, then - 1U - passed));
+        CHECK_NEAR(1e-5f, (float)passed * 1e-6f, wh_speed_silence_s(&speed, then + passed));
+        CHECK_NEAR(0.0f, 0.0f, wh_speed_silence_s(&speed, then - 1U - passed));
     }
 }
 
@@ -39,8 +38,7 @@ TEST(rig_law, no_more_volts_than_the_supply_has) {
         rig.run.volts = drive_V;
         const wh_rig_command command = wh_rig_step(&wh_rig_standard, &rig, &inputs);
         TEST_ASSERT_TRUE(command.way == WH_MOTOR_DRIVES);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)(drive_V < supply_V ? drive_V : supply_V),
-                                 (float)command.volts);
+        CHECK_NEAR(1e-5f, drive_V < supply_V ? drive_V : supply_V, command.volts);
     }
 }
 
@@ -82,9 +80,9 @@ TEST(rig_law, the_drive_keeps_its_law) {
             const wh_real volts = wh_drive_step(law, &drive, (wh_real)speed, supply_V, WH_R(0.002));
             integral = limited(further ? integral : integral + error * 0.002, most);
             held += further;
-            TEST_ASSERT_FLOAT_WITHIN(4e-4f, (float)limited(wanted, most), (float)volts);
-            TEST_ASSERT_FLOAT_WITHIN(4e-4f, (float)integral, (float)drive.integral_V);
-            TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)setpoint, (float)drive.setpoint_radps);
+            CHECK_NEAR(4e-4f, limited(wanted, most), volts);
+            CHECK_NEAR(4e-4f, integral, drive.integral_V);
+            CHECK_NEAR(2e-5f, setpoint, drive.setpoint_radps);
         }
         TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
     }

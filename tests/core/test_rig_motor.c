@@ -216,8 +216,7 @@ TEST(rig_motor, the_speed_of_a_rotor_that_coasts) {
             const wh_real turn_s = (wh_real)(pulse[3].ticks - pulse[1].ticks) * WH_R(1e-6);
             if (alternate && !rig.guard.quiet) {
                 TEST_ASSERT_TRUE(known);
-                TEST_ASSERT_FLOAT_WITHIN(1e-3f, 1.0f,
-                                         (float)(speed_radps * turn_s / WH_RIG_TWO_PI));
+                CHECK_NEAR(1e-3f, 1.0f, speed_radps * turn_s / WH_RIG_TWO_PI);
             } else if (pulse[2].sensor == pulse[3].sensor && !rig.guard.quiet) {
                 TEST_ASSERT_FALSE(known);
             }

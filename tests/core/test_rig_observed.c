@@ -81,7 +81,7 @@ TEST(rig_observed, a_result_says_the_voltage) {
         }
         even_go_on_until(&even, EVEN_NEVER);
         TEST_ASSERT_TRUE(even_is_done(&even) && volts > WH_R(1.0));
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)volts, (float)even.rig.result.volts);
+        CHECK_NEAR(1e-3f, volts, even.rig.result.volts);
     }
 }
 
@@ -131,13 +131,12 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
             even_step(&even);
         }
         TEST_ASSERT_TRUE(angle->fed);
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.rig.run.volts, (float)angle->drive_V);
+        CHECK_NEAR(0.0f, even.rig.run.volts, angle->drive_V);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(200.0) + (wh_real)i) * EVEN_RPM) ==
                          WH_ALLOWED);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f,
-                                 (float)even.rig.compensation.part); /* fades in again from zero */
+        CHECK_NEAR(0.0f, 0.0f, even.rig.compensation.part); /* fades in again from zero */
         even_steps(&even, 300);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==

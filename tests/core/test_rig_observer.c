@@ -43,9 +43,9 @@ TEST(rig_observer, the_rotor_is_the_scenes) {
     wh_real others[2];
     wh_sincos(wh_phase_of(state.angle[0]), &sine, &cosine);
     wh_sincos(wh_phase_from_rad(other.angle_rad), &others[0], &others[1]);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.0f, (float)(sine - others[0]));
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.0f, (float)(cosine - others[1]));
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)state.real[0], (float)other.speed_radps);
+    CHECK_NEAR(1e-4f, 0.0f, sine - others[0]);
+    CHECK_NEAR(1e-4f, 0.0f, cosine - others[1]);
+    CHECK_NEAR(1e-3f, state.real[0], other.speed_radps);
 }
 
 /* The error of the angle is below 0.02 degrees at any speed, with gravity's ripple (up to 18 %) or with compensation.
@@ -62,10 +62,8 @@ TEST(rig_observer, the_rotor_it_knows_is_followed) {
         fed_rotor_run(&fed, rpm[i % 4U], WH_R(1.0));
         TEST_ASSERT_EQUAL_UINT32(500, fed.valid);
         check_below(WH_R(0.02) * DEG, fed.worst_rad);
-        TEST_ASSERT_FLOAT_WITHIN(0.02f, (float)fed.rotor.speed_radps,
-                                 (float)wh_observer_speed_radps(&fed.observer));
-        TEST_ASSERT_FLOAT_WITHIN(2e-3f, -(float)fed.kind.friction_Nm,
-                                 (float)fed.observer.torque_Nm);
+        CHECK_NEAR(0.02f, fed.rotor.speed_radps, wh_observer_speed_radps(&fed.observer));
+        CHECK_NEAR(2e-3f, -(float)fed.kind.friction_Nm, fed.observer.torque_Nm);
         TEST_ASSERT_TRUE(WH_ABS(fed.observer.innovation_rad) < WH_R(0.02) * DEG);
     }
 }
@@ -185,7 +183,7 @@ TEST(rig_observer, a_false_mark_is_noticed) {
         const wh_real off = rotor_ahead_rad(&fed.rotor, fed.observing.pulse_rad[sensor]);
         wh_observer_pulse(&fed.observing, &fed.observer, sensor, now);
         const wh_real seen = fed.observer.innovation_rad;
-        TEST_ASSERT_FLOAT_WITHIN((float)DEG, -(float)off, (float)seen);
+        CHECK_NEAR(DEG, -(float)off, seen);
         TEST_ASSERT_TRUE(fed.observer.valid == (WH_ABS(seen) <= fed.observing.trusted_rad));
     }
     const wh_real before = fed.observer.innovation_rad;
@@ -214,11 +212,9 @@ TEST(rig_observer, two_marks_set_it_out) {
         TEST_ASSERT_TRUE(fed.observer.runs == (!slow || first == second));
         if (!slow) {
             const wh_real speed = turned[first][second] * WH_RIG_TWO_PI / WH_R(0.1013);
-            TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)speed, (float)speed,
-                                     (float)wh_observer_speed_radps(&fed.observer));
-            TEST_ASSERT_FLOAT_WITHIN(
-                1e-5f, (float)fed.observing.pulse_rad[second],
-                (float)wh_observer_angle_rad(&fed.observer, from + 1300U + took));
+            CHECK_NEAR(1e-4f * (float)speed, speed, wh_observer_speed_radps(&fed.observer));
+            CHECK_NEAR(1e-5f, fed.observing.pulse_rad[second],
+                       wh_observer_angle_rad(&fed.observer, from + 1300U + took));
         }
     }
 }
@@ -260,8 +256,7 @@ TEST(rig_observer, uneven_steps_lose_no_time) {
         }
         if (i >= 2000U) {
             const wh_real angle = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
-            TEST_ASSERT_FLOAT_WITHIN(0.02f * (float)DEG, 0.0f,
-                                     (float)rotor_ahead_rad(&fed.rotor, angle));
+            CHECK_NEAR(0.02f * (float)DEG, 0.0f, rotor_ahead_rad(&fed.rotor, angle));
             seen += fed.observer.valid ? 1U : 0U;
         }
     }
@@ -297,7 +292,7 @@ TEST(rig_observer, it_begins_anew) {
         fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
         TEST_ASSERT_TRUE(fed.observer.valid);
         const wh_real seen = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
-        TEST_ASSERT_FLOAT_WITHIN((float)DEG, 0.0f, (float)rotor_ahead_rad(&fed.rotor, seen));
+        CHECK_NEAR(DEG, 0.0f, rotor_ahead_rad(&fed.rotor, seen));
     }
 }
 

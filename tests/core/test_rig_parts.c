@@ -28,7 +28,7 @@ TEST(rig_parts, free_angles) {
         const wh_real wanted = size > WH_R(1.5)   ? WH_R(0.0)
                                : size > WH_R(0.5) ? turns - sign
                                                   : turns;
-        TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)(wanted * TURN), (float)wh_free_angle(turns * TURN));
+        CHECK_NEAR(2e-6f, wanted * TURN, wh_free_angle(turns * TURN));
     }
     TEST_ASSERT_TRUE(wh_free_angle((wh_real)__builtin_nanf("")) == WH_R(0.0));
 }
@@ -50,15 +50,15 @@ TEST(rig_parts, polar_of_every_size) {
         wh_real radius;
         wh_real found;
         wh_polar(size * cosine, size * sine, &radius, &found);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, (float)(radius / size));
-        TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)angle, (float)found);
+        CHECK_NEAR(1e-6f, 1.0f, radius / size);
+        CHECK_NEAR(2e-6f, angle, found);
     }
     for (unsigned i = 0; i < 2U; i++) { /* the origin, and the angle of half a turn */
         wh_real radius;
         wh_real angle;
         wh_polar(-(wh_real)i, WH_R(0.0), &radius, &angle);
         TEST_ASSERT_TRUE(radius == (wh_real)i);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.0f : 3.14159265f, (float)angle);
+        CHECK_NEAR(1e-6f, i == 0 ? 0.0f : 3.14159265f, angle);
     }
 }
 
@@ -81,8 +81,7 @@ TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
             wh_turn_angle_shape(&rotor, &angle, draw_between(&seed, WH_R(25.0), WH_R(40.0)));
             const wh_real ratio = draw_between(&seed, WH_R(0.22), WH_R(0.28));
             const wh_real off = rotor.pulse_rad[1] - wh_turn_angle_at(&angle, ratio);
-            TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)off,
-                                     (float)wh_turn_angle_by_ratio(&rotor, &angle, ratio));
+            CHECK_NEAR(1e-6f, off, wh_turn_angle_by_ratio(&rotor, &angle, ratio));
         }
     }
 }
@@ -113,7 +112,7 @@ TEST(rig_parts, normal_equations_hold) {
             wh_normal_add(&normal, row[j], off[j], weight[j]);
             misfit += weight[j] * off[j] * off[j];
         }
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)misfit, (float)normal.misfit);
+        CHECK_NEAR(1e-3f, misfit, normal.misfit);
         wh_normal_factor(&normal);
         wh_normal_solve(&normal);
         const wh_real *x = normal.right;
@@ -126,7 +125,7 @@ TEST(rig_parts, normal_equations_hold) {
                 }
                 left += weight[j] * row[j][k] * sum;
             }
-            TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, (float)left);
+            CHECK_NEAR(1e-3f, 0.0f, left);
         }
     }
 }
@@ -154,8 +153,7 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
             }
             wh_normal_solve(&normal);
             const wh_real deviation = wh_normal_deviation(&normal, which);
-            TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)normal.right[which],
-                                     (float)(deviation * deviation));
+            CHECK_NEAR(1e-4f, normal.right[which], deviation * deviation);
         }
     }
 }
@@ -183,7 +181,7 @@ TEST(rig_parts, the_last_interval_bounds_what_coasts) {
                       .since_ticks = last + (uint32_t)after};
         wh_pulse_window_off(&run, &pulses, false, sensor, next);
         const wh_real wanted = after <= 0 && speed < before_radps ? speed : before_radps;
-        TEST_ASSERT_FLOAT_WITHIN(2e-3f * (float)wanted, (float)wanted, (float)run.off_radps);
+        CHECK_NEAR(2e-3f * (float)wanted, wanted, run.off_radps);
     }
 }
 
@@ -364,8 +362,7 @@ TEST(rig_parts, verdict_of_a_swing) {
             const wh_real deviation = WH_R(1.96) * swing.within[WH_SWING_PLACE + k];
             const wh_real half =
                 WH_SQRT(deviation * deviation + config.floor_rad * config.floor_rad);
-            TEST_ASSERT_FLOAT_WITHIN(1e-5f * (float)half, (float)half,
-                                     (float)swing.result.half_rad[k]);
+            CHECK_NEAR(1e-5f * (float)half, half, swing.result.half_rad[k]);
             TEST_ASSERT_TRUE(swing.result.place_rad[k] == swing.x[WH_SWING_PLACE + k]);
         }
         times[wanted]++;

@@ -64,7 +64,7 @@ static void make_train(wh_real rpm) {
     const unsigned turns = TRAIN_PULSES / 2U - 1U;
     mean_radps = WH_RIG_TWO_PI * (wh_real)turns * (wh_real)WH_RIG_TICKS_PER_S /
                  (wh_real)(train[2U * turns].ticks - train[0].ticks);
-    TEST_ASSERT_FLOAT_WITHIN(0.03f * (float)rpm, (float)rpm, (float)(mean_radps / RPM));
+    CHECK_NEAR(0.03f * (float)rpm, rpm, mean_radps / RPM);
 }
 
 static unsigned quarters_of(unsigned pulse) { return pulse / 2U * 4U + pulse % 2U; }

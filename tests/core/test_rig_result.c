@@ -83,9 +83,9 @@ TEST(rig_result, students_factor) {
                 {9, WH_R(2.262)},  {10, WH_R(2.228)}, {15, WH_R(2.131)},  {19, WH_R(2.093)},
                 {30, WH_R(2.042)}, {60, WH_R(2.000)}, {120, WH_R(1.980)}, {100000, WH_R(1.960)}};
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        TEST_ASSERT_FLOAT_WITHIN(6e-4f, (float)rows[i].factor, (float)wh_student(rows[i].freedom));
+        CHECK_NEAR(6e-4f, rows[i].factor, wh_student(rows[i].freedom));
     }
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_student(0));
+    CHECK_NEAR(0.0f, 0.0f, wh_student(0));
 }
 
 /* --- the mean -------------------------------------------------------------------------------------- */
@@ -118,8 +118,8 @@ TEST(rig_result, the_interval_is_students) {
         wh_real size;
         wh_real phase;
         wh_polar(mx, my, &size, &phase);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)size, (float)measured.amplitude_N);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)phase, (float)measured.phase_rad);
+        CHECK_NEAR(1e-4f, size, measured.amplitude_N);
+        CHECK_NEAR(1e-6f, phase, measured.phase_rad);
         wh_real squares[2] = {WH_R(0.0), WH_R(0.0)};
         for (unsigned i = 0; i < turns; i++) {
             const wh_real along = ((x[i] - mx) * mx + (y[i] - my) * my) / size;
@@ -132,15 +132,14 @@ TEST(rig_result, the_interval_is_students) {
                 i == 0 ? measured.amplitude_half_N : measured.phase_half_rad * size;
             const wh_real t = wh_student(turns - 1U);
             const wh_real wanted2 = t * t * squares[i] / (n * (n - WH_R(1.0)));
-            TEST_ASSERT_FLOAT_WITHIN(2e-3f, 1.0f, (float)(half * half / wanted2));
+            CHECK_NEAR(2e-3f, 1.0f, half * half / wanted2);
         }
         TEST_ASSERT_EQUAL_UINT32(turns, measured.turns);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.0f, (float)measured.mean_N);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 42.0f, (float)measured.at_pulse_N[0]);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, -1.0f, (float)measured.at_pulse_N[1]);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.1f, (float)measured.residual_N);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 330.0003f,
-                                 (float)(measured.speed_radps / WH_RIG_RADPS_PER_RPM));
+        CHECK_NEAR(1e-4f, 0.0f, measured.mean_N);
+        CHECK_NEAR(1e-4f, 42.0f, measured.at_pulse_N[0]);
+        CHECK_NEAR(1e-4f, -1.0f, measured.at_pulse_N[1]);
+        CHECK_NEAR(1e-6f, 0.1f, measured.residual_N);
+        CHECK_NEAR(1e-4f, 330.0003f, measured.speed_radps / WH_RIG_RADPS_PER_RPM);
     }
 }
 
@@ -155,17 +154,17 @@ TEST(rig_result, floors_are_kept) {
     rotor.damping_tolerance = WH_R(0.0);
     merge.ripple_rad = WH_R(0.0);
     conclude(&bench);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0042f, (float)measured.amplitude_half_N);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
+    CHECK_NEAR(1e-5f, 0.0042f, measured.amplitude_half_N);
+    CHECK_NEAR(1e-4f, 0.01f, measured.phase_half_rad / DEG);
     TEST_ASSERT_TRUE(wh_result_is_calibrated(&bench));
     bench.amplitude_floor = WH_R(0.0);
     TEST_ASSERT_FALSE(wh_result_is_calibrated(&bench));
     conclude(&bench);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.21f, (float)measured.amplitude_half_N);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, (float)(measured.phase_half_rad / DEG));
+    CHECK_NEAR(1e-4f, 0.21f, measured.amplitude_half_N);
+    CHECK_NEAR(1e-4f, 0.01f, measured.phase_half_rad / DEG);
     conclude(&wh_rig_standard.measure.result);
     TEST_ASSERT_FALSE(wh_result_is_calibrated(&wh_rig_standard.measure.result));
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.5f, (float)(measured.phase_half_rad / DEG));
+    CHECK_NEAR(1e-3f, 0.5f, measured.phase_half_rad / DEG);
 }
 
 /* The standard deviation of the jitter follows from the second differences of both sensors' pulses, but not across a
@@ -192,7 +191,7 @@ TEST(rig_result, jitter_is_found) {
     TEST_ASSERT_EQUAL_UINT32(1, measured.left_out);
     /* 399 turns in two series: 397 differences of one sensor's pulses, 395 of the other's */
     TEST_ASSERT_EQUAL_UINT32(397 + 395, merge.jitters);
-    TEST_ASSERT_FLOAT_WITHIN(5.0f, 60.0f, (float)(measured.jitter_s * WH_R(1e6)));
+    CHECK_NEAR(5.0f, 60.0f, measured.jitter_s * WH_R(1e6));
 }
 
 /* --- verdicts --------------------------------------------------------------------------------------- */
@@ -217,7 +216,7 @@ TEST(rig_result, reasons_from_the_turns) {
     const wh_lockin_turn gap = {.fault = WH_TURN_GAP};
     const wh_real full_N = WH_R(42.146); /* S <w^2> at 330 rpm */
     TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)full_N, (float)measured.expected_N);
+    CHECK_NEAR(0.01f, full_N, measured.expected_N);
     TEST_ASSERT_TRUE(measured.quality == WH_GOOD);
     TEST_ASSERT_TRUE(why_of(full_N, gap) == WH_WHY_FEW_TURNS);
     wh_lockin_turn odd = plain;
@@ -252,7 +251,7 @@ TEST(rig_result, reasons_from_the_turns) {
          i++) { /* the second order of another ripple: larger, smaller, earlier, later */
         static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
         TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, (float)measured.ripple_off_rad);
+        CHECK_NEAR(1e-5f, 0.0f, measured.ripple_off_rad);
         const wh_real off_rad =
             (i < 4U ? WH_R(0.98) : WH_R(1.02)) *
             (WH_R(0.01) + WH_SQRT(measured.phase_half_rad * measured.phase_half_rad -
@@ -265,7 +264,7 @@ TEST(rig_result, reasons_from_the_turns) {
         merge.second_N[0] += more_N * cosine;
         merge.second_N[1] += more_N * sine;
         conclude(&bench);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)off_rad, (float)measured.ripple_off_rad);
+        CHECK_NEAR(1e-5f, off_rad, measured.ripple_off_rad);
         TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
@@ -278,7 +277,7 @@ TEST(rig_result, reasons_from_the_turns) {
         merge.repeats_N2 = (i == 0 ? WH_R(0.98) : WH_R(1.02)) * measured.repeats_limit_N *
                            measured.repeats_limit_N;
         conclude(&bench);
-        TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.286f, (float)measured.repeats_limit_N);
+        CHECK_NEAR(0.01f, 0.286f, measured.repeats_limit_N);
         TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_REPEATS));
         merge.repeats_N2 = WH_R(0.0);
     }
@@ -302,7 +301,7 @@ TEST(rig_result, what_is_left_of_gravity) {
         }
         merge.ripple_rad = WH_R(-0.125) * angle.whole_rad;
         conclude(&bench);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i == 0 ? 0.125f : 0.0f, (float)measured.uncompensated_part);
+        CHECK_NEAR(1e-6f, i == 0 ? 0.125f : 0.0f, measured.uncompensated_part);
     }
 }
 
@@ -338,7 +337,7 @@ TEST(rig_result, the_mount_decides_what_is_expected) {
     }
     conclude(&config);
     TEST_ASSERT_TRUE(measured.why == WH_WHY_NONE);
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, 31.61f, (float)measured.expected_N);
+    CHECK_NEAR(0.01f, 31.61f, measured.expected_N);
 }
 
 /* --- the tare --------------------------------------------------------------------------------------- */
@@ -378,9 +377,8 @@ TEST(rig_result, noise_and_hum_are_no_motion) {
             tare_of(size, hum_N, between(WH_R(45.0), WH_R(65.0)), WH_R(0.0), WH_R(1.0), WH_R(0.0));
         TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
         const wh_real error = WH_SQRT(size * size + WH_R(0.5) * hum_N * hum_N) / WH_R(15.811);
-        TEST_ASSERT_FLOAT_WITHIN(0.15f * (float)error + 1e-5f, (float)error,
-                                 (float)wh_tare_error_N(&tare));
-        TEST_ASSERT_FLOAT_WITHIN(5.0f * (float)error + 1e-4f, 56.0f, (float)tare.mean_N);
+        CHECK_NEAR(0.15f * (float)error + 1e-5f, error, wh_tare_error_N(&tare));
+        CHECK_NEAR(5.0f * (float)error + 1e-4f, 56.0f, tare.mean_N);
     }
 }
 
@@ -408,7 +406,7 @@ TEST(rig_result, a_tare_that_is_not_known) {
     for (unsigned i = 0; i < 4U * WH_TARE_BLOCK; i++) {
         TEST_ASSERT_FALSE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
         wh_tare_add(&tare, WH_R(1.0));
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)wh_tare_error_N(&tare));
+        CHECK_NEAR(0.0f, 0.0f, wh_tare_error_N(&tare));
     }
     TEST_ASSERT_TRUE(wh_tare_is_still(&wh_rig_standard.measure.tare, &tare));
     tare = tare_of(WH_R(8.0), WH_R(0.0), WH_R(50.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));

@@ -29,10 +29,10 @@ static void check_measured(unsigned turns_wanted) {
     TEST_ASSERT_TRUE(result->quality == WH_GOOD && result->why == WH_WHY_NONE);
     TEST_ASSERT_TRUE(result->amplitude_half_N > WH_R(0.0) && result->amplitude_half_N < WH_R(0.02));
     TEST_ASSERT_TRUE(result->phase_half_rad > WH_R(0.0) && result->phase_half_rad < WH_R(5e-4));
-    TEST_ASSERT_FLOAT_WITHIN(0.003f, 330.0f, (float)(result->speed_radps / EVEN_RPM));
-    TEST_ASSERT_FLOAT_WITHIN(0.011f, (float)EVEN_LOAD_N, (float)result->amplitude_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.02f, 0.0f, (float)(result->phase_rad * WH_RIG_DEG_PER_RAD));
-    TEST_ASSERT_FLOAT_WITHIN(0.011f, 0.0f, (float)result->mean_N);
+    CHECK_NEAR(0.003f, 330.0f, result->speed_radps / EVEN_RPM);
+    CHECK_NEAR(0.011f, EVEN_LOAD_N, result->amplitude_N);
+    CHECK_NEAR(0.02f, 0.0f, result->phase_rad * WH_RIG_DEG_PER_RAD);
+    CHECK_NEAR(0.011f, 0.0f, result->mean_N);
 }
 
 static void check_result(void) { check_measured(10); }
@@ -202,7 +202,7 @@ TEST(rig_run, a_load_cell_that_falls_silent_trips) {
         check_trip(WH_TRIP_LOAD_CELL);
         TEST_ASSERT_TRUE(even.inputs.now_ticks - silent <= 11U * EVEN_STEP_TICKS);
         TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.command.volts);
+        CHECK_NEAR(0.0f, 0.0f, even.command.volts);
     }
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_OFF, .lose_samples = EVEN_ALWAYS});
     check_result();
@@ -258,8 +258,7 @@ TEST(rig_run, ramp_down_never_speeds_up) {
             even_step(&even);
         }
         const float lowest = i == 0 ? 180.0f : 200.0f;
-        TEST_ASSERT_FLOAT_WITHIN(0.001f, lowest,
-                                 (float)(even.rig.run.drive.setpoint_radps / EVEN_RPM));
+        CHECK_NEAR(0.001f, lowest, even.rig.run.drive.setpoint_radps / EVEN_RPM);
         TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_OFF);
     }
 }
@@ -270,8 +269,7 @@ TEST(rig_run, a_rotor_that_does_not_start_trips) {
     begin(WH_R(330.0), (even_failure){.in = WH_PHASE_SPIN_UP, .jams = true});
     go_on_until(WH_PHASE_SPIN_UP);
     TEST_ASSERT_TRUE(even.command.volts > WH_R(0.0));
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)EVEN_TARE_RAW / 100.0f,
-                             (float)even.rig.measure.tare.mean_N);
+    CHECK_NEAR(1e-3f, (float)EVEN_TARE_RAW / 100.0f, even.rig.measure.tare.mean_N);
     go_on_until(EVEN_NEVER);
     check_trip(WH_TRIP_STALLED);
     TEST_ASSERT_TRUE(even_is_over(&even));
@@ -290,7 +288,7 @@ TEST(rig_run, a_moving_rig_gets_no_tare) {
     go_on_until(WH_PHASE_SPIN_UP);
     TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_SPIN_UP);
     /* 0.2 N in either direction, 250 times */
-    TEST_ASSERT_FLOAT_WITHIN(2e-4f, 0.01267f, (float)wh_tare_error_N(&even.rig.measure.tare));
+    CHECK_NEAR(2e-4f, 0.01267f, wh_tare_error_N(&even.rig.measure.tare));
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE,
                                     .shows = 500}); /* the mean is uncertain by more than 0.25 N */
     check_trip(WH_TRIP_MOVING);

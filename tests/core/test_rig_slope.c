@@ -251,11 +251,10 @@ TEST(rig_slope, calibration_does_not_matter) {
         measure(&p);
         const wh_real late_rad =
             WH_RIG_TWO_PI * (wh_real)p.late_ticks / (wh_real)WH_RIG_TICKS_PER_S / turn_s;
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f + 0.06f * (float)late_rad, (float)-late_rad,
-                                 (float)(measured.phase_rad - phase_rad));
+        CHECK_NEAR(1e-3f + 0.06f * (float)late_rad, -late_rad, measured.phase_rad - phase_rad);
         /* the delay changes the angle of a rotor with ripple by a varying amount, of which half is visible */
         const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
-        TEST_ASSERT_FLOAT_WITHIN((float)shows, (float)before, (float)measured.ripple_off_rad);
+        CHECK_NEAR(shows, before, measured.ripple_off_rad);
     }
 }
 
@@ -268,6 +267,6 @@ TEST(rig_slope, a_level_plane_says_nothing) {
         integrate(&p);
         measure(&p);
         TEST_ASSERT_TRUE(measured.why == WH_WHY_NONE);
-        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)measured.ripple_off_rad);
+        CHECK_NEAR(0.0f, 0.0f, measured.ripple_off_rad);
     }
 }

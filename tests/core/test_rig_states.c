@@ -199,7 +199,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
         even.inputs.supply_V = WH_R(12.0); /* 330 rpm take 14 V, 250 rpm 10.8 V */
         check_refused(even_order(&even, event, WH_R(330.0) * EVEN_RPM), WH_REFUSED_VOLTAGE, state);
         TEST_ASSERT_TRUE(even_order(&even, event, WH_R(250.0) * EVEN_RPM) == WH_ALLOWED);
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f, 250.0f, (float)(even.rig.run.target_radps / EVEN_RPM));
+        CHECK_NEAR(1e-3f, 250.0f, even.rig.run.target_radps / EVEN_RPM);
     }
     stand_in(
         WH_RIG_ARMED); /* just enough suffices, and the slowest set-point without feed needs none */
@@ -290,7 +290,7 @@ TEST(rig_states, armed_ends_when_the_rotor_turns) {
 
 static void check_off(void) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.command.volts);
+    CHECK_NEAR(0.0f, 0.0f, even.command.volts);
 }
 
 static void check_tripped(wh_trip trip) {
@@ -361,11 +361,10 @@ static const fault faults[] = {
 static void check_record(const wh_trip_record *record, wh_trip trip, wh_rig_phase phase) {
     TEST_ASSERT_TRUE(record->trip == trip && record->phase == phase);
     TEST_ASSERT_EQUAL_UINT32(even.inputs.now_ticks, record->ticks);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.inputs.supply_V, (float)record->supply_V);
+    CHECK_NEAR(0.0f, even.inputs.supply_V, record->supply_V);
     const bool drives = phase >= WH_PHASE_SPIN_UP && phase <= WH_PHASE_RAMP_DOWN;
     TEST_ASSERT_TRUE(drives ? record->volts > WH_R(5.0) : !(record->volts > WH_R(0.0)));
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, (float)even.rig.pulses.speed.turn_radps,
-                             (float)record->speed_radps);
+    CHECK_NEAR(0.0f, even.rig.pulses.speed.turn_radps, record->speed_radps);
     TEST_ASSERT_TRUE((record->speed_radps > WH_R(100.0) * EVEN_RPM) ==
                      (phase >= WH_PHASE_RAMP && drives));
 }
@@ -595,7 +594,7 @@ TEST(rig_states_trips, rest_may_last_any_time) {
         even_steps(&even, 1600);
         TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE && even.rig.state == WH_RIG_IDLE);
         TEST_ASSERT_EQUAL_UINT32(rejected, even.rig.pulses.rejected);
-        TEST_ASSERT_FLOAT_WITHIN(0.1f, 60.0f, (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
+        CHECK_NEAR(0.1f, 60.0f, even.rig.pulses.speed.turn_radps / EVEN_RPM);
     }
 }
 
@@ -615,17 +614,16 @@ TEST(rig_states_random, another_set_point_while_it_runs) {
         TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));
         even_go_on_until(&even, WH_PHASE_RECORD);
         const uint32_t begin = even.inputs.now_ticks;
-        TEST_ASSERT_FLOAT_WITHIN(0.5f, 250.0f,
-                                 (float)(even.rig.pulses.speed.turn_radps / EVEN_RPM));
+        CHECK_NEAR(0.5f, 250.0f, even.rig.pulses.speed.turn_radps / EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
         TEST_ASSERT_TRUE(even.inputs.now_ticks - begin >= 2000000U);
         even_go_on_until(&even, EVEN_NEVER);
         TEST_ASSERT_TRUE(even_is_done(&even));
         const wh_measured *force = &even.rig.result.force;
-        TEST_ASSERT_FLOAT_WITHIN(0.01f, 250.0f, (float)(force->speed_radps / EVEN_RPM));
+        CHECK_NEAR(0.01f, 250.0f, force->speed_radps / EVEN_RPM);
         /* whole turns of 2 s at 250 rpm, none at 330 rpm */
         TEST_ASSERT_TRUE(force->turns == 7U || force->turns == 8U);
-        TEST_ASSERT_FLOAT_WITHIN(0.02f, (float)EVEN_LOAD_N, (float)force->amplitude_N);
+        CHECK_NEAR(0.02f, EVEN_LOAD_N, force->amplitude_N);
     }
 }
 
@@ -669,7 +667,7 @@ TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
 TEST(rig_states_random, rest_leaves_no_speed) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     even_rest(&even);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)even.rig.run.off_radps);
+    CHECK_NEAR(0.0f, 0.0f, even.rig.run.off_radps);
 }
 
 static wh_real any_value(void) {

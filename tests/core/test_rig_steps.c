@@ -128,9 +128,8 @@ TEST(rig_steps, the_tare_takes_its_samples) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SPIN_UP);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f,
-                             (float)rig.measure.tare.mean_N); /* mean of 0 and 450 counts */
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 9.6f, (float)command.volts);
+    CHECK_NEAR(1e-5f, 2.25f, rig.measure.tare.mean_N); /* mean of 0 and 450 counts */
+    CHECK_NEAR(1e-6f, 9.6f, command.volts);
     TEST_ASSERT_FALSE(rig.pulses.speed.running); /* the pulses so far are discarded */
     /* the case of invalid samples, which do not count */
     begin();
@@ -138,7 +137,7 @@ TEST(rig_steps, the_tare_takes_its_samples) {
         wh_rig_load(&config, &rig, inputs.now_ticks, 9, WH_LOAD_LATE);
     }
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000));
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 2.25f, (float)rig.measure.tare.mean_N);
+    CHECK_NEAR(1e-5f, 2.25f, rig.measure.tare.mean_N);
     for (unsigned pulses = 2; pulses <= 3; pulses++) { /* as many as jitter gives, or more */
         begin();
         for (unsigned i = 0; i < pulses; i++) {
@@ -161,11 +160,11 @@ TEST(rig_steps, the_loop_takes_over_at_its_speed) {
     TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(150.1), 100));
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_RAMP);
     TEST_ASSERT_EQUAL_UINT32(3, rig.guard.lost_before);
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 150.1f, (float)(rig.run.drive.setpoint_radps / RPM));
+    CHECK_NEAR(1e-3f, 150.1f, rig.run.drive.setpoint_radps / RPM);
     /* the voltage does not jump */
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)command.volts, (float)rig.run.drive.integral_V);
+    CHECK_NEAR(1e-6f, command.volts, rig.run.drive.integral_V);
     TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(150.1), 1));
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 330.0f, (float)(rig.run.drive.target_radps / RPM));
+    CHECK_NEAR(1e-3f, 330.0f, rig.run.drive.target_radps / RPM);
 
     stand_in(WH_PHASE_SPIN_UP); /* the spin-up takes at most eight seconds */
     TEST_ASSERT_EQUAL_UINT(8U * STEPS_PER_S + 1U, stay(WH_R(100.0), 10000));
@@ -182,7 +181,7 @@ TEST(rig_steps, spin_up_asks_for_more_and_more) {
             TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(100.0), 1));
             const float asked = 9.6f + 2.0f * (float)k / (float)STEPS_PER_S;
             const float most = i == 0 ? 12.0f : 24.0f;
-            TEST_ASSERT_FLOAT_WITHIN(1e-4f, asked < most ? asked : most, (float)command.volts);
+            CHECK_NEAR(1e-4f, asked < most ? asked : most, command.volts);
         }
     }
 }
@@ -244,7 +243,7 @@ TEST(rig_steps, rest_is_waited_for) {
             }
             step();
             TEST_ASSERT_TRUE(command.way != WH_MOTOR_DRIVES);
-            TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, (float)command.volts);
+            CHECK_NEAR(0.0f, 0.0f, command.volts);
         }
         if (pulses) {
             TEST_ASSERT_EQUAL_UINT32((trips ? 20U : 120U) * STEPS_PER_S + 1U, steps);
@@ -348,20 +347,20 @@ TEST(rig_steps, what_a_record_comes_to) {
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE && rig.run.phase == WH_PHASE_RAMP_DOWN);
     const wh_rig_result *result = &rig.result;
     TEST_ASSERT_EQUAL_UINT32(10, result->force.turns);
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 60.0f / 0.182f, (float)(result->force.speed_radps / RPM));
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.4f, (float)result->tare_N);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 10.0f, (float)result->low_N);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 28.0f, (float)result->high_N);
+    CHECK_NEAR(1e-3f, 60.0f / 0.182f, result->force.speed_radps / RPM);
+    CHECK_NEAR(1e-5f, 0.4f, result->tare_N);
+    CHECK_NEAR(1e-4f, 10.0f, result->low_N);
+    CHECK_NEAR(1e-4f, 28.0f, result->high_N);
     /* time of sensor 1's pulse: half a sample before the turn's first; of sensor 2's: half a sample before its 23rd */
-    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 10.2f, (float)result->force.at_pulse_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(2e-3f, 19.0f, (float)result->force.at_pulse_N[1]);
+    CHECK_NEAR(2e-3f, 10.2f, result->force.at_pulse_N[0]);
+    CHECK_NEAR(2e-3f, 19.0f, result->force.at_pulse_N[1]);
     /* mean of the load: 2 (0 + ... + 45) 0.4 / 91 */
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, 10.0f + 9.0989f, (float)result->force.mean_N);
+    CHECK_NEAR(0.01f, 10.0f + 9.0989f, result->force.mean_N);
     TEST_ASSERT_TRUE(result->force.quality ==
                      WH_REFUSED); /* 8 N is not the force of these masses */
     TEST_ASSERT_EQUAL_UINT32(2, result->lost);
     TEST_ASSERT_EQUAL_UINT32(4, result->rejected);
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 200.0f, (float)(rig.run.drive.target_radps / RPM));
+    CHECK_NEAR(1e-3f, 200.0f, rig.run.drive.target_radps / RPM);
     TEST_ASSERT_TRUE(result->volts >= WH_R(0.0) && result->volts <= WH_RIG_RATED_V);
 }
 

@@ -122,12 +122,11 @@ TEST(rig_swing, places_are_found_of_rotors_that_nobody_knows) {
         }
         found++;
         const wh_real off = swung.place_rad[0] - rotor.place_rad[0];
-        TEST_ASSERT_FLOAT_WITHIN(0.3f, 0.0f, (float)(off / DEG));
+        CHECK_NEAR(0.3f, 0.0f, off / DEG);
         TEST_ASSERT_TRUE(swung.half_rad[0] >= config.swing.floor_rad &&
                          swung.half_rad[0] <= config.swing.wide_rad);
         covered += WH_ABS(off) <= swung.half_rad[0] ? 1U : 0U;
-        TEST_ASSERT_FLOAT_WITHIN(1.0f, 0.0f,
-                                 (float)((swung.place_rad[1] - rotor.place_rad[1]) / DEG));
+        CHECK_NEAR(1.0f, 0.0f, (swung.place_rad[1] - rotor.place_rad[1]) / DEG);
     }
     TEST_ASSERT_TRUE(found * 10U >= runs * 8U);
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
@@ -191,8 +190,7 @@ TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
         const wh_swung swung = swing_out(&config, &rotor, true);
         if (swung.why == WH_SWING_FOUND) {
             found++;
-            TEST_ASSERT_FLOAT_WITHIN(0.3f, 0.0f,
-                                     (float)((swung.place_rad[0] - rotor.place_rad[0]) / DEG));
+            CHECK_NEAR(0.3f, 0.0f, (swung.place_rad[0] - rotor.place_rad[0]) / DEG);
         }
     }
     TEST_ASSERT_TRUE(found > 0);
@@ -327,8 +325,8 @@ TEST(rig_swing, derivatives_are_what_differences_show) {
             const wh_real q_by = (up.q_rad - down.q_rad) / (WH_R(2.0) * little[i]);
             const wh_real rate_by = (up.rate_radps - down.rate_radps) / (WH_R(2.0) * little[i]);
             const wh_real size = WH_ABS(plain.q_by[i]) + WH_ABS(plain.rate_by[i]) / WH_R(7.0);
-            TEST_ASSERT_FLOAT_WITHIN(0.05f * (float)size, (float)q_by, (float)plain.q_by[i]);
-            TEST_ASSERT_FLOAT_WITHIN(0.35f * (float)size, (float)rate_by, (float)plain.rate_by[i]);
+            CHECK_NEAR(0.05f * (float)size, q_by, plain.q_by[i]);
+            CHECK_NEAR(0.35f * (float)size, rate_by, plain.rate_by[i]);
         }
     }
 }
@@ -342,6 +340,6 @@ TEST(rig_swing, steps_back_undo_steps) {
     for (unsigned i = 0; i < 500; i++) {
         wh_free_rotor_step(cause, &rotor, WH_R(-0.002));
     }
-    TEST_ASSERT_FLOAT_WITHIN(2e-2f, 0.0f, (float)rotor.q_rad);
-    TEST_ASSERT_FLOAT_WITHIN(2e-2f, -11.0f, (float)rotor.rate_radps);
+    CHECK_NEAR(2e-2f, 0.0f, rotor.q_rad);
+    CHECK_NEAR(2e-2f, -11.0f, rotor.rate_radps);
 }

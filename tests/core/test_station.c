@@ -84,7 +84,7 @@ TEST(station, refusals_have_their_numbers) {
         check_begins(rows[i].answer, ask(rows[i].line));
     }
     TEST_ASSERT_TRUE(even.rig.state == WH_RIG_RUNNING);
-    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 300.5f * (float)EVEN_RPM, (float)even.rig.run.target_radps);
+    CHECK_NEAR(1e-3f, 300.5f * (float)EVEN_RPM, even.rig.run.target_radps);
 }
 
 TEST(station, a_whole_run) {

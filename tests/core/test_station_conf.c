@@ -214,22 +214,17 @@ TEST(station_conf, what_follows) {
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mass_moment,
                                  WH_R(2.0) * plain.measure.rotor.unbalance_kgm) == WH_STATION_FINE);
     const float twice = 2.0f;
-    TEST_ASSERT_FLOAT_WITHIN(
-        1e-5f, twice, (float)(even.config.compensation.weight_Nm / plain.compensation.weight_Nm));
-    TEST_ASSERT_FLOAT_WITHIN(
-        1e-5f, twice, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.41421356f,
-                             (float)(even.config.guard.fall_radps / plain.guard.fall_radps));
+    CHECK_NEAR(1e-5f, twice, even.config.compensation.weight_Nm / plain.compensation.weight_Nm);
+    CHECK_NEAR(1e-5f, twice, even.config.guard.load_still_kgm / plain.guard.load_still_kgm);
+    CHECK_NEAR(1e-5f, 1.41421356f, even.config.guard.fall_radps / plain.guard.fall_radps);
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_inertia,
                                  WH_R(8.0) * plain.measure.rotor.inertia_kgm2) == WH_STATION_FINE);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.5f,
-                             (float)(even.config.guard.fall_radps / plain.guard.fall_radps));
+    CHECK_NEAR(1e-5f, 0.5f, even.config.guard.fall_radps / plain.guard.fall_radps);
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_gravity, WH_R(0.0)) == WH_STATION_FINE);
     TEST_ASSERT_TRUE(even.config.compensation.weight_Nm < WH_R(1e-9) &&
                      even.config.guard.fall_radps < WH_R(1e-9));
     TEST_ASSERT_TRUE(wh_conf_set(&conf, WH_CONF_mount_factor, WH_R(0.25)) == WH_STATION_FINE);
-    TEST_ASSERT_FLOAT_WITHIN(
-        1e-5f, 0.5f, (float)(even.config.guard.load_still_kgm / plain.guard.load_still_kgm));
+    CHECK_NEAR(1e-5f, 0.5f, even.config.guard.load_still_kgm / plain.guard.load_still_kgm);
 }
 
 /* Settings that another program saved: unknown numbers, values out of range, settings that contradict each other. */
@@ -300,8 +295,7 @@ TEST(station_conf, list_has_all_and_can_be_typed) {
                 TEST_ASSERT_EQUAL_UINT(told, wh_conf_find(words));
                 const wh_real before = conf.value[told];
                 TEST_ASSERT_TRUE(wh_conf_type(&conf, (wh_conf_id)told, value) == WH_STATION_FINE);
-                TEST_ASSERT_FLOAT_WITHIN((float)WH_ABS(before) * 2e-6f + 1e-8f, (float)before,
-                                         (float)conf.value[told]);
+                CHECK_NEAR((float)WH_ABS(before) * 2e-6f + 1e-8f, before, conf.value[told]);
                 told++;
             }
             if (end == NULL) {
@@ -402,6 +396,5 @@ TEST(station_conf, a_run_with_settings) {
     check_begins("OK", ask("start 250"));
     even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
     check_begins("OK result=", ask("measure"));
-    TEST_ASSERT_FLOAT_WITHIN(0.05f, 2.0f * (float)EVEN_LOAD_N,
-                             (float)even.rig.result.force.amplitude_N);
+    CHECK_NEAR(0.05f, 2.0f * (float)EVEN_LOAD_N, even.rig.result.force.amplitude_N);
 }

@@ -130,8 +130,7 @@ TEST(station_line, numbers_drawn) {
         const wh_real size = (wh_real)whole + (wh_real)part / (wh_real)tens[decimals];
         wh_real found = WH_R(0.0);
         TEST_ASSERT_TRUE(wh_line_number(bytes, &found));
-        TEST_ASSERT_FLOAT_WITHIN(2e-7f * (float)size, negative ? -(float)size : (float)size,
-                                 (float)found);
+        CHECK_NEAR(2e-7f * (float)size, negative ? -(float)size : (float)size, found);
     }
 }
 

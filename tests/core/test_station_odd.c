@@ -168,9 +168,9 @@ TEST(station_odd, a_cell_turned_round) {
     TEST_ASSERT_TRUE(conf.standard[WH_CONF_cell_scale] > WH_R(0.0));
     TEST_ASSERT_TRUE(config.measure.cell.newton_per_count < WH_R(0.0));
     TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_scale, "20") == WH_STATION_FINE);
-    TEST_ASSERT_FLOAT_WITHIN(1e-7f, -0.02f, (float)config.measure.cell.newton_per_count);
+    CHECK_NEAR(1e-7f, -0.02f, config.measure.cell.newton_per_count);
     TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "off") == WH_STATION_FINE);
-    TEST_ASSERT_FLOAT_WITHIN(1e-7f, 0.02f, (float)config.measure.cell.newton_per_count);
+    CHECK_NEAR(1e-7f, 0.02f, config.measure.cell.newton_per_count);
     TEST_ASSERT_TRUE(wh_conf_type(&conf, WH_CONF_cell_reversed, "") == WH_STATION_CONF_VALUE);
 }
 

@@ -259,10 +259,8 @@ TEST(telemetry, states_are_told) {
             if (frame.channel == WH_TEL_RUN && bench.even.rig.run.phase == WH_PHASE_RECORD) {
                 const float rpm = (float)wire_number(frame.payload, 2) * 0.02f;
                 const float drive_V = (float)wire_number(frame.payload + 2, 2) * 0.001f;
-                TEST_ASSERT_FLOAT_WITHIN(
-                    0.011f, (float)(bench.even.rig.pulses.speed.turn_radps * WH_R(9.549296585)),
-                    rpm);
-                TEST_ASSERT_FLOAT_WITHIN(0.00051f, (float)bench.even.rig.command.volts, drive_V);
+                CHECK_NEAR(0.011f, bench.even.rig.pulses.speed.turn_radps * WH_R(9.549296585), rpm);
+                CHECK_NEAR(0.00051f, bench.even.rig.command.volts, drive_V);
                 TEST_ASSERT_EQUAL_UINT(WH_RIG_STAGE_OF_PHASE + WH_PHASE_RECORD, frame.payload[4]);
                 fast++;
             }

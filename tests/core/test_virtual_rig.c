@@ -12,9 +12,9 @@ static void test_unbalance_gives_the_dissertations_force(void) {
                               (WH_R(0.152) * (WH_R(7.25) / WH_R(2.0)) + WH_R(0.15) * WH_R(6.5)) *
                               WH_R(2.0);
     const wh_real force_N = WH_RIG_UNBALANCE_KGM * omega * omega;
-    TEST_ASSERT_FLOAT_WITHIN(0.005f, 9.44f, (float)force_lbf);
-    TEST_ASSERT_FLOAT_WITHIN(0.001f, (float)force_lbf, (float)(force_N * WH_RIG_LBF_PER_N));
-    TEST_ASSERT_FLOAT_WITHIN(0.05f, 42.0f, (float)force_N);
+    CHECK_NEAR(0.005f, 9.44f, force_lbf);
+    CHECK_NEAR(0.001f, force_lbf, force_N * WH_RIG_LBF_PER_N);
+    CHECK_NEAR(0.05f, 42.0f, force_N);
 }
 
 #if !WH_DOUBLE
@@ -31,13 +31,13 @@ static void check_measurement(float target_rpm) {
     const float swing =
         WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
     const float wanted_N = WH_RIG_UNBALANCE_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
-    TEST_ASSERT_FLOAT_WITHIN(2.0f, target_rpm, force->speed_radps / RPM);
+    CHECK_NEAR(2.0f, target_rpm, force->speed_radps / RPM);
     /* from the speed, and the damping's part of the ripple */
-    TEST_ASSERT_FLOAT_WITHIN(0.005f * wanted_N, wanted_N, force->amplitude_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.001f * wanted_N, force->expected_N, force->amplitude_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
+    CHECK_NEAR(0.005f * wanted_N, wanted_N, force->amplitude_N);
+    CHECK_NEAR(0.001f * wanted_N, force->expected_N, force->amplitude_N);
+    CHECK_NEAR(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
     TEST_ASSERT_TRUE(force->quality == WH_GOOD);
-    TEST_ASSERT_FLOAT_WITHIN(0.02f * WH_RIG_INERTIA_KGM2, WH_RIG_INERTIA_KGM2, force->inertia_kgm2);
+    CHECK_NEAR(0.02f * WH_RIG_INERTIA_KGM2, WH_RIG_INERTIA_KGM2, force->inertia_kgm2);
 }
 
 static void test_measurement_of_the_force(void) {
@@ -49,9 +49,9 @@ static void test_measurement_of_the_force(void) {
     TEST_ASSERT_EQUAL_UINT32(10, result->force.turns);
     TEST_ASSERT_EQUAL_UINT32(0, result->lost + result->rejected);
     /* circular motion has no mean acceleration: the tare must cancel */
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, result->force.mean_N);
+    CHECK_NEAR(0.1f, 0.0f, result->force.mean_N);
     /* 12 lb of frame and 0.604 lb of arms and discs */
-    TEST_ASSERT_FLOAT_WITHIN(0.01f, 12.604f * 4.4482216f, result->tare_N);
+    CHECK_NEAR(0.01f, 12.604f * 4.4482216f, result->tare_N);
 }
 
 /* The noise of the model's cell (cell_noise, 0.07 N), and much more, at the tare, in the guard's checks, and in the
@@ -65,12 +65,10 @@ static void test_a_noisy_cell_is_no_fault(void) {
         plant_go_on_to_the_end(&on);
         const wh_rig_result *result = &on.rig.result;
         TEST_ASSERT_TRUE(plant_is_done(&on) && result->force.quality == WH_GOOD);
-        TEST_ASSERT_FLOAT_WITHIN(2.0f * result->force.amplitude_half_N, 42.15f,
-                                 result->force.amplitude_N);
-        TEST_ASSERT_FLOAT_WITHIN(2.0f * result->force.phase_half_rad, 0.0f,
-                                 result->force.phase_rad);
-        TEST_ASSERT_FLOAT_WITHIN(0.25f * noises_N[i], noises_N[i], result->force.residual_N);
-        TEST_ASSERT_FLOAT_WITHIN(0.015f * noises_N[i], noises_N[i] / 15.8f, result->tare_error_N);
+        CHECK_NEAR(2.0f * result->force.amplitude_half_N, 42.15f, result->force.amplitude_N);
+        CHECK_NEAR(2.0f * result->force.phase_half_rad, 0.0f, result->force.phase_rad);
+        CHECK_NEAR(0.25f * noises_N[i], noises_N[i], result->force.residual_N);
+        CHECK_NEAR(0.015f * noises_N[i], noises_N[i] / 15.8f, result->tare_error_N);
         TEST_ASSERT_TRUE(result->force.amplitude_half_N > before_N);
         before_N = result->force.amplitude_half_N;
     }
@@ -80,10 +78,10 @@ static void test_a_noisy_cell_is_no_fault(void) {
  * the bottom. Sensor 1's pulse is at the upper peak, sensor 2's near zero load. */
 static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     const wh_rig_result *result = &on.rig.result;
-    TEST_ASSERT_FLOAT_WITHIN(0.5f, 42.0f + 4.2f, result->high_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.5f, -42.0f + 4.2f, result->low_N);
-    TEST_ASSERT_FLOAT_WITHIN(0.2f, result->high_N, result->force.at_pulse_N[0]);
-    TEST_ASSERT_FLOAT_WITHIN(2.5f, 0.0f, result->force.at_pulse_N[1]);
+    CHECK_NEAR(0.5f, 42.0f + 4.2f, result->high_N);
+    CHECK_NEAR(0.5f, -42.0f + 4.2f, result->low_N);
+    CHECK_NEAR(0.2f, result->high_N, result->force.at_pulse_N[0]);
+    CHECK_NEAR(2.5f, 0.0f, result->force.at_pulse_N[1]);
 }
 
 /* After the rig has settled, each pulse comes when the rotor is at the sensor: at the rotor's phase in the next step
@@ -116,7 +114,7 @@ static void test_pulses_stand_at_their_angles(void) {
             const uint32_t stand = pulse.sensor * 0x40000000U;
             const float off = (float)(int32_t)(hal_virtual_rig_phase(plant) - stand) - turned;
             const float off_deg = off / WH_PHASE_PER_RAD * WH_RIG_DEG_PER_RAD;
-            TEST_ASSERT_FLOAT_WITHIN(0.005f, -HAL_SLOT_LEAD_DEG, off_deg);
+            CHECK_NEAR(0.005f, -HAL_SLOT_LEAD_DEG, off_deg);
             pulses++;
         }
     }
@@ -130,8 +128,7 @@ static void test_slowest_and_fastest_set_points_run(void) {
         plant_go_on_to_the_end(&on);
         check_measurement(targets_rpm[i]);
         /* and takes the voltage of the supply check */
-        TEST_ASSERT_FLOAT_WITHIN(0.5f, wh_run_needs_V(&on.config.run, targets_rpm[i] * RPM),
-                                 on.rig.result.volts);
+        CHECK_NEAR(0.5f, wh_run_needs_V(&on.config.run, targets_rpm[i] * RPM), on.rig.result.volts);
         plant_check_stopped(&on);
     }
 }
@@ -145,20 +142,20 @@ static void test_data_sheet_agrees_with_the_model(void) {
     TEST_ASSERT_TRUE(wh_scene_start(&rig_fixed, &state, memory, sizeof memory) == WH_OK);
     state.real[0] = 10.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 100.0f * WH_RIG_UNBALANCE_KGM, output[2]);
+    CHECK_NEAR(1e-5f, 100.0f * WH_RIG_UNBALANCE_KGM, output[2]);
     /* with the mass on the axis, the cell measures the whole force */
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, output[2], output[1]);
+    CHECK_NEAR(1e-5f, output[2], output[1]);
     /* with level arms, the force is S times the change of speed, which gravity and the damping cause */
     state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
     state.real[0] = 0.0f;
     state.input[0] = 0.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
     const float falls = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2 / WH_RIG_INERTIA_KGM2;
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_UNBALANCE_KGM * falls, output[1]);
+    CHECK_NEAR(1e-5f, -WH_RIG_UNBALANCE_KGM * falls, output[1]);
     state.real[0] = 20.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
     const float slows = WH_RIG_DAMPING_NMS * 20.0f / WH_RIG_INERTIA_KGM2;
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, -WH_RIG_UNBALANCE_KGM * (falls + slows), output[1]);
+    CHECK_NEAR(1e-5f, -WH_RIG_UNBALANCE_KGM * (falls + slows), output[1]);
 }
 
 static void test_a_foreign_scene_is_refused(void) {

@@ -56,7 +56,7 @@ static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     while (on.rig.guard.trip == WH_TRIP_NONE && held < 1000U) {
         if (wh_speed_is_overdue(&on.rig.pulses.speed, hal_clock_ticks())) {
             drive_V = held == 0 ? on.rig.run.volts : drive_V;
-            TEST_ASSERT_FLOAT_WITHIN(0.0f, drive_V, on.rig.run.volts);
+            CHECK_NEAR(0.0f, drive_V, on.rig.run.volts);
             held++;
         }
         plant_control(&on);
@@ -139,7 +139,7 @@ static void test_watchdog_cuts_the_motor(void) {
     TEST_ASSERT_EQUAL(HAL_MOTOR_CUT, hal_motor_start());
     hal_motor_set_voltage(HAL_VIRTUAL_RATED_V);
     hal_clock_wait_until(silent + 45000U * CONTROL_TICKS);
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
+    CHECK_NEAR(0.1f, 0.0f, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
     plant_go_on_to_the_end(&on);
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_WATCHDOG);
     plant_check_stopped(&on);
@@ -320,9 +320,9 @@ static wh_trip break_something(breakage what) {
 static void check_same_record(const wh_trip_record *one, const wh_trip_record *other) {
     TEST_ASSERT_TRUE(one->trip == other->trip && one->phase == other->phase);
     TEST_ASSERT_EQUAL_UINT32(one->ticks, other->ticks);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, one->speed_radps, other->speed_radps);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, one->volts, other->volts);
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, one->supply_V, other->supply_V);
+    CHECK_NEAR(0.0f, one->speed_radps, other->speed_radps);
+    CHECK_NEAR(0.0f, one->volts, other->volts);
+    CHECK_NEAR(0.0f, one->supply_V, other->supply_V);
 }
 
 static void check_reset(wh_trip trip) {
@@ -332,8 +332,7 @@ static void check_reset(wh_trip trip) {
     const bool tripped = trip != WH_TRIP_NONE;
     plant_reset(&on, cause);
     TEST_ASSERT_FALSE(hal_virtual_rig_instance()->enabled || hal_watchdog_has_cut());
-    TEST_ASSERT_FLOAT_WITHIN(0.0f, speed_radps,
-                             hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
+    CHECK_NEAR(0.0f, speed_radps, hal_virtual_rig_speed_radps(hal_virtual_rig_instance()));
     TEST_ASSERT_TRUE(hal_reset_cause() == cause);
     TEST_ASSERT_TRUE(on.rig.state == (tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE));
     TEST_ASSERT_TRUE(on.rig.guard.trip == trip);
@@ -410,7 +409,7 @@ static void test_a_lost_host_in_every_phase(void) {
             } else {
                 plant_go_on_to_the_end(&on);
                 TEST_ASSERT_TRUE(plant_is_done(&on));
-                TEST_ASSERT_FLOAT_WITHIN(0.2f, 42.15f, on.rig.result.force.amplitude_N);
+                CHECK_NEAR(0.2f, 42.15f, on.rig.result.force.amplitude_N);
             }
             plant_check_stopped(&on);
         }
