@@ -12,10 +12,11 @@ unsigned jumps_cases(unsigned few, unsigned all, unsigned fewest) {
 
 void jumps_run(const char *text, const char *number, char *const more[static JUMPS_WORDS]) {
     const char *words[4 + JUMPS_WORDS] = {model_keep(text), "--number", number};
-    const bool another = more[0] != NULL && strcmp(more[0], "--number") == 0;
-    for (int i = 0; i < JUMPS_WORDS; i++) {
-        words[(another ? 1 : 3) + i] = more[i];
+    bool another = false;
+    for (int i = 0; i < JUMPS_WORDS && more[i] != NULL; i++) {
+        another = another || strcmp(more[i], "--number") == 0;
     }
+    memcpy(words + (another ? 1 : 3), more, JUMPS_WORDS * sizeof *more);
     command_say(command_run, words, &jumps_said);
     model_drop();
 }
