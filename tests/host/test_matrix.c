@@ -264,34 +264,6 @@ TEST(matrix, motions_are_those_of_the_exponential) {
     }
 }
 
-TEST(matrix, the_matrix_of_rk4_moves_like_its_stages) {
-    uint64_t seed = 7006;
-    double worst = 0.0;
-    for (unsigned n = 0; n < dice_cases(few_or_all(8, 200)); n++) {
-        char text[TEXT_SIZE];
-        double angle[1];
-        double real[2][LINEAR_STATES];
-        double size = 0.0;
-        linear of;
-        linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){0, n % 2 != 0}, text, sizeof text, &of);
-        for (int k = 0; k < 2; k++) {
-            motion m;
-            set_matrix(&m, text, &engine_double, k == 0 ? MATRIX_NONE : MATRIX_RK4, false);
-            TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 200));
-            m.kind->state(m.run, angle, real[k]);
-            motion_close(&m);
-        }
-        for (int i = 0; i < of.states; i++) {
-            size = fmax(size, fabs(real[0][i]));
-        }
-        for (int i = 0; i < of.states; i++) {
-            worst = fmax(worst, fabs(real[0][i] - real[1][i]) / size);
-        }
-        TEST_ASSERT_TRUE_MESSAGE(worst < 200.0 * DBL_EPSILON, text);
-    }
-    printf("  RK4's matrix and its stages are %.2g apart after 200 steps\n", worst);
-}
-
 /* === matrix printed =========================================================================== */
 /* A step's matrix as tables, LaTeX and Octave (host/emit/matrix.c), parsed again. Each entry matches to the printed
  * digits and has the names of its row and column. */
