@@ -8,7 +8,6 @@
 #include "host/study/price_table.h"
 #include "host/study/reference_run.h"
 
-#include "blocks.h"
 #include "command.h"
 #include "derived.h"
 #include "priced.h"
@@ -271,7 +270,6 @@ TEST(price_control, steps_of_one_equation) {
                  a, b, rows[n].start);
         derived of = derived_scene(text, "s");
         derived_expect(&of, text);
-        const long before = blocks_in_use();
         extrapolation *e = extrapolation_new(
             of.image, (extrapolation_setting){rows[n].columns, rows[n].tolerance}, 1e9);
         const double each =
@@ -292,7 +290,6 @@ TEST(price_control, steps_of_one_equation) {
                                      text);
         }
         extrapolation_free(e);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(before, blocks_in_use(), text);
         derived_free(&of);
     }
 }

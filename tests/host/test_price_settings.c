@@ -5,7 +5,6 @@
 #include "host/os/system.h"
 #include "host/study/reference_run.h"
 
-#include "blocks.h"
 #include "command.h"
 #include "derived.h"
 #include "priced.h"
@@ -128,7 +127,6 @@ TEST(price_states, rows_are_the_records_of_a_run) {
         const image *im = d.image;
         recovered += im->recovered;
         records *r = records_open(NULL, im, &engine_double);
-        const long before = blocks_in_use();
         long_rows *rows = long_rows_new(r);
         long double *row = malloc((size_t)(r->columns + BEHIND) * sizeof *row);
         void *run = engine_double.start(im);
@@ -160,7 +158,6 @@ TEST(price_states, rows_are_the_records_of_a_run) {
         free(row);
         long_rows_free(rows);
         long_rows_free(NULL);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(before, blocks_in_use(), models[n]);
         records_close(r);
         derived_free(&d);
     }
@@ -181,9 +178,7 @@ TEST(price_states, fine_steps_keep_what_is_rounded_off) {
     records *shape = records_open(NULL, d.image, &engine_double);
     d.image->settings.method = WH_EULER;
     long double row[5 * 3];
-    const long before = blocks_in_use();
     TEST_ASSERT_EQUAL_INT(4, fine_steps_run(&w, shape, 30000, row));
-    TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
     for (int i = 0; i <= 4; i++) {
         const long double x = (long double)0.3 + (long double)0.1 * (long double)i / 3.0L;
         TEST_ASSERT_TRUE(fabsl(row[3 * i + 1] - x) <= 1.5e-16L);
@@ -285,32 +280,24 @@ TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
         const kind_row *row = &kind_rows[n];
         derived d = derived_scene(row->text, "s");
         derived_expect(&d, row->text);
-        long before = 0;
-        for (int round = 0; round < 2; round++) {
-            before = blocks_in_use();
-            reference *r = reference_to(d.image, 20, row->operations);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(row->kind, r->kind, row->text);
-            TEST_ASSERT_TRUE_MESSAGE(r->records >= row->least && r->records <= row->most,
-                                     row->text);
-            TEST_ASSERT_EQUAL_INT(20, r->wanted);
-            TEST_ASSERT_FALSE(r->stopped);
-            TEST_ASSERT_TRUE_MESSAGE(row->how == NULL || strstr(r->how, row->how) != NULL,
-                                     row->text);
-            TEST_ASSERT_TRUE_MESSAGE(row->why != NULL || r->why == NULL, row->text);
-            TEST_ASSERT_TRUE_MESSAGE(row->why == NULL || row->why[0] == '\0' ||
-                                         strstr(r->why, row->why) != NULL,
-                                     row->text);
-            TEST_ASSERT_TRUE(r->limit == (row->kind == REFERENCE_FINE_STEPS ? 1e-6
-                                          : LONG_IS_LONGER                  ? 1e-12
-                                                                            : 1e-9));
-            expect_columns(r);
-            reference_cut(r, r->records + 1); /* leaves them all */
-            expect_columns(r);
-            reference_cut(r, r->records / 2);
-            expect_columns(r);
-            reference_free(r);
-        }
-        TEST_ASSERT_EQUAL_INT_MESSAGE(before, blocks_in_use(), row->text);
+        reference *r = reference_to(d.image, 20, row->operations);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(row->kind, r->kind, row->text);
+        TEST_ASSERT_TRUE_MESSAGE(r->records >= row->least && r->records <= row->most, row->text);
+        TEST_ASSERT_EQUAL_INT(20, r->wanted);
+        TEST_ASSERT_FALSE(r->stopped);
+        TEST_ASSERT_TRUE_MESSAGE(row->how == NULL || strstr(r->how, row->how) != NULL, row->text);
+        TEST_ASSERT_TRUE_MESSAGE(row->why != NULL || r->why == NULL, row->text);
+        TEST_ASSERT_TRUE_MESSAGE(
+            row->why == NULL || row->why[0] == '\0' || strstr(r->why, row->why) != NULL, row->text);
+        TEST_ASSERT_TRUE(r->limit == (row->kind == REFERENCE_FINE_STEPS ? 1e-6
+                                      : LONG_IS_LONGER                  ? 1e-12
+                                                                        : 1e-9));
+        expect_columns(r);
+        reference_cut(r, r->records + 1); /* leaves them all */
+        expect_columns(r);
+        reference_cut(r, r->records / 2);
+        expect_columns(r);
+        reference_free(r);
         derived_free(&d);
     }
     reference_free(NULL);
@@ -347,13 +334,11 @@ TEST(price_states, references_are_stopped) {
         derived d = derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s");
         derived_expect(&d, "a scene");
         interrupted = 1;
-        const long before = blocks_in_use();
         reference *r = reference_to(d.image, 20, 1e7);
         interrupted = 0;
         TEST_ASSERT_TRUE(r->stopped);
         TEST_ASSERT_EQUAL_INT(0, r->records);
         reference_free(r);
-        TEST_ASSERT_EQUAL_INT(before, blocks_in_use());
         derived_free(&d);
     }
 }

@@ -1,10 +1,9 @@
 /* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. Rows have closed forms. The
- * report covers runs that diverge, have an output that ends, or are not trusted. Also leaks. */
+ * report covers runs that diverge, have an output that ends, or are not trusted. */
 #include "test.h"
 
 #include <unistd.h>
 
-#include "blocks.h"
 #include "command.h"
 #include "derived.h"
 #include "host/check/finding.h"
@@ -14,7 +13,6 @@ enum { TEXT = 200000 };
 
 static dice die;
 static char folder[60];
-static long before; /* blocks in use when a test began */
 
 static const char *path_of(const char *name) {
     static char path[3][100];
@@ -25,7 +23,6 @@ static const char *path_of(const char *name) {
 }
 
 static void begin(void) {
-    before = blocks_in_use();
     snprintf(folder, sizeof folder, "/tmp/whirl-simulated-XXXXXX");
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
 }
@@ -37,7 +34,6 @@ static void end(void) {
         (void)remove(path_of(names[i]));
     }
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
-    TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
 static derived scene_of(const char *text) {

@@ -8,7 +8,6 @@
 #include "host/study/point.h"
 #include "host/study/session.h"
 
-#include "blocks.h"
 #include "command.h"
 #include "derived.h"
 #include "made_sweep.h"
@@ -260,8 +259,7 @@ TEST(stepping, measures_of_whole_runs) {
 SUITE(stepping) { die = dice_of("stepping", 51); }
 
 /* === sweep settings =========================================================================== */
-/* A sweep's header, the settings stored with its file, and its points as run by workers: each way a point ends frees
- * all memory. */
+/* A sweep's header, the settings stored with its file, and its points as run by workers. */
 
 /* --- headers and settings ----------------------------------------------------------------------------------------*/
 
@@ -306,7 +304,7 @@ static char *fingerprint_of(unsigned changed) {
 }
 
 /* A resumed sweep must have the same settings: each setting that affects the rows changes the stored text. */
-static void test_settings(void) {
+TEST(sweep_settings, settings) {
     char *first = fingerprint_of(0);
     char *again = fingerprint_of(0);
     TEST_ASSERT_EQUAL_STRING(first, again);
@@ -319,10 +317,10 @@ static void test_settings(void) {
     free(again);
 }
 
-/* --- given back --------------------------------------------------------------------------------------------------*/
+/* --- points --------------------------------------------------------------------------------------------------------*/
 
-/* Points as run by workers, in this process, in each way they end; and whole sweeps. */
-static void run_points(void) {
+/* Points as run by workers, in this process, in each way they end. */
+TEST(sweep_settings, points) {
     static const struct {
         const char *text;
         const char *over;
@@ -362,20 +360,3 @@ static void run_points(void) {
     }
 }
 
-static void test_given_back(void) {
-    static void (*const rounds[])(void) = {run_points, test_settings};
-    for (size_t i = 0; i < sizeof rounds / sizeof rounds[0]; i++) {
-        long before = 0;
-        for (int round = 0; round < (i == 0 ? 2 : 1); round++) { /* the others had one before */
-            before = blocks_in_use();
-            rounds[i]();
-        }
-        TEST_ASSERT_TRUE(blocks_in_use() == before);
-    }
-}
-
-SUITE(sweep_settings) {
-    die = dice_of("sweep_settings", 63);
-    RUN_TEST(test_settings);
-    RUN_TEST(test_given_back);
-}

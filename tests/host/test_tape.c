@@ -4,7 +4,6 @@
 #include "host/image/op_list.h"
 #include "host/image/op_list_scaling.h"
 
-#include "blocks.h"
 #include "command.h"
 #include "evaluated.h"
 
@@ -275,7 +274,6 @@ static bool is_reciprocal(int i) {
 
 TEST(tape_entered, what_no_result_needs_is_dropped) {
     static double v[EVALUATED_MOST];
-    const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(40, 10), 200)); c++) {
         bool needed[EVALUATED_MOST] = {false};
         double wanted[4];
@@ -300,7 +298,6 @@ TEST(tape_entered, what_no_result_needs_is_dropped) {
         expect_found();
         op_list_free(list);
     }
-    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
 /* --- powers ----------------------------------------------------------------------------------------------------- */
@@ -513,7 +510,6 @@ static op_list *some_list(void) {
 /* Scaled by one, the list is the same. Scaled by an allowed or any other factor, the results are the same, with
  * compensation if needed. */
 TEST(tape_freed, multiplied_lists_compute_the_same) {
-    const long blocks = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
         op_list *t = some_list();
         double *times = calloc(3 * (size_t)t->count + 1, sizeof *times);
@@ -538,7 +534,6 @@ TEST(tape_freed, multiplied_lists_compute_the_same) {
         TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* negative or NaN, if the bias is unknown */
         op_list_free(t);
     }
-    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
 static int place_of(const op_list *t, double constant) {
@@ -647,7 +642,6 @@ static bool is_held(double unit) {
 
 /* Integers, divided by powers of five, three and seven or multiplied by them, within the range of the search. */
 TEST(tape_gauged, decimals_and_thirds_become_whole) {
-    const long blocks = blocks_in_use();
     const unsigned few = few_or_all(usual_or(4, 12), 1);
     for (int fives = -6; fives <= 6; fives++) {
         for (int threes = -3; threes <= 3; threes++) {
@@ -665,7 +659,6 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
             }
         }
     }
-    TEST_ASSERT_TRUE(blocks_in_use() == blocks);
 }
 
 /* Lists of up to 250 operations, with constants and leaves, are searched. */

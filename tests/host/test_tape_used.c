@@ -1,6 +1,5 @@
 /* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, tape_sums.c, image.c). The
  * results for random lists are compared with the test's own counts, path searches and comparisons. */
-#include "blocks.h"
 #include "drawn_scene.h"
 #include "evaluated.h"
 #include "host/base/alloc.h"

@@ -9,7 +9,6 @@
 #include "host/io/records.h"
 #include "host/io/vcd.h"
 
-#include "blocks.h"
 #include "command.h"
 #include "derived.h"
 
@@ -273,7 +272,6 @@ static derived scene_of_bodies(const bodies *b) {
 }
 
 TEST(traces, moments) {
-    const long before = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(usual_or(12, 8)); c++) {
         const bodies b = draw_bodies(c);
         derived d = scene_of_bodies(&b);
@@ -336,7 +334,6 @@ TEST(traces, moments) {
         free(dump.head);
         derived_free(&d);
     }
-    TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
 SUITE(traces) { die = dice_of("traces", 64); }

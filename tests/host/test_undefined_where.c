@@ -1,6 +1,5 @@
 /* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of drawn
  * formulas, by its column; the sampled places of a step; and the angle without a sine. */
-#include "blocks.h"
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"
@@ -48,7 +47,6 @@ static void put_around(char *formula, int *column, const char *wrapper) {
 }
 
 TEST(undefined_where, the_innermost_part_is_named) {
-    const long before = blocks_in_use();
     for (unsigned c = 0; c < dice_cases(usual_or(80, 20)); c++) {
         char formula[FORMULA];
         char text[FORMULA + 300];
@@ -87,7 +85,6 @@ TEST(undefined_where, the_innermost_part_is_named) {
         free(told);
         derived_free(&d);
     }
-    TEST_ASSERT_TRUE(blocks_in_use() == before);
 }
 
 /* A term is undefined in a window of the step. It is found if a sampled place lies in that window and within the range. */
