@@ -359,4 +359,3 @@ TEST(sweep_settings, points) {
         made_sweep_close(&m);
     }
 }
-
