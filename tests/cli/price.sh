@@ -370,8 +370,6 @@ for command in price choose; do
     exits 2 'above zero' $command "$s" --error=-1
     exits 2 "no quantity stands before '='" $command "$s" --error =0.1mm
     exits 2 'above zero' $command "$s" --error 0
-    exits 2 'error:' $command "$s" --error much
-    exits 2 'error:' $command "$s" $e --horizon x
     exits 2 'the horizon is 0 s' $command "$s" $e --horizon 0
     exits 2 'is not NAME=FROM..TO' $command "$s" $e --vary push
     exits 2 'error:' $command "$s" $e --vary nothing=1..2
@@ -379,8 +377,6 @@ for command in price choose; do
     exits 2 'the limit of 64' $command "$s" $e --vary push=0..1:100
     exits 2 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
     exits 2 'from 10000 to 1e+15' $command "$s" $e --effort 0
-    exits 2 'from 10000 to 1e+15' $command "$s" $e --effort lots
-    exits 2 "unknown option '--bord'" $command "$s" $e --bord x
     exits 2 'did you mean --board' $command "$s" $e --bord x
     exits 2 'unknown option' $command "$s" $e --step 1ms
     exits 2 'cannot be' $command "$scratch/none.whirl" $e
@@ -392,10 +388,7 @@ exits 2 'error is missing' choose "$s"
 exits 2 'exclude each other' choose "$s" --error 1e-3 --predict --measure
 exits 2 'error:' choose "$s" --error 1e-3 --rate 1ms
 exits 2 'above zero' choose "$s" --error 1e-3 --rate 0
-exits 2 'error:' choose "$s" --error 1e-3 --clock fast
 exits 2 'number of bytes' choose "$s" --error 1e-3 --flash 32XB
-exits 2 'number of bytes' choose "$s" --error 1e-3 --flash=-1
-exits 2 'number of bytes' choose "$s" --error 1e-3 --ram KB
 exits 2 'not one period' choose "$s" --error 1e-3 --rate 0.1Hz
 
 # --- interrupted ------------------------------------------------------------------------------------------------------

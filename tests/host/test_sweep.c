@@ -1,4 +1,5 @@
 /* test_sweep.c: grids and measures of `whirl sweep`. Workers: test_jobs.c; files and whole sweeps: tests/cli/sweep.sh. */
+#include "caught.h"
 #include "command.h"
 #include "host/study/grid.h"
 #include "host/study/point.h"
@@ -182,6 +183,18 @@ TEST(sweep, measures_are_read) {
     }
 }
 
+/* The measure is refused with this message first. Returns all that is said; to be freed. */
+static char *expect_wrong(const char *text, const char *wanted) {
+    caught told;
+    open_sample();
+    TEST_ASSERT_NULL(measures_new(parsed->mechanisms[0], &text, 1, heard));
+    diags_flush(heard, catch_text(&told));
+    alloc_text_end(told.to);
+    TEST_ASSERT_EQUAL_STRING_LEN(wanted, told.text, strlen(wanted));
+    close_sample();
+    return told.text;
+}
+
 /* A measure inside an expression is reported with its place. A longer name that begins like a measure is a name. */
 TEST(sweep, measures_inside_are_told) {
     static const char *const words[] = {"amplitude", "mean", "period"};
@@ -190,26 +203,16 @@ TEST(sweep, measures_inside_are_told) {
         char text[100];
         char wanted[200];
         const char *word = words[c % 3U];
-        char *told = NULL;
-        size_t length = 0;
         snprintf(text, sizeof text, "%s%s%s(theta)%s", before[c / 3U], word, c % 2U == 0 ? "" : " ",
                  c / 3U == 2 ? ")" : "");
-        const char *const list[] = {text};
-        open_sample();
-        TEST_ASSERT_NULL(measures_new(parsed->mechanisms[0], list, 1, heard));
-        FILE *out = open_memstream(&told, &length);
-        TEST_ASSERT_NOT_NULL(out);
-        diags_flush(heard, out);
-        fclose(out);
         snprintf(wanted, sizeof wanted,
                  "<measure>:1:%d: error: %s() must enclose the whole measure\n",
                  (int)strlen(before[c / 3U]) + 1, word);
-        TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
+        char *told = expect_wrong(text, wanted);
         TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);
         TEST_ASSERT_NOT_NULL(
             strstr(told, "hint: measure it alone, and compute with the column afterwards\n"));
         free(told);
-        close_sample();
     }
 }
 
@@ -221,22 +224,11 @@ TEST(sweep, a_list_of_measures_is_told) {
     for (unsigned c = 0; c < count * count; c++) {
         char text[100];
         char wanted[60];
-        char *told = NULL;
-        size_t length = 0;
         snprintf(text, sizeof text, "%s%s%s", one[c / count], c % 2U == 0 ? "," : " , ",
                  one[c % count]);
-        const char *const list[] = {text};
-        open_sample();
-        TEST_ASSERT_NULL(measures_new(parsed->mechanisms[0], list, 1, heard));
-        FILE *out = open_memstream(&told, &length);
-        TEST_ASSERT_NOT_NULL(out);
-        diags_flush(heard, out);
-        fclose(out);
         snprintf(wanted, sizeof wanted, "<measure>:1:%d: error: one measure at a time\n",
                  (int)strlen(one[c / count]) + 1 + (int)(c % 2U));
-        TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
-        free(told);
-        close_sample();
+        free(expect_wrong(text, wanted));
     }
     for (unsigned c = 0; c < count; c++) {
         open_sample();

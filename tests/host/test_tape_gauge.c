@@ -213,34 +213,6 @@ TEST(tape_gauge, any_mechanism_keeps_its_results) {
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
 
-/* (M - k2 s c w^2)/(k1 - k2 s^2), k1 = 1.08, k2 = 0.36: if M may be multiplied, all constants become exact. */
-TEST(tape_gauge, a_quotient_gets_whole_numbers) {
-    op_list *t = op_list_new(1, 1);
-    const double one = 1.0;
-    const int phase = op_list_phase(t, &one, 0.0, -1);
-    const int s = op_list_unary(t, OP_SIN, phase);
-    const int c = op_list_unary(t, OP_COS, phase);
-    const int w = op_list_leaf(t, OP_RATE, 0);
-    const int ks = op_list_mul(t, op_list_constant(t, 0.36), s);
-    const int load = op_list_mul(t, ks, op_list_mul(t, c, op_list_mul(t, w, w)));
-    const int above = op_list_sub(t, op_list_leaf(t, OP_INPUT, 0), load);
-    t->result[0] =
-        op_list_div(t, above, op_list_sub(t, op_list_constant(t, 1.08), op_list_mul(t, ks, s)));
-    op_list_prune(t);
-    const int operations = op_list_operations(t);
-    TEST_ASSERT_TRUE(op_list_bias(t, t) > 1e-8);
-    op_list_scale(&t, 0);
-    TEST_ASSERT_EQUAL_INT(operations, op_list_operations(t)); /* no operation is free here */
-    op_list_scale(&t, 1);
-    TEST_ASSERT_EQUAL_INT(operations + 1, op_list_operations(t));
-    TEST_ASSERT_TRUE(op_list_bias(t, t) < 1e-14);
-    for (int i = 0; i < t->count; i++) {
-        const double x = t->ops[i].value;
-        TEST_ASSERT_TRUE(t->ops[i].code != OP_CONSTANT || x == (double)(float)x);
-    }
-    op_list_free(t);
-}
-
 TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
     /* remaining part of the bias; op_list_scale() promises the second */

@@ -101,11 +101,6 @@ static horizons built_in(const char *file, const char *name, horizons_setting ho
     return h;
 }
 
-static void say_trust_scenes(const char *what, const horizons *h) {
-    printf("  %-56s %8.6g s, true %8.6g s of %g s: %.3f\n", what, h->estimate.until_s,
-           h->true_until_s, h->twins->end_s, horizons_ratio(h));
-}
-
 static const horizons_setting in_double = {&engine_double, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
 static const horizons_setting in_float = {&engine_float, false, WH_RK4, TABLES_NONE, MATRIX_NONE};
 static const horizons_setting compensated = {&engine_float, true, WH_RK4, TABLES_NONE, MATRIX_NONE};
@@ -113,7 +108,7 @@ static const horizons_setting in_tables = {&engine_float, false, WH_RK4, TABLES_
 
 static void expect_the_end(const char *file, const char *name, horizons_setting how) {
     horizons h = built_in(file, name, how, HORIZON_TOLERANCE);
-    say_trust_scenes(name, &h);
+    say(name, &h);
     TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.twins->end_s, name);
     TEST_ASSERT_TRUE_MESSAGE(h.estimate.to_the_end, name);
     TEST_ASSERT_EQUAL_DOUBLE(h.twins->end_s, h.estimate.until_s);
@@ -139,7 +134,7 @@ static const char swing[] = "mechanism swing \"two pendulums that exchange their
                             "scene s {\n  start a = 1.1 [rad]\n  step %g [ms]\n  until 60 [s]\n}\n";
 
 static void expect_ratio(const char *what, const horizons *h, double least, double most) {
-    say_trust_scenes(what, h);
+    say(what, h);
     TEST_ASSERT_TRUE_MESSAGE(h->known < KNOWN, what);
     TEST_ASSERT_FALSE_MESSAGE(h->estimate.to_the_end, what);
     TEST_ASSERT_TRUE_MESSAGE(isfinite(h->true_until_s), what);
@@ -189,7 +184,7 @@ TEST(trust_scenes, rounding_and_tables) {
             char what[100];
             snprintf(what, sizeof what, "epicyclic_conserved, %s, tables %s, to %g",
                      settings[i].kind->name, image_tables_words[settings[i].tables], tolerances[k]);
-            say_trust_scenes(what, &h);
+            say(what, &h);
             TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(&h) >= 0.9 && horizons_ratio(&h) <= 1.1, what);
             TEST_ASSERT_TRUE_MESSAGE(h.known < KNOWN, what);
             ended += !h.estimate.to_the_end;
@@ -209,7 +204,7 @@ static unsigned expect_contacts(const char *name, horizons_setting how, double t
                           name, how, tolerance);
     char what[100];
     snprintf(what, sizeof what, "%s, %s, to %g", name, how.kind->name, tolerance);
-    say_trust_scenes(what, &h);
+    say(what, &h);
     const unsigned ended = !h.estimate.to_the_end;
     const double late_s = h.estimate.until_s - h.true_until_s;
     const double early = tolerance < HORIZON_TOLERANCE ? 0.6 : 0.9;
