@@ -166,6 +166,10 @@ wh_refusal even_order(even_rig *even, wh_rig_event event, wh_real value) {
     return even->rig.answer;
 }
 
+void even_obeys(even_rig *even, wh_rig_event event, wh_real value) {
+    TEST_ASSERT_TRUE(even_order(even, event, value) == WH_ALLOWED);
+}
+
 void even_rest(even_rig *even) {
     for (unsigned i = 0; i < 1000U && !even->rig.guard.quiet; i++) {
         even_step(even);
@@ -176,13 +180,13 @@ void even_rest(even_rig *even) {
 void even_arm(even_rig *even) {
     even_start(even);
     even_rest(even);
-    TEST_ASSERT_TRUE(even_order(even, WH_EVENT_ARM, WH_R(0.0)) == WH_ALLOWED);
+    even_obeys(even, WH_EVENT_ARM, WH_R(0.0));
 }
 
 void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure) {
     even_arm(even);
     even->fails = *failure;
-    TEST_ASSERT_TRUE(even_order(even, WH_EVENT_START, target_rpm * EVEN_RPM) == WH_ALLOWED);
+    even_obeys(even, WH_EVENT_START, target_rpm * EVEN_RPM);
     TEST_ASSERT_TRUE(even->rig.run.phase == WH_PHASE_TARE);
 }
 
@@ -201,7 +205,7 @@ void even_reach(even_rig *even, wh_rig_phase phase) {
     even_begin(even, WH_RIG_NOMINAL_RPM, &(even_failure){.in = EVEN_NEVER});
     even_go_on_until(even, phase == WH_PHASE_OFF ? WH_PHASE_SETTLE : phase);
     if (phase == WH_PHASE_OFF) {
-        TEST_ASSERT_TRUE(even_order(even, WH_EVENT_STOP, WH_R(0.0)) == WH_ALLOWED);
+        even_obeys(even, WH_EVENT_STOP, WH_R(0.0));
     }
     TEST_ASSERT_TRUE(even->rig.run.phase == phase);
 }

@@ -69,6 +69,8 @@ void even_steps(even_rig *even, unsigned steps);
 
 /* Posts an order, steps, and returns the answer. */
 wh_refusal even_order(even_rig *even, wh_rig_event event, wh_real value);
+/* The same for an order that must be allowed. */
+void even_obeys(even_rig *even, wh_rig_event event, wh_real value);
 
 /* From now on a hand turns the rotor; 0: the hand lets go, and the rotor stops. */
 void even_turn_by_hand(even_rig *even, wh_real rpm);

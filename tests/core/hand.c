@@ -1,6 +1,8 @@
 /* hand.c: see hand.h. */
 #include "hand.h"
 
+#include "draw.h"
+
 #include "unity.h"
 
 static void hand_accel(const void *model, const wh_phase *phase, const wh_real *linear,
@@ -193,6 +195,15 @@ static void put_sentinels(void) {
         hand_now.law[k].first = WH_R(1e6);
         hand_now.law[k].second = WH_R(1e6);
     }
+}
+
+int hand_draw_row(uint64_t *seed, unsigned n, wh_real *row) {
+    row[0] = draw_whole(seed, -2, 2);
+    row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
+    if (row[0] == WH_R(0.0) && row[1] == WH_R(0.0)) {
+        row[0] = WH_R(1.0);
+    }
+    return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
 }
 
 void hand_start(bool with_books) {

@@ -50,6 +50,8 @@ void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11);
 /* Adds a contact; see hand.law for the numbers. Returns its number. Contacts with a force come first. */
 unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
                   wh_real first, wh_real second);
+/* Draws a row of whole numbers for n coordinates. Returns its only coordinate, or -1. */
+int hand_draw_row(uint64_t *seed, unsigned n, wh_real *row);
 /* Starts the mechanism, with a step of 1 ms. */
 void hand_start(bool with_books);
 /* Makes steps that must all succeed. */

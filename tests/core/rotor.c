@@ -3,6 +3,7 @@
 
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/polar.h"
 #include "draw.h"
 
 #define SLICE_TICKS 500U
@@ -30,14 +31,12 @@ wh_real rotor_ahead_rad(const rotor_state *rotor, wh_real than_rad) {
 
 static wh_real acceleration(const rotor_kind *kind, wh_real drive, wh_real angle_rad,
                             wh_real speed_radps) {
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(angle_rad), &sine, &cosine);
+    const wh_wave wave = wh_wave_of(angle_rad);
     wh_real torque = kind->stall_Nm * (drive - speed_radps / kind->no_load_radps);
     if (kind->freewheels && torque < WH_R(0.0)) {
         torque = WH_R(0.0);
     }
-    torque -= kind->drag_Nms * speed_radps + kind->weight_Nm * sine;
+    torque -= kind->drag_Nms * speed_radps + kind->weight_Nm * wave.sine;
     torque -= speed_radps > WH_R(0.0)   ? kind->friction_Nm
               : speed_radps < WH_R(0.0) ? -kind->friction_Nm
                                         : WH_R(0.0);

@@ -14,15 +14,6 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
 /* --- drawing ------------------------------------------------------------------------------------------------ */
 
-static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
-    row[0] = draw_whole(seed, -2, 2);
-    row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
-    if (row[0] == WH_R(0.0) && row[1] == WH_R(0.0)) {
-        row[0] = WH_R(1.0);
-    }
-    return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
-}
-
 /* Draws one to three contacts under loads of size `heavy`: stops, of which one in `touched` touches at the start, a
  * hold, frictions, a crossing. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
@@ -46,7 +37,7 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     hand_now.weighs = draw_one_in(seed, 2);
     hand_now.system.compensated = draw_one_in(seed, 4);
     for (; room > 0 && !draw_one_in(seed, 3); room--) {
-        int pin = draw_row(seed, n, row);
+        int pin = hand_draw_row(seed, n, row);
         if (beside) {
             row[0] = WH_R(0.0);
             row[1] = draw_one_in(seed, 2) ? WH_R(1.0) : WH_R(-2.0);
@@ -60,7 +51,7 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
                        WH_R(0.0));
     }
     if (room > 0 && draw_one_in(seed, 2)) {
-        const int pin = draw_row(seed, n, row);
+        const int pin = hand_draw_row(seed, n, row);
         const unsigned k = hand_add(WH_HOLD, pin, row[0], row[1], WH_R(0.0), WH_R(0.0), WH_R(0.0));
         hand_now.contact[k].direction = draw_one_in(seed, 2) ? 1 : 0;
         hand_now.system.held = pin < 0;

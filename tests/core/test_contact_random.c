@@ -16,19 +16,9 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 /* Round-off of numbers of size one. */
 #define SLACK (WH_DOUBLE ? WH_R(2e-12) : WH_R(2e-3))
 
-/* Draws a row of whole numbers. Returns its only coordinate, or -1. */
-static int draw_row(uint64_t *seed, unsigned n, wh_real *row) {
-    row[0] = draw_whole(seed, -2, 2);
-    row[1] = n == 1 || draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, -2, 2);
-    if (row[0] == WH_R(0.0) && row[1] == WH_R(0.0)) {
-        row[0] = WH_R(1.0);
-    }
-    return row[1] == WH_R(0.0) ? 0 : row[0] == WH_R(0.0) ? 1 : -1;
-}
-
 static void add_stop(uint64_t *seed, unsigned n) {
     wh_real row[2];
-    const int pin = draw_row(seed, n, row);
+    const int pin = hand_draw_row(seed, n, row);
     const wh_real gap = draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 20) * STEP_S;
     const wh_real at = row[0] * hand_now.start[0] + row[1] * hand_now.start[1];
     (void)hand_add(WH_STOP, pin, row[0], row[1], at - gap, draw_whole(seed, 0, 4) / 4, WH_R(0.0));
@@ -36,7 +26,7 @@ static void add_stop(uint64_t *seed, unsigned n) {
 
 static void add_hold(uint64_t *seed, unsigned n) {
     wh_real row[2];
-    const int pin = draw_row(seed, n, row);
+    const int pin = hand_draw_row(seed, n, row);
     const unsigned k = hand_add(WH_HOLD, pin, row[0], row[1], WH_R(0.0), WH_R(0.0), WH_R(0.0));
     hand_now.contact[k].direction = 1;
     hand_now.system.held = pin < 0;

@@ -42,12 +42,7 @@ static wh_lockin lockin;
 static wh_lockin_turn turns[TURNS_MOST];
 static unsigned turns_done;
 
-static wh_real cosine_of(wh_real rad) {
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(rad), &sine, &cosine);
-    return cosine;
-}
+static wh_real cosine_of(wh_real rad) { return wh_wave_of(rad).cosine; }
 
 static void settings(void) {
     rotor = wh_rig_standard.measure.rotor;

@@ -2,6 +2,7 @@
  * samples, or on earlier data. */
 #include "core/angle.h"
 #include "core/rig/lockin.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 #include "draw.h"
 
@@ -45,13 +46,12 @@ static stream draw_stream(void) {
 
 static wh_real load_of(const stream *from, int32_t since_mark) {
     const wh_real turns = (wh_real)since_mark / (wh_real)TURN_TICKS;
-    wh_real sine;
-    wh_real cosine;
     wh_real third;
     wh_real unused;
-    wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * turns), &sine, &cosine);
+    const wh_wave wave = wh_wave_of(WH_RIG_TWO_PI * turns);
     wh_sincos(wh_phase_from_rad(WH_R(3.0) * WH_RIG_TWO_PI * turns), &third, &unused);
-    return from->mean_N + from->cosine_N * cosine + from->sine_N * sine + from->ripple_N * third;
+    return from->mean_N + from->cosine_N * wave.cosine + from->sine_N * wave.sine +
+           from->ripple_N * third;
 }
 
 /* Runs control steps; returns the finished turns, TURNS at most. */

@@ -74,7 +74,7 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
         arm(true);
         even.config.feeds = fed == 1U ? WH_COMPENSATION_ALWAYS : WH_COMPENSATION_NEVER;
         even.config.measure.record_s = WH_R(8.0);
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_RECORD);
         for (unsigned i = 0; i < 3000U && even.rig.run.phase == WH_PHASE_RECORD; i++) {
             const unsigned late = draw_one_in(&seed, 4) ? draw_one_of(&seed, 3) : 0U;
@@ -120,7 +120,7 @@ TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);
         even.config.run.ramp_max_s = WH_R(6.0) + WH_R(2.0) * (wh_real)i;
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM) == WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_RAMP);
         unsigned steps = 0;
         for (; even.rig.run.phase == WH_PHASE_RAMP && steps < 10000U; steps++) {

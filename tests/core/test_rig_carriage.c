@@ -2,6 +2,7 @@
  * angle; and the effect of the mount on the controller's numbers. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
 
@@ -15,11 +16,7 @@ static wh_rotor_config rotor;
 static wh_real part_at[STEPS + 1U];
 static wh_real turn_s;
 
-static wh_real sine_of(wh_real rad) {
-    wh_wave wave;
-    wh_sincos(wh_phase_from_rad(rad), &wave.sine, &wave.cosine);
-    return wave.sine;
-}
+static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
 /* Slope of the speed, per rad: (I - D sin^2) w dw/dtheta = D w^2 sin cos + c (omega - w). */
 static wh_real slope(wh_real theta, wh_real speed, wh_real omega) {

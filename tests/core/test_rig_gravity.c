@@ -314,12 +314,10 @@ TEST(rig_gravity, the_answer_to_a_pulse) {
         for (unsigned k = 0; k < 64U; k++) {
             const wh_real part = (wh_real)k / WH_R(64.0);
             const wh_real even = angle.base_rad + WH_RIG_TWO_PI * part;
-            wh_real sine;
-            wh_real cosine;
-            wh_sincos(wh_phase_from_rad(WH_R(2.0) * (even - rotor.gravity_rad)), &sine, &cosine);
+            const wh_wave twice = wh_wave_of(WH_R(2.0) * (even - rotor.gravity_rad));
             const double wave = (double)(wh_turn_angle_at(&angle, part) - even);
-            off[0] += wave * (double)cosine / 32.0;
-            off[1] += wave * (double)sine / 32.0;
+            off[0] += wave * (double)twice.cosine / 32.0;
+            off[1] += wave * (double)twice.sine / 32.0;
         }
         const double sum = root(turning * turning + slope * slope);
         const double most = 0.01 * size + 1e-5;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/angle.h"
+#include "core/rig/polar.h"
 #include "core/station/conf.h"
 #include "draw.h"
 #include "even_rig.h"
@@ -63,13 +64,11 @@ static void step(void) {
         pulse[3] = (wh_pulse){.ticks = rotor.mark_ticks[i], .sensor = rotor.mark_sensor[i]};
         wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
     }
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(rotor.angle_rad), &sine, &cosine);
+    const wh_wave wave = wh_wave_of(rotor.angle_rad);
     const wh_real w = rotor.speed_radps;
     const wh_real force_N =
         kind.weight_Nm / WH_RIG_GRAVITY_MPS2 *
-        (w * w * cosine + rotor_acceleration_radps2(&kind, &rotor, drive) * sine);
+        (w * w * wave.cosine + rotor_acceleration_radps2(&kind, &rotor, drive) * wave.sine);
     const wh_real counts = force_N * COUNTS_PER_N + draw_whole(&seed, -10, 10);
     wh_rig_load(&config, &rig, rotor.ticks, (int32_t)counts, WH_LOAD_OK);
     const wh_rig_inputs inputs = {.now_ticks = rotor.ticks, .supply_V = reads * supply_V};

@@ -30,8 +30,7 @@ TEST(rig_observed, each_pulse_is_told_once) {
     for (unsigned k = 0; k < 3U; k++) {
         static const wh_real targets_rpm[] = {WH_R(330.0), WH_R(200.0), WH_R(270.0)};
         arm();
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, targets_rpm[k] * EVEN_RPM) ==
-                         WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_START, targets_rpm[k] * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_SETTLE);
         const wh_observer *observer = &even.rig.observer;
         const uint32_t told = observer->good_marks;
@@ -62,7 +61,7 @@ TEST(rig_observed, each_run_begins_with_an_observer_that_knows_nothing) {
         observer->good_marks = draw_one_of(&seed, 100);
         observer->mark_ticks = even.inputs.now_ticks + (uint32_t)draw_bits(&seed) * 2U;
         observer->torque_Nm = draw_broken(&seed, -1, 1);
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
         TEST_ASSERT_FALSE(observer->valid || observer->runs || observer->marked);
         TEST_ASSERT_TRUE(observer->good_marks == 0 && observer->torque_Nm == WH_R(0.0));
     }
@@ -72,7 +71,7 @@ TEST(rig_observed, a_result_says_the_voltage) {
     for (unsigned i = 0; i < 4U; i++) {
         even_arm(&even);
         const wh_real target_rpm = WH_R(200.0) + WH_R(45.0) * (wh_real)i;
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, target_rpm * EVEN_RPM) == WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_START, target_rpm * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_RECORD);
         wh_real volts = WH_R(0.0);
         while (even.rig.run.phase == WH_PHASE_RECORD) {
@@ -109,7 +108,7 @@ TEST(rig_observed, a_step_with_a_pulse_works_on_no_turn) {
 TEST(rig_observed, unfed_nothing_is_observed) {
     arm();
     even.config.feeds = WH_COMPENSATION_NEVER;
-    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM) == WH_ALLOWED);
+    even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
     const uint32_t ticks = even.rig.observer.ticks;
     even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
     TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_RAMP_DOWN);
@@ -122,7 +121,7 @@ TEST(rig_observed, unfed_nothing_is_observed) {
 TEST(rig_observed, the_reference_knows_who_is_fed) {
     arm();
     even.config.feeds = WH_COMPENSATION_SLOW;
-    TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM) == WH_ALLOWED);
+    even_obeys(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM);
     for (unsigned i = 0; i < 4U; i++) {
         const wh_turn_angle *angle = &even.rig.measure.lockin.angle;
         for (unsigned k = 0; k < 6000U && !angle->fed; k++) {
@@ -132,15 +131,13 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
         }
         TEST_ASSERT_TRUE(angle->fed);
         CHECK_NEAR(0.0f, even.rig.run.volts, angle->drive_V);
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(200.0) + (wh_real)i) * EVEN_RPM) ==
-                         WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_SET, (WH_R(200.0) + (wh_real)i) * EVEN_RPM);
         TEST_ASSERT_FALSE(angle->fed);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
         CHECK_NEAR(0.0f, 0.0f, even.rig.compensation.part); /* fades in again from zero */
         even_steps(&even, 300);
         TEST_ASSERT_FALSE(angle->fed);
-        TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM) ==
-                         WH_ALLOWED);
+        even_obeys(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM);
     }
 }
 

@@ -2,6 +2,7 @@
  * friction, stuck stages and dead sensors, in every state with the motor off. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 #include "draw.h"
 #include "rotor.h"
@@ -103,11 +104,9 @@ static void step_on(void) {
             wh_rig_pulse(&b.config, &b.rig, b.rotor.mark_sensor[i], b.rotor.mark_ticks[i]);
         }
     }
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(b.rotor.angle_rad), &sine, &cosine);
+    const wh_wave wave = wh_wave_of(b.rotor.angle_rad);
     const wh_real load_N =
-        WH_RIG_UNBALANCE_KGM * b.rotor.speed_radps * b.rotor.speed_radps * cosine;
+        WH_RIG_UNBALANCE_KGM * b.rotor.speed_radps * b.rotor.speed_radps * wave.cosine;
     wh_rig_load(&b.config, &b.rig, b.rotor.ticks, (int32_t)(load_N * COUNTS_PER_N), WH_LOAD_OK);
     const wh_motor_way before = b.command.way;
     b.command = wh_rig_step(&b.config, &b.rig, &b.inputs);

@@ -44,12 +44,10 @@ TEST(rig_parts, polar_of_every_size) {
         for (unsigned k = draw_one_of(&seed, 4); k > 0; k--) {
             size *= WH_R(10.0);
         }
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(angle), &sine, &cosine);
+        const wh_wave wave = wh_wave_of(angle);
         wh_real radius;
         wh_real found;
-        wh_polar(size * cosine, size * sine, &radius, &found);
+        wh_polar(size * wave.cosine, size * wave.sine, &radius, &found);
         CHECK_NEAR(1e-6f, 1.0f, radius / size);
         CHECK_NEAR(2e-6f, angle, found);
     }

@@ -30,11 +30,9 @@ static void put_second(wh_lockin_turn *turn, wh_real ripple_rad, wh_real lag_rad
     wh_polar(turn->force_N.at[1], -turn->force_N.at[2], &size_N, &phase_rad);
     const wh_real per =
         WH_R(2.0) * ripple_rad / (WH_R(1.0) + WH_R(1.5) * ripple_rad * ripple_rad); /* B/A */
-    wh_real sine;
-    wh_real cosine;
-    wh_sincos(wh_phase_from_rad(lag_rad + WH_R(2.0) * phase_rad), &sine, &cosine);
-    turn->force_N.at[3] = WH_R(0.75) * per * size_N * cosine;
-    turn->force_N.at[4] = WH_R(-0.75) * per * size_N * sine;
+    const wh_wave wave = wh_wave_of(lag_rad + WH_R(2.0) * phase_rad);
+    turn->force_N.at[3] = WH_R(0.75) * per * size_N * wave.cosine;
+    turn->force_N.at[4] = WH_R(-0.75) * per * size_N * wave.sine;
 }
 
 static wh_lockin_turn turn_of(wh_real in_phase, wh_real quadrature, unsigned number) {
@@ -256,13 +254,11 @@ TEST(rig_result, reasons_from_the_turns) {
             (i < 4U ? WH_R(0.98) : WH_R(1.02)) *
             (WH_R(0.01) + WH_SQRT(measured.phase_half_rad * measured.phase_half_rad -
                                   bench.phase_floor_rad * bench.phase_floor_rad));
-        wh_real sine;
-        wh_real cosine;
-        wh_sincos(wh_phase_from_rad(WH_RIG_TWO_PI * turns[i % 4U]), &sine, &cosine);
+        const wh_wave wave = wh_wave_of(WH_RIG_TWO_PI * turns[i % 4U]);
         const wh_real more_N = WH_R(2.0) * off_rad * full_N /
                                (WH_R(1.0) + WH_R(1.5) * merge.ripple_rad * merge.ripple_rad);
-        merge.second_N[0] += more_N * cosine;
-        merge.second_N[1] += more_N * sine;
+        merge.second_N[0] += more_N * wave.cosine;
+        merge.second_N[1] += more_N * wave.sine;
         conclude(&bench);
         CHECK_NEAR(1e-5f, off_rad, measured.ripple_off_rad);
         TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));

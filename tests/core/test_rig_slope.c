@@ -2,6 +2,7 @@
  * Rotors with random slopes are integrated over their angle and measured by a lock-in with the configured slope. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
+#include "core/rig/polar.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
 #include "draw.h"
@@ -21,12 +22,6 @@ static wh_measured measured;
 
 static wh_real drawn_between(wh_real least, wh_real most) {
     return least + (most - least) * draw_whole(&seed, 0, 65535) / WH_R(65535.0);
-}
-
-static wh_wave wave_of(wh_real rad) {
-    wh_wave wave;
-    wh_sincos(wh_phase_from_rad(rad), &wave.sine, &wave.cosine);
-    return wave;
 }
 
 typedef struct plant {
@@ -50,7 +45,7 @@ static wh_real truth_N;
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
     const wh_real weight_Nm = rotor.unbalance_kgm * rotor.gravity_mps2;
     return (p->slope_Nms * (p->speed_radps - speed) -
-            weight_Nm * wave_of(theta - p->gravity_rad).sine) /
+            weight_Nm * wh_wave_of(theta - p->gravity_rad).sine) /
            p->inertia_kgm2;
 }
 
@@ -66,7 +61,7 @@ static wh_real turn(const plant *p, wh_real speed) {
     truth_N = WH_R(0.0);
     for (unsigned i = 0; i <= STEPS; i++) {
         const wh_real theta = from + h * (wh_real)i;
-        const wh_wave at = wave_of(theta);
+        const wh_wave at = wh_wave_of(theta);
         part_at[i] = time;
         force_N[i] = rotor.unbalance_kgm *
                      (speed * speed * at.cosine + acceleration(p, theta, speed) * at.sine);
@@ -113,7 +108,7 @@ static void integrate(const plant *p) {
             const wh_real weight = WH_R(0.5) * (part_at[i + 1U] - before);
             const wh_real even = base + WH_RIG_TWO_PI * part_at[i];
             const wh_real rest = from + WH_RIG_TWO_PI / (wh_real)STEPS * (wh_real)i - even;
-            const wh_wave at = wave_of(even);
+            const wh_wave at = wh_wave_of(even);
             sum[0] += weight * rest;
             sum[1] += WH_R(2.0) * weight * rest * at.sine;
             sum[2] += WH_R(2.0) * weight * rest * at.cosine;
@@ -199,7 +194,7 @@ static plant draw_plant(wh_real line) {
 
 /* The difference between the lock-in's ripple and the rotor's, as a vector. */
 static wh_real arrow_off(void) {
-    const wh_wave lag = wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
+    const wh_wave lag = wh_wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
     const wh_real along = lockin.angle.ripple_rad * lag.cosine - along_rad;
     const wh_real across = lockin.angle.ripple_rad * lag.sine - across_rad;
     return WH_SQRT(along * along + across * across);
