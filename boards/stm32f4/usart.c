@@ -47,8 +47,8 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Reading the status, then the data, clears both flags (30.6.1). Bytes lost by an overrun came after this one: a zero
- * replaces them before the next byte, and also bytes without room. A line with a zero is not executed. */
+/* Reading the status, then the data, clears both flags (30.6.1). Bytes after this one are lost by an overrun, or if
+ * the FIFO is full. One zero before the next byte stands for them. A line with a zero is not executed. */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);

@@ -47,8 +47,8 @@ typedef struct wh_run_config {
     wh_real slow_radps;        /* at this speed the ramp down ends; a slower set-point is kept */
 } wh_run_config;
 
-/* While the rig settles, the mean speed of this many turns decides. They overlap by half, so they span two and a half
- * turns. A jitter s of the pulses changes the mean duration of a turn by s/2: 0.11 rpm for 120 us at 330 rpm (single
+/* While the rig settles, the mean of this many whole-turn speeds is compared with the set-point. Two sensors give two
+ * new speeds a turn, so four span 2.25 or 2.75 turns. A jitter s of the pulses changes the mean duration of a turn by s/2: 0.11 rpm for 120 us at 330 rpm (single
  * turns scatter by 0.31 rpm). A drift, or an oscillation slower than a second, changes the mean too. */
 #define WH_RUN_TURNS 4U
 

@@ -121,7 +121,7 @@ typedef struct wh_measured {
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
     wh_real expected_N;      /* force amplitude expected from masses, speed and mount */
-    wh_real residual_N;      /* rms after orders 0 to 2 */
+    wh_real residual_N;      /* rms after orders 0 to 2 are subtracted */
     wh_real repeats_N;       /* repeating residual: harmonics 3 to 6 together, or the third */
     wh_real repeats_limit_N; /* limit from noise and a healthy rig */
     wh_real jitter_s;        /* jitter of the pulses, standard deviation */

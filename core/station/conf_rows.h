@@ -54,7 +54,7 @@
     X(gravity_angle, 6, WH_CONF_REAL, DEG, -180.0, 180.0, ROTOR, measure.rotor.gravity_rad, \
       "angle at which the arms hang at rest") \
     X(mount_factor, 7, WH_CONF_REAL, ONE, 0.01, 1.0, ROTOR, measure.result.mount_factor, \
-      "force divided by the force on a fixed mount; carriage: 1/(1 + ratio)") \
+      "force divided by that on a fixed mount; on a carriage M/(M + m), m the eccentrics") \
     X(sensor1, 8, WH_CONF_REAL, DEG, -30.0, 30.0, SENSORS, measure.rotor.pulse_rad[0], \
       "angle of sensor 1 from the loading-train axis") \
     X(sensor2, 9, WH_CONF_REAL, DEG, 60.0, 120.0, SENSORS, measure.rotor.pulse_rad[1], \

@@ -45,7 +45,7 @@
 #error "core/step/table.h: WH_TABLE_FOLD is for float"
 #endif
 
-/* Number of cells of a table that is even or odd. */
+/* Cells stored for the table of an even or odd function: half a turn and one cell, if WH_TABLE_FOLD; else a turn. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
 /* Scales the coefficients of y, y^2 and y^3 in a table. In float, y is 2^32 times its value in cells, so that it has

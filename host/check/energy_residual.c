@@ -196,7 +196,7 @@ static void print_momenta(FILE *out, const books *b) {
 }
 
 void books_print(FILE *out, const books *b, const energy_residual *balance) {
-    static const char contacts[] = "impacts, friction, holds and settings";
+    static const char contacts[] = "stops, friction, holds and crossings";
     const book_account a = books_account(b);
     print_levels(out, b);
     if (balance->known) {

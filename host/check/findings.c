@@ -625,7 +625,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
             statement);
     }
     fputs(
-        "hint: try a smaller --step; if the run fails at the same time, check for a singular position there\n",
+        "hint: try a smaller --step; if the run still fails at this time, check whether its position is singular\n",
         out);
     findings_say_failed(out, v);
 }

@@ -21,7 +21,8 @@ typedef enum horizon_verdict {
 
 typedef struct horizon_column {
     horizon_verdict verdict;
-    /* In the column's unit: the greatest less the least value. For a rate, or a zero range, at least a thousandth of its size. */
+    /* Largest minus least value, in the column's unit. For a column whose rate is not in the state, at least 1e-3 (double:
+     * 1e-9) of its largest magnitude. */
     double range;
     double rounding; /* bound on the round-off in the finer run */
     double

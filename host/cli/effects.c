@@ -23,8 +23,8 @@ static const command_usage usage = {
         "\n"
         "Prints for each effect of a scene how far it moves each coordinate, its cost on a board, and\n"
         "whether the allowed error permits leaving it out. Then it prints the smallest set of effects that\n"
-        "keeps the error, as a command (docs/effects.md). It compares motions at every step, in double.\n"
-        "Costs are predictions in float. It does not judge an effect that did not act.\n"
+        "stays within the error, as a command (docs/effects.md). It compares motions at every step, in\n"
+        "double. Costs are predictions in float. It does not judge an effect that did not act.\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP,
     .tail =
@@ -260,7 +260,7 @@ static void print_answer(const effects_options *o, subsets *s) {
     print_row(s, "allowed", s->limit, NULL, 0, o->error != NULL ? "" : "0.1 % of the range");
     print_row(s, "all", all->moved, all->figure, all->contacts, "");
     print_row(s, "smallest set", best->moved, best->figure, best->contacts, "");
-    printf("\nsmallest set that keeps the error%s: ",
+    printf("\nsmallest set within the error%s: ",
            greedy ? ", found by leaving out one more effect at a time" : "");
     print_names(s, "", every & ~best->out, ", ");
     print_names(s, "\nnot tested, so kept: ", untested, ", ");

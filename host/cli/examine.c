@@ -231,7 +231,8 @@ static void print_broken(const show *s, const equations *e, const char *prefix) 
         const poly *change =
             poly_expanded(e->algebra, poly_derivative(e->algebra, e->kinetic, q, 0));
         if (!poly_is_zero(change)) {
-            fprintf(s->out, "%s%s alone is no direction: T changes with it, by ", prefix, q->name);
+            fprintf(s->out, "%s%s alone is no symmetry: T depends on it, its derivative is ",
+                    prefix, q->name);
             print_formula(s, change);
             fputc('\n', s->out);
         }

@@ -196,7 +196,7 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
             trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
     }
     fprintf(stderr,
-            "whirl run: error: no tried step keeps the error: %s%s\n"
+            "whirl run: error: no tried step stays within --error: %s%s\n"
             "hint: %s%s; `whirl choose` tries every setting\n",
             smallest, rounds ? ", and shorter steps no longer reduce it: round-off" : early,
             rounds ? "a larger --error" : "a --method of higher order",
@@ -266,7 +266,7 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
     }
     trial_time(trial_step(t, pace), text);
     char *longer = find_unwarned(t, s, at, &pace, &r)
-                       ? alloc_words("; %s s keeps the error, too, but with warnings", text)
+                       ? alloc_words("; %s s stays within it, too, but with warnings", text)
                        : alloc_words("%s", longest ? "; longer ones are not tried" : "");
     *step = alloc_words("%s", trial_time(trial_step(t, pace), text));
     *chosen = alloc_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",

@@ -42,8 +42,8 @@ static const command_usage usage = {
         "                       last state is always recorded.\n"
         "  --plot FILE          a picture, .svg, .pdf or .png, drawn by gnuplot (docs/plot.md), with these\n"
         "                       options:\n" RUN_CHOICE_HELP
-        "  --error X=0.1mm      use the largest step that keeps the error of one coordinate, rate or output,\n"
-        "                       instead of the scene's step\n"
+        "  --error X=0.1mm      use the largest step that keeps a coordinate, rate or output within the\n"
+        "                       error, instead of the scene's step\n"
         "  --board B            the board of the cost rows: an emulated board of docs/boards.md, or host\n"
         "                       (default: mps2-an386, a Cortex-M4F)\n" OPTIONS_STRICT_HELP
         "  --json               one JSON object on standard output instead of the summary (docs/warnings.md)\n"

@@ -165,9 +165,9 @@ bool start_has_method(const image *im, wh_method method, diags *errors) {
         }
     }
     snprintf(hint, sizeof hint,
-             "integrate the coordinate with --without conserve, or choose --method %s", others);
+             "compute its acceleration with --without conserve, or choose --method %s", others);
     diag_error(errors, im->at, hint,
-               "%s is not defined here: '%s', which is conserved, is integrated from its momentum",
+               "%s is not defined here: the rate of '%s' follows from its conserved momentum",
                title, im->unknown[im->from_momentum[0]].name);
     return false;
 }

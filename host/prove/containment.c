@@ -379,7 +379,7 @@ void containment_print(FILE *out, const containment_found *h, const containment_
     const int first = first_of(h);
     char name[NAME_SIZE];
     print_head(out, h, w);
-    fputs("\nproved at the end of every step until [s]\n", out);
+    fputs("\naccuracy proved at the end of every step, until the time [s]\n", out);
     for (int i = 0; i < h->states; i++) {
         print_state(out, h, w, i);
     }

@@ -92,7 +92,7 @@ const cost_board *cost_board_named(const char *name); /* NULL: unknown */
     X(POWER, "a power") \
     X(CARRY, "a compensated value") \
     X(BOOK, "an entry of the energy's account") \
-    X(MATRIX, "a number of the state, in a step as one matrix") \
+    X(MATRIX, "one component of the state, if the step is one matrix") \
     X(SHIFT, "a shift, in fixed point") \
     X(WORD, "a word of the state or of its start") \
     X(TABLE, "a number of a table") \

@@ -63,7 +63,7 @@ cells pull '# # # # # # # # # needed'
 for effect in buffer far_spring weight lift; do
     says "^$effect .* not tested by this run: it did not act$"
 done
-says '^smallest set that keeps the error: pull, buffer, far_spring, weight, lift$'
+says '^smallest set within the error: pull, buffer, far_spring, weight, lift$'
 says '^not tested, so kept: buffer, far_spring, weight, lift$'
 run=$(sed -n 's/^  whirl run/run/p' "$scratch/out")
 # the differences between the two runs, over all rows, compared with the answer
@@ -94,7 +94,7 @@ awk -v seed="${WHIRL_SEED:-47}" 'BEGIN { srand(seed); n = split("drag pull buffe
 while read -r scene with; do
     ask "$scratch/cart.whirl:$scene" --until 0.5s ${with:+--with "$with"} --error x=1mm
     run=$(sed -n 's/^  whirl run/run/p' "$scratch/out")
-    row 'smallest set that keeps the error:' | sed 's/no effect//; s/, /\n/g' | sort | sed '/^$/d' >"$scratch/set"
+    row 'smallest set within the error:' | sed 's/no effect//; s/, /\n/g' | sort | sed '/^$/d' >"$scratch/set"
     eval "\"\$whirl\" $run" 2>"$scratch/err" | sed -n 's/^  with \([a-z_]*\).*/\1/p' | sort >"$scratch/has"
     cmp -s "$scratch/set" "$scratch/has" && [ -z "$(echo "$run" | tr ' ,' '\n\n' | grep -xE 'drag|pull|buffer|far_spring|weight|lift' | sort | uniq -d)" ]
     verdict $? "$run" "$scratch/out"
@@ -126,7 +126,7 @@ check "a scene that needs its effects to run" ask "$scratch/odd.whirl" --until 9
 cells mass '- - - - - - needed: no run can start without it'
 says '^wall .* needed: the run diverges without it$'
 says '^reader .* not tested by this run'
-says '^smallest set that keeps the error: mass, wall, reader$'
+says '^smallest set within the error: mass, wall, reader$'
 ask "$scratch/odd.whirl" --without wall --until 900s --step 10ms
 [ $? -eq 1 ] && grep -q '^hint: a smaller --step' "$scratch/err" && grep -q 'with all effects the run diverges' "$scratch/err"
 verdict $? "a scene that diverges with all its effects: status 1"

@@ -33,7 +33,7 @@ verdict $? "an interrupt leaves them, too"
 # Words of the model's end no comment.
 sed 's/^mechanism epicyclic "/&ends at no $end /; s/^scene epicyclic_from_rest "/&no $end $end /' "$scratch/model.whirl" >"$scratch/words.whirl"
 run "$scratch/words.whirl:epicyclic_from_rest" --until 10ms --quiet --vcd "$scratch/v.vcd" &&
-    awk '/^[$]comment/ { n++; for (i = 2; i < NF; i++) { bad += $i == "$end" } words += /[$]end / } END { exit bad || n < 5 || !words }' "$scratch/v.vcd"
+    awk '/^[$]comment/ { n++; for (i = 2; i < NF; i++) { bad += $i == "$end" } words += /[$] end / } END { exit bad || n < 5 || !words }' "$scratch/v.vcd"
 verdict $? "a comment ends at its own end" "$scratch/v.vcd"
 
 # What does not move is written once: a block that sticks for ten minutes.

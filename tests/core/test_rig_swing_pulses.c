@@ -247,7 +247,7 @@ static unsigned may_follow(wh_swing_piece piece) {
     return 0;
 }
 
-/* Also checks that a part has at most three steps of the equation. */
+/* Also checks that a piece integrates the equation of motion over at most EQUATION_STEPS steps. */
 TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
     const wh_rig_config *config = &wh_rig_standard;
     unsigned times[WH_SWING_ENDS + 1] = {0};

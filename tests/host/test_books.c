@@ -40,7 +40,7 @@ TEST(account, entries_across_impacts_are_closed_forms) {
         const double work = push * (told(what.out, "\n  z ") - height);
         const double lost = 1.5 * 1.5 * (exp(-2.0 * damping) - 1.0); /* m v^2/2; x' loses b t/m */
         const double change = told(what.out, "\n  change");
-        const double took = told(what.out, "impacts, friction, holds and settings");
+        const double took = told(what.out, "stops, friction, holds and crossings");
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-8, work, told(what.out, "work of inputs"), text);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-8, lost, told(what.out, "\n  losses"), text);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-7, change, work + lost + took, text);

@@ -530,8 +530,8 @@ static void expect_words(const horizon *h) {
         "after that no single coordinate is accurate; only the balances are meaningful, to t = 4 s:\n  energy: "));
 }
 
-/* The fast spring, at w h = 1/2, lags by w (w h)^4/120 = 0.026 rad per second. Its error reaches a hundredth of its
- * range, 2 m, at 0.02 rad, that is 0.77 s, or up to half a swing later. */
+/* The fast spring has w h = 1/2 and an amplitude of 1 m. It lags by w (w h)^4/120 = 0.026 rad per second. After 0.77 s
+ * the lag is 0.02 rad and the error can be 0.02 m, a hundredth of its range; at the latest half a swing later. */
 TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);

@@ -202,7 +202,8 @@ TEST(held_text, words) {
         at = read_time(at, (double)found.flowpipe_steps);
         at = said_exactly(at, " of them to t = ");
         at = read_time(at, found.tube_s);
-        at = said_exactly(at, " s\n\nproved at the end of every step until [s]\n");
+        at = said_exactly(at,
+                          " s\n\naccuracy proved at the end of every step, until the time [s]\n");
         for (int i = 0; i < found.states; i++) {
             at = said_state(at, i, name_of(i, name));
         }

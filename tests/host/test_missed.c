@@ -217,7 +217,8 @@ TEST(missed, ways_out) {
     TEST_ASSERT_TRUE(ways[0] * 6 > cases && ways[1] > 0);
 }
 
-/* On the path there is a pole (the tip of a weak force's cone) and then a hill. There is a warning about one of them. */
+/* The path passes the tip of a weak conical potential, where its force has a pole, and then a hill of potential energy.
+ * Either there is a warning, or the body turns back at the hill. */
 TEST(missed, hills_behind_a_tip) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);

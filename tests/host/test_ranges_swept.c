@@ -1,5 +1,5 @@
-/* test_ranges_swept.c: axes of a sweep (host/study/grid.h, changes.h), drawn: linear or geometric values in counting
- * order, and the changes of each point. An error names its option and leaves the grid unchanged. Also leaks, and
+/* test_ranges_swept.c: random axes of a sweep (host/study/grid.h): linear or geometric values in counting order,
+ * and the changes of each point. An error names its option and leaves the grid unchanged. Also leaks, and
  * the CSV file of a resumed sweep. */
 #include "test.h"
 

@@ -252,7 +252,7 @@ static bool check_chosen(dice *d, const rated *r) {
     run(r, (const char *const[]){"--error", error, NULL}, &what);
     if (what.status > said_owes(what.err)) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, what.err);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "no step that was tried keeps the error"),
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "no tried step stays within --error"),
                                      what.err);
         return false;
     }
@@ -262,7 +262,7 @@ static bool check_chosen(dice *d, const rated *r) {
         strstr(what.out, "chosen step"); /* after the reader's sentence, if there is one */
     TEST_ASSERT_NOT_NULL_MESSAGE(chosen, what.out);
     TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
-    const char *longer = strstr(chosen, " s keeps the error, too, but with warnings\n");
+    const char *longer = strstr(chosen, " s stays within it, too, but with warnings\n");
     const bool warned = strstr(what.err, "warning") != NULL;
     TEST_ASSERT_TRUE_MESSAGE(warned <= (strstr(chosen, "for this error alone") != NULL), what.err);
     TEST_ASSERT_FALSE_MESSAGE(warned && longer != NULL, what.err);

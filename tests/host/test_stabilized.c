@@ -7,7 +7,12 @@
 
 /* === stabilized =============================================================================== */
 
-enum { LINKS = 3, TEXT = 4096, GO = 41, WINDOW = 25 }; /* steps; iterations that make about 1024 */
+enum {
+    LINKS = 3,
+    TEXT = 4096,
+    GO = 41,
+    WINDOW = 25
+}; /* GO: steps between readings; WINDOW: readings in 1024 steps */
 #define GRAVITY 9.81
 
 /* Point masses on rods in a chain, from a cart on a spring. Angles are from the vertical. */

@@ -196,10 +196,9 @@ TEST(starts, momenta_are_no_kicks) {
         diags *errors = diags_new();
         TEST_ASSERT_FALSE(start_has_method(made.image, WH_LEAPFROG, errors));
         const char *told = told_of(errors);
-        snprintf(
-            what, sizeof what,
-            "%s is not defined here: 'q%d', which is conserved, is integrated from its momentum",
-            wh_methods[WH_LEAPFROG].title, first);
+        snprintf(what, sizeof what,
+                 "%s is not defined here: the rate of 'q%d' follows from its conserved momentum",
+                 wh_methods[WH_LEAPFROG].title, first);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, what), told);
         diags_free(errors);
         derived_free(&made);

@@ -8,7 +8,8 @@
 enum { POWER_ON = 1, EXTERNAL = 2, BROWN_OUT = 4 }; /* flags of MCUSR */
 #define HANG 0xCFFFU                                /* a jump to itself */
 
-/* A random state: idle, armed, at some time of a run, or tripped. True: a trip is latched. */
+/* Brings the rig into a random state: idle, armed, at some time of a run, or tripped. *tripped: a trip is latched.
+ * Returns false if that failed. */
 static bool draw_state(bool *tripped) {
     *tripped = false;
     const unsigned state = below(4);
