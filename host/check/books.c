@@ -76,6 +76,10 @@ double books_swing_J(const books *b) {
 
 /* --- round-off ---------------------------------------------------------------------------------*/
 
+/* The smallest normal float; and how often a step rounds each entry, at its stages and events. */
+#define FLOAT_LEAST 0x1p-126
+#define SUMS_OF_A_STEP 8.0
+
 /* Relative change of a component for the difference quotient of the energy. */
 #define SLOPE_SHARE 0x1p-20
 
@@ -161,6 +165,29 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
+/* Energy that a step's entries may lose to underflow. A run with contacts keeps its ledger in its own number format.
+ * Values below the smallest normal float have an error of that size, or vanish, and all errors may have one sign.
+ * Double has no such loss of any practical size. */
+static double step_lost_J(const books *b, const engine_kind *kind) {
+    const image *im = b->image;
+    if (im->contacts == 0 || kind != &engine_float) {
+        return 0.0;
+    }
+    double without_W = 0.0;
+    double with_W = 0.0;
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        without_W += b->off[im->count + k];
+    }
+    evaluator_rounding(b->evaluator, b->angle_rad, FLOAT_LEAST, b->off);
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        with_W += b->off[im->count + k];
+    }
+    const double lost_W = with_W - without_W;
+    const double entries = im->ledger.smooth + im->contacts + im->inputs;
+    return 0x1p-24 *
+           (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
+}
+
 /* A momentum is a sum of masses times rates, and of terms without rates. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
@@ -189,10 +216,11 @@ static void look_at_rounding(books *b, const engine_kind *kind, const void *run)
     const double state_J = state_rounding_J(b, kind, run);
     look_at_momenta(b);
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
-    evaluator_rounding(b->evaluator, b->angle_rad, b->off);
+    evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
     b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
+    b->lost_J = number_most(b->lost_J, step_lost_J(b, kind));
 }
 
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J) {
@@ -200,6 +228,8 @@ double books_rounding_J(books *b, const engine_kind *kind, const void *run, doub
     *computing_J = b->computing_J;
     return b->rounding_J + 0x1p-52 * b->size_J;
 }
+
+double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 

@@ -62,6 +62,7 @@ typedef struct books {
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */
     double computing_J; /* largest sampled round-off of the evaluation of the energy */
+    double lost_J;      /* largest sampled underflow of a step's entries in float */
     double rule_J;      /* error bound of the integration rule, over the whole run */
     double kept_J;      /* residual at the last even step */
     double most_J;      /* largest size of the residual at an even step */
@@ -89,5 +90,7 @@ double books_swing_J(const books *b);
 /* Energy change by the round-off of one step in numbers of this kind: of the state, of the accelerations and of the
  * integrated powers. *computing_J: the round-off of one evaluation of the energy in double. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
+/* Underflow in the ledger of a scene with contacts in float, over all steps; after books_rounding_J(). */
+double books_lost_J(const books *b);
 
 #endif

@@ -71,6 +71,9 @@ energy_residual energy_residual_of(books *b, const engine_kind *kind, const void
     double computing_J;
     const double step_J = books_rounding_J(b, kind, run, &computing_J);
     made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
+    if (made.left_J != 0.0) { /* otherwise there is no residual to explain */
+        made.rounding_J += books_lost_J(b);
+    }
     made.exact = b->image->settings.matrix == MATRIX_EXACT;
     if (made.exact && made.left_J != 0.0) { /* exact motion, coarse rule */
         made.rounding_J += b->rule_J;

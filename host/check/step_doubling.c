@@ -267,7 +267,7 @@ static void rounded_look(rounded *r, const void *run) {
     double real[2 * IMAGE_COMPONENTS_MAX];
     engine_double.state(run, angle_rad, real);
     evaluator_run(r->evaluator, 0.0, angle_rad, real, real + linear, r->input, r->result);
-    evaluator_rounding(r->evaluator, angle_rad, r->off);
+    evaluator_rounding(r->evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
         r->off[i] += is_solved_for(im, i) ? im->mass_blur / UNIT * fabs(r->result[i]) : 0.0;
         r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];

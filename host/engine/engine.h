@@ -91,6 +91,6 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
 double evaluator_value(const evaluator *ev, int operation);
 /* Bounds on the round-off of the results of the last evaluator_run(), with the same angles: error[results], in units of
  * the numbers' unit round-off (rounding.h). */
-void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error);
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
 #endif

@@ -53,11 +53,11 @@ double evaluator_value(const evaluator *ev, int operation) {
     return ev->registers.value[operation];
 }
 
-void evaluator_rounding(const evaluator *ev, const double *angle_rad, double *error) {
+void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error) {
     double wrapped[IMAGE_COMPONENTS_MAX];
     const registers *r = &ev->registers;
     const double *phase = phases_of(ev, angle_rad, wrapped);
     engine_operations += 2U * (uint64_t)ev->list->count;
-    rounding_of(ev->list, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad},
+    rounding_of(ev->list, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
                 error);
 }

@@ -5,6 +5,14 @@
 
 #include "host/base/alloc.h"
 
+/* Larger values are infinite in float. A quotient by such a value has lost all of its digits. */
+#define FLOAT_MOST 0x1.fffffep127
+#define ALL_LOST 0x1p24
+
+static bool is_beyond(const rounding_values *at, double value) {
+    return at->least > 0.0 && fabs(value) > FLOAT_MOST;
+}
+
 /* A constant that float represents exactly has no round-off in either number type. */
 static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
@@ -64,7 +72,9 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_ADD:
     case OP_SUB: *rounds = true; return a + b;
     case OP_MUL: *rounds = true; return fabs(y) * a + fabs(x) * b;
-    case OP_DIV: *rounds = true; return (a + fabs(v) * b) / fabs(y);
+    case OP_DIV:
+        *rounds = true;
+        return is_beyond(at, y) ? fabs(v) * ALL_LOST : (a + fabs(v) * b) / fabs(y);
     case OP_SQRT: *rounds = true; return a == 0.0 ? 0.0 : a / (2.0 * v);
     case OP_CALL: *rounds = true; return of_call(o->function, x, y, a, b);
     case OP_POW:
@@ -80,7 +90,11 @@ void rounding_of(const op_list *t, const rounding_values *at, double *error) {
     for (int i = 0; i < t->count; i++) {
         bool rounds;
         each[i] = carried(t, &t->ops[i], at, each, at->value[i], &rounds);
-        each[i] += rounds ? fabs(at->value[i]) : 0.0;
+        const double size = fabs(at->value[i]);
+        each[i] += !rounds ? 0.0 : size < at->least ? at->least : size;
+        if (is_beyond(at, size)) {
+            each[i] = (double)INFINITY;
+        }
     }
     for (int i = 0; i < t->results; i++) {
         error[i] = each[t->result[i]];

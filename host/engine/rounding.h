@@ -11,6 +11,9 @@ typedef struct rounding_values {
     const double *cosine;    /* [t->count] */
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
+    double
+        least; /* float's smallest normal number: smaller results have this absolute error, and results above float's largest
+                * number an infinite one; 0: neither underflow nor overflow */
 } rounding_values;
 
 /* Bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,

@@ -49,7 +49,7 @@ void vector_field_slope(vector_field *f, const double *x, double *slope) {
 void vector_field_rounding(vector_field *f, const double *x, double *off) {
     const image *im = f->image;
     double *error = alloc(im->list[IMAGE_BOOKS]->results, sizeof *error);
-    evaluator_rounding(f->evaluator, x, error);
+    evaluator_rounding(f->evaluator, x, 0.0, error);
     for (int i = 0; i < f->n; i++) {
         const int at = -1 - f->next[i];
         off[i] = f->next[i] >= 0 ? 0.0 : 0x1p-53 * error[at] + im->mass_blur * fabs(f->value[at]);

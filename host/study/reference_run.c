@@ -454,7 +454,7 @@ static void scale_of(extrapolation *e, long double span_s, long double *scale) {
     }
     evaluator_run(e->rough, 0.0, value, value + im->angles, value + im->angles + linear, e->input,
                   slope);
-    evaluator_rounding(e->rough, value, e->rounding);
+    evaluator_rounding(e->rough, value, 0.0, e->rounding);
     const int first = im->form == WH_SECOND_ORDER ? im->coordinates : 0;
     for (int i = 0; i < e->count; i++) {
         scale[i] = e->largest[i];

@@ -170,7 +170,7 @@ void derived_run_known(const op_list *t, const derived *d, const state_values *s
     evaluator *ev = evaluator_new(t);
     evaluator_run(ev, 0.0, angle_rad, real, real + (p->coordinates - p->angles), input, result);
     if (off != NULL) {
-        evaluator_rounding(ev, angle_rad, off);
+        evaluator_rounding(ev, angle_rad, 0.0, off);
     }
     evaluator_free(ev);
 }
