@@ -258,12 +258,6 @@ TEST(busy_beside, light_clocks) {
 /* === contact curved =========================================================================== */
 /* Random curved contacts: the energy balance closes, also at dead centres. */
 
-static long wanted_runs(long usual) {
-    const char *wanted = getenv("WHIRL_CURVED_RUNS");
-    const long count = wanted != NULL ? strtol(wanted, NULL, 10) : 0;
-    return count > 0 ? count : usual;
-}
-
 typedef struct outcome {
     double share; /* residual of the energy balance relative to the energy at the start */
     uint64_t overruns;
@@ -296,7 +290,7 @@ static bool is_the_methods(uint64_t seed, double share) {
 
 /* In float a motion with contacts may differ from that in double, but it must not lose energy. */
 static void check_energy(const engine_kind *kind, double most, double coarse_share) {
-    const long runs = wanted_runs((long)few_or_all(100, 300));
+    const long runs = (long)dice_cases(few_or_all(100, 300));
     double worst = 0.0;
     int beyond = 0;
     int coarse = 0;
@@ -424,16 +418,10 @@ static double state_apart(const motion *m, const drawn *b, const double *at, con
     return worst;
 }
 
-static long wanted_runs_contact_law(long usual) {
-    const char *wanted = getenv("WHIRL_LAW_RUNS");
-    const long count = wanted != NULL ? strtol(wanted, NULL, 10) : 0;
-    return count > 0 ? count : usual;
-}
-
 typedef bool draw_moment(uint64_t *seed, double impact_s, drawn *b);
 
 static void check_impacts(draw_moment *draw, const engine_kind *kind, double bound) {
-    const long runs = wanted_runs_contact_law((long)few_or_all(12, 40));
+    const long runs = (long)dice_cases(few_or_all(12, 40));
     uint64_t seed = 79;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -513,7 +501,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
 
 /* Constant loads give constant accelerations: rates a h, places a h^2/2, impulses lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
-    const long runs = wanted_runs_contact_law((long)few_or_all(12, 40));
+    const long runs = (long)dice_cases(few_or_all(12, 40));
     uint64_t seed = 72;
     double worst = 0.0;
     double worst_books = 0.0;

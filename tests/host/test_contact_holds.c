@@ -140,9 +140,7 @@ TEST(contact_holds, linkages_stay_closed) {
 /* If shortest + longest equals the sum of the others, the linkage lies flat once per turn. From that position two
  * motions are possible. */
 TEST(contact_holds, a_flat_linkage_is_refused) {
-    const char *asked = getenv("WHIRL_FLAT_RUNS");
-    const int runs =
-        asked != NULL ? (int)strtol(asked, NULL, 10) : (int)few_or_all(usual_or(4, 2), 12);
+    const int runs = (int)dice_cases(few_or_all(usual_or(4, 2), 12));
     int missed[2] = {0, 0}; /* in double, in float */
     uint64_t seed = 13;
     for (int i = 0; i < runs; i++) {

@@ -274,8 +274,7 @@ static uint64_t watch(const watched *w, const char *text, bool in_float, double 
 }
 
 static void watch_many(uint64_t run(uint64_t seed, double *deepest_m)) {
-    const char *wanted = getenv("WHIRL_CASES");
-    const long runs = wanted != NULL ? strtol(wanted, NULL, 10) : 100;
+    const long runs = (long)dice_cases(100);
     uint64_t overruns = 0;
     double deepest_m[2] = {0.0, 0.0};
     for (long i = 1; i <= runs; i++) {

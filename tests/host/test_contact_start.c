@@ -58,12 +58,6 @@ TEST(contact_start, what_happens_at_the_start_is_counted) {
 /* Several contacts at one moment: the result does not depend on the order of the file, an impact never adds energy, and
  * symmetric cases stay symmetric. */
 
-static long wanted_runs(long usual) {
-    const char *wanted = getenv("WHIRL_TANGLED_RUNS");
-    const long count = wanted != NULL ? strtol(wanted, NULL, 10) : 0;
-    return count > 0 ? count : usual;
-}
-
 enum { STATES = 16, BALLS = 5 };
 
 /* The state at the end, and the number of steps with too many events. */
@@ -89,7 +83,7 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
 /* Touching bodies thrown at each other, alone and with friction, loads, holds and a crossing: any order of the
  * statements gives the same motion within round-off. Steps with too many events are excepted. */
 TEST(contact_together, the_order_of_the_file_does_not_matter) {
-    const long runs = wanted_runs(130);
+    const long runs = (long)dice_cases(130);
     int over = 0;
     double worst = 0.0;
     for (long i = 0; i < 2 * runs; i++) {
