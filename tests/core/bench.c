@@ -358,3 +358,16 @@ void bench_solve(const uint8_t *member, unsigned count, unsigned out, const wh_r
         lambda[place[r]] = (wh_real)(a[r][size] / a[r][r]);
     }
 }
+
+void bench_plain(uint64_t *seed, wh_contact_work *w) {
+    bench_draw(seed, false);
+    bench_work(seed, false, w);
+}
+
+bool bench_pins(const uint8_t *member, unsigned count, unsigned c) {
+    bool pinned = false;
+    for (unsigned i = 0; i < count; i++) {
+        pinned = pinned || bench_now.contact[member[i]].pin == (int)c;
+    }
+    return pinned;
+}

@@ -80,4 +80,9 @@ unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at);
 void bench_solve(const uint8_t *member, unsigned count, unsigned out, const wh_real *wanted,
                  wh_real *lambda);
 
+/* A random mechanism without angles, with its work started and every mode set. */
+void bench_plain(uint64_t *seed, wh_contact_work *w);
+/* Is one of these contacts pinned to coordinate c? */
+bool bench_pins(const uint8_t *member, unsigned count, unsigned c);
+
 #endif

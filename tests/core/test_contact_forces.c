@@ -36,14 +36,6 @@ static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *m
     return count;
 }
 
-static bool is_pinned(const uint8_t *member, unsigned count, unsigned c) {
-    bool pinned = false;
-    for (unsigned i = 0; i < count; i++) {
-        pinned = pinned || bench_now.contact[member[i]].pin == (int)c;
-    }
-    return pinned;
-}
-
 /* Do the redundant contacts reach their targets by the forces of the others? */
 static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, const wh_real *wanted,
                    wh_real *lambda) {
@@ -141,7 +133,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             }
             for (unsigned c = 0; c < of->coordinates; c++) {
                 TEST_ASSERT_TRUE(accel[c] ==
-                                 (is_pinned(member, count, c) ? WH_R(0.0) : unshared[c]));
+                                 (bench_pins(member, count, c) ? WH_R(0.0) : unshared[c]));
             }
         }
         bool disturbed = false;
@@ -149,7 +141,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             for (unsigned i = 0; i < count; i++) {
                 right[c] += bench_way(member[i], c) * lambda[i];
             }
-            if (!is_pinned(member, count, c)) {
+            if (!bench_pins(member, count, c)) {
                 disturbed = disturbed || !bench_near(accel[c], right[c]);
             }
         }

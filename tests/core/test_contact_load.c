@@ -5,11 +5,6 @@
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 100 };
 
-static void draw(uint64_t *seed, wh_contact_work *w) {
-    bench_draw(seed, false);
-    bench_work(seed, false, w);
-}
-
 static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     for (unsigned i = 0; i < BENCH_CONTACTS; i++) {
         at[i] = (int8_t)(i >= count || draw_one_in(seed, 3) ? (draw_one_in(seed, 2) ? 1 : -1) : 0);
@@ -50,7 +45,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
         wh_contact_work w;
         uint8_t member[BENCH_CONTACTS] = {0};
         wh_real accel[WH_COORDS];
-        draw(&seed, &w);
+        bench_plain(&seed, &w);
         const unsigned count = bench_members(&seed, member);
         bench_vector(&seed, accel);
         for (unsigned k = 0; k < BENCH_CONTACTS; k++) {
@@ -104,7 +99,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
         wh_real hold[BENCH_CONTACTS];
         wh_real way[WH_COORDS];
         unsigned out;
-        draw(&seed, &w);
+        bench_plain(&seed, &w);
         const unsigned count = bench_members(&seed, member);
         const bool rates = draw_one_in(&seed, 2);
         const wh_real scale[3] = {WH_R(1.0), WH_R(1.0) / WH_CONTACT_ROUNDING,

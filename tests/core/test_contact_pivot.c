@@ -6,11 +6,6 @@
 
 enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 60 };
 
-static void draw(uint64_t *seed, wh_contact_work *w) {
-    bench_draw(seed, false);
-    bench_work(seed, false, w);
-}
-
 static wh_real low_of(unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
     return kind == WH_STOP ? WH_R(0.0) : kind == WH_FRICTION ? -bench_now.first[k] : -WH_LIMITLESS;
@@ -42,7 +37,7 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
         wh_contact_work w;
         wh_real lambda = BENCH_SENTINEL;
         wh_real left = BENCH_SENTINEL;
-        draw(&seed, &w);
+        bench_plain(&seed, &w);
         const unsigned k = draw_one_of(&seed, bench_now.system.forced);
         const bool forces = draw_one_in(&seed, 2);
         const bool up = draw_one_in(&seed, 2);
@@ -86,7 +81,7 @@ TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
         int8_t to = 9;
         int8_t right_to = 9;
         unsigned giving = 0;
-        draw(&seed, &w);
+        bench_plain(&seed, &w);
         const unsigned count = bench_members(&seed, p.member);
         const bool forces = draw_one_in(&seed, 2);
         unsigned wrong = count;
@@ -192,7 +187,7 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
         wh_real left[BENCH_CONTACTS];
         wh_real right[BENCH_CONTACTS];
         wh_real rest[BENCH_CONTACTS];
-        draw(&seed, &w);
+        bench_plain(&seed, &w);
         const unsigned count = bench_members(&seed, member);
         unsigned number = 0;
         unsigned cases = 1;

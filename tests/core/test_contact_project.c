@@ -47,11 +47,7 @@ static void add_least(const uint8_t *member, unsigned count, const wh_real *want
                       wh_real *x) {
     bench_solve(member, count, bench_repeats(member, count, NULL), wanted, lambda);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
-        bool pinned = false;
-        for (unsigned i = 0; i < count; i++) {
-            pinned = pinned || bench_now.contact[member[i]].pin == (int)c;
-        }
-        for (unsigned i = 0; i < count && !pinned; i++) {
+        for (unsigned i = 0; i < count && !bench_pins(member, count, c); i++) {
             x[c] += bench_way(member[i], c) * lambda[i];
         }
     }

@@ -111,7 +111,7 @@ static double phase_error(const drawn_list *l, const op *o, const double *error)
     return sum;
 }
 
-static void define(const drawn_list *l, double part, double *error) {
+static void define(const drawn_list *l, double least, double part, double *error) {
     for (int i = 0; i < l->list->count; i++) {
         const op *o = &l->list->ops[i];
         const double x = takes_one(o) ? l->value[o->a] : 0.0;
@@ -126,7 +126,7 @@ static void define(const drawn_list *l, double part, double *error) {
             /* as from a table: the error is relative to 1 */
             error[i] += 1.0;
         } else if (!is_exact(o->code)) {
-            error[i] += fabs(l->value[i]);
+            error[i] += fmax(fabs(l->value[i]), least);
         }
     }
 }
@@ -194,13 +194,14 @@ TEST(running_error, drawn_lists) {
     for (unsigned n = few_or_all(3000, 60000); n > 0; n--) {
         drawn_list l;
         draw_list(&d, &l);
+        const double least = dice_one_of(&d, 2) == 0 ? 0.0 : dice_between(&d, 0.1, 2.0);
         if (compute(&l)) {
             double wanted[MOST_OPS];
             double coarser[MOST_OPS];
             double got[4];
-            const rounding_values at = {l.value, l.sine, l.cosine, l.phase_rad, l.angle_rad};
-            define(&l, 1e-6, wanted);
-            define(&l, 1e-5, coarser);
+            const rounding_values at = {l.value, l.sine, l.cosine, l.phase_rad, l.angle_rad, least};
+            define(&l, least, 1e-6, wanted);
+            define(&l, least, 1e-5, coarser);
             rounding_of(l.list, &at, got);
             for (int i = 0; i < 4; i++) {
                 const double error = wanted[l.list->result[i]];
@@ -225,7 +226,7 @@ TEST(running_error, drawn_lists) {
     }
 }
 
-/* A sum or root of zero operands is exact: no error. */
+/* A sum or root of zero operands is exact: no error, except for underflow. */
 TEST(running_error, nothing_is_off_by_nothing) {
     op_list *t = op_list_new(0, 2);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
@@ -233,10 +234,43 @@ TEST(running_error, nothing_is_off_by_nothing) {
     t->result[0] = op_list_unary(t, OP_SQRT, op_list_mul(t, x, x));
     t->result[1] = op_list_add(t, x, y);
     const double value[8] = {0.0};
-    const rounding_values at = {value, value, value, NULL, NULL};
+    const rounding_values at = {value, value, value, NULL, NULL, 0.0};
     double error[2] = {1.0, 1.0};
     rounding_of(t, &at, error);
     TEST_ASSERT_TRUE(error[0] == 0.0 && error[1] == 0.0);
+    const rounding_values small = {value, value, value, NULL, NULL, 1e-38};
+    rounding_of(t, &small, error);
+    TEST_ASSERT_EQUAL_DOUBLE(1e-38, error[1]);
+    TEST_ASSERT_TRUE(error[0] > 1e-38); /* the root has no slope there */
+    op_list_free(t);
+}
+
+/* In z/(x*y) the product exceeds float's largest number, so the quotient is lost. In double it is not. */
+TEST(running_error, what_is_beyond_float) {
+    dice d = dice_of("running_error", 2316);
+    op_list *t = op_list_new(0, 1);
+    const int x = op_list_leaf(t, OP_LINEAR, 0);
+    const int y = op_list_leaf(t, OP_LINEAR, 1);
+    const int z = op_list_leaf(t, OP_LINEAR, 2);
+    const int xy = op_list_mul(t, x, y);
+    t->result[0] = op_list_div(t, z, xy);
+    for (int k = 0; k < 100; k++) {
+        double value[8] = {0.0};
+        double error;
+        value[x] = pow(10.0, dice_between(&d, 10.0, 30.0));
+        value[y] = 3.4e38 / value[x] * exp(dice_between(&d, -20.0, 20.0));
+        value[z] = pow(10.0, dice_between(&d, -30.0, 30.0));
+        value[xy] = value[x] * value[y];
+        value[t->result[0]] = value[z] / value[xy];
+        const double v = value[t->result[0]];
+        const bool beyond = value[xy] > 3.4028235677973366e38;
+        const bool small = v < 0x1p-126;
+        rounding_of(t, &(rounding_values){value, value, value, NULL, NULL, 0.0}, &error);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * v, 2.0 * v, error);
+        rounding_of(t, &(rounding_values){value, value, value, NULL, NULL, 0x1p-126}, &error);
+        const double wanted = (beyond ? 0x1p24 * v : v) + (small ? 0x1p-126 : v);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * wanted, wanted, error);
+    }
     op_list_free(t);
 }
 
@@ -260,7 +294,9 @@ TEST(running_error, no_bound_stays_none) {
         value[twice] = value[y] = value[divisor] = value[x] * value[w];
         value[z] = dice_between(&d, 1.0, 2.0);
         value[t->result[0]] = value[z] / value[divisor];
-        rounding_of(t, &(rounding_values){value, value, value, NULL, NULL}, &error);
+        rounding_of(
+            t, &(rounding_values){value, value, value, NULL, NULL, k % 2 == 0 ? 0.0 : 0x1p-126},
+            &error);
         TEST_ASSERT_TRUE(isinf(error));
     }
     op_list_free(t);
