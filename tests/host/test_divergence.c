@@ -29,15 +29,6 @@ static const char blow_up[] = "mechanism blow_up\n"
                               "  until 2 [s]\n"
                               "}\n";
 
-/* A free rotor at just below or just above half a turn per step. */
-static const char rotor[] = "mechanism rotor\n"
-                            "coordinate theta [rad]\n"
-                            "parameter I = 1 [kg*m^2]\n"
-                            "T = I*theta'^2/2\n"
-                            "scene spin {\n"
-                            "  step 1 [ms]\n"
-                            "}\n";
-
 static const engine_kind *const kinds[] = {&engine_float, &engine_double};
 
 /* Steps until failure, at most `most` steps. The state must be the one before the failed step, and further steps must
@@ -62,37 +53,19 @@ static uint64_t run_into_failure(motion *m, unsigned most) {
     return done;
 }
 
-TEST(divergence, motion_that_ends_in_infinity) {
-    for (unsigned k = 0; k < 2; k++) {
-        for (unsigned compensated = 0; compensated < 2; compensated++) {
-            motion m;
-            motion_open_text(
-                &m, blow_up,
-                (stepping){.kind = kinds[k], .method = WH_RK4, .compensated = compensated != 0});
-            motion_to(&m, 0.9);
-            /* Accurate to 1e-4 until then: the run is not noise. */
-            TEST_ASSERT_DOUBLE_WITHIN(1e-3, 10.0, motion_value(&m, "x"));
-            TEST_ASSERT_DOUBLE_WITHIN(2e-2, 100.0, motion_value(&m, "x'"));
-            const uint64_t done = run_into_failure(&m, 2000);
-            const double x = motion_value(&m, "x");
-            printf("  %s%s: stopped after %u of 1000 steps to infinity, x = %.3g m\n",
-                   kinds[k]->name, compensated ? ", compensated" : "", 900U + (unsigned)done, x);
-            TEST_ASSERT_TRUE(isfinite(x) && x > 100.0 && x < 1e15);
-            TEST_ASSERT_TRUE(isfinite(motion_value(&m, "x'")));
-            motion_close(&m);
-        }
-    }
-}
-
 TEST(divergence, every_method_stops) {
-    for (unsigned k = 0; k < 2; k++) {
+    for (unsigned k = 0; k < 4; k++) {
         for (unsigned i = 0; i < WH_METHODS; i++) {
             motion m;
-            motion_open_text(&m, blow_up, (stepping){.kind = kinds[k], .method = (wh_method)i});
+            motion_open_text(&m, blow_up,
+                             (stepping){.kind = kinds[k % 2],
+                                        .method = (wh_method)i,
+                                        .compensated = k / 2 != 0});
             /* Lower orders lag, so they fail a little later. */
             const uint64_t done = run_into_failure(&m, 1100);
+            const double x = motion_value(&m, "x");
             TEST_ASSERT_TRUE(done >= 990);
-            TEST_ASSERT_TRUE(fabs(motion_value(&m, "x")) < 1e15);
+            TEST_ASSERT_TRUE(x > 100.0 && x < 1e15 && isfinite(motion_value(&m, "x'")));
             motion_close(&m);
         }
     }
@@ -118,23 +91,6 @@ TEST(divergence, an_input_that_is_no_number) {
         TEST_ASSERT_TRUE(m.kind->hash(m.run) == undisturbed.kind->hash(undisturbed.run));
         motion_close(&m);
         motion_close(&undisturbed);
-    }
-}
-
-/* At half a turn per step the direction is lost: 3141.59 rad/s at 1 ms. */
-TEST(divergence, an_angle_that_turns_too_fast_for_the_step) {
-    for (unsigned k = 0; k < 2; k++) {
-        stepping how = {.kind = kinds[k], .method = WH_RK4, .start = "theta'=-3141"};
-        motion m;
-        motion_open_text(&m, rotor, how);
-        TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1000));
-        TEST_ASSERT_DOUBLE_WITHIN(1e-3, -3141.0, motion_value(&m, "theta"));
-        motion_close(&m);
-        how.start = "theta'=-3142";
-        motion_open_text(&m, rotor, how);
-        TEST_ASSERT_TRUE(run_into_failure(&m, 2) == 0);
-        TEST_ASSERT_EQUAL_INT(0, m.kind->fault(m.run));
-        motion_close(&m);
     }
 }
 
