@@ -138,6 +138,11 @@ void derived_expect(const derived *d, const char *what) {
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", d->errors, what);
 }
 
+derived derived_surely(derived d, const char *what) {
+    derived_expect(&d, what);
+    return d;
+}
+
 void random_state(state_values *s, const derived *d, uint64_t *seed) {
     s->instance = d->instance;
     TEST_ASSERT_TRUE(d->equations->count <= UNKNOWNS);
@@ -206,6 +211,10 @@ uint64_t random_bits(uint64_t *seed) { /* splitmix64 */
     x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
     return x ^ (x >> 31);
+}
+
+unsigned random_one_of(uint64_t *seed, unsigned bound) {
+    return (unsigned)(random_bits(seed) % bound);
 }
 
 double random_between(uint64_t *seed, double low, double high) {

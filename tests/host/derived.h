@@ -34,6 +34,7 @@ derived derived_file(const char *path);
 void derived_free(derived *d);
 /* Fails the test with the errors after a refusal. */
 void derived_expect(const derived *d, const char *what);
+derived derived_surely(derived d, const char *what);
 
 /* Capacity of a state_values: coordinates, and derivatives of each with the value. */
 enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
@@ -66,8 +67,9 @@ char *derived_written(void (*write)(FILE *out, const image *im, const char *file
 /* The Octave form as `whirl derive` writes it, with its contacts in words. */
 void derived_octave(FILE *out, const derived *d, const char *file, bool folded);
 
-/* 64 random bits; a number between the bounds. */
+/* 64 random bits; an integer below the bound; a number between the bounds. */
 uint64_t random_bits(uint64_t *seed);
+unsigned random_one_of(uint64_t *seed, unsigned bound);
 double random_between(uint64_t *seed, double low, double high);
 
 /* Builds the text `front`, then `piece` repeated with its number (at most two %d), then `tail`. */

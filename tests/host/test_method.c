@@ -94,8 +94,7 @@ TEST(first_order, slopes_of_components) {
         char text[1200];
         const int count = 1 + (int)dice_one_of(&d, COORDINATES_MOST);
         write(&d, text, sizeof text, count);
-        derived made = derived_scene(text, "s");
-        derived_expect(&made, text);
+        derived made = derived_surely(derived_scene(text, "s"), text);
         FILE *out = tmpfile();
         TEST_ASSERT_NOT_NULL(out);
         show_text(out, made.equations);

@@ -480,8 +480,7 @@ TEST(octave, files_stay_real) {
                  "mechanism m\ncoordinate q [m]\nparameter u = 1 [m]\nT = 1 [kg]*q'^2/2\n"
                  "Q(q) = 1 [N]*%s\n",
                  calls[i].call);
-        derived d = derived_text(text);
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_text(text), text);
         char *file = printed(&d, FOLDED);
         TEST_ASSERT_EQUAL_MESSAGE(calls[i].leaves, strstr(file, "~isreal(dy)") != NULL,
                                   calls[i].call);
@@ -727,8 +726,7 @@ static int named_scene(const scene *s) {
         return 0;
     }
     snprintf(last, sizeof last, "%s", s->mechanism->name);
-    derived d = derived_builtin(s->name);
-    derived_expect(&d, s->name);
+    derived d = derived_surely(derived_builtin(s->name), s->name);
     const bool compared = compare_named(s->name, &d);
     derived_free(&d);
     return compared;
@@ -1069,8 +1067,7 @@ static void end_cases(void) {
 }
 
 static int compare_scene(const scene *s) {
-    derived d = derived_builtin(s->name);
-    derived_expect(&d, s->name);
+    derived d = derived_surely(derived_builtin(s->name), s->name);
     const int compared = compare_all(s->name, &d);
     derived_free(&d);
     return compared > 0;

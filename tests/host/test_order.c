@@ -369,18 +369,14 @@ TEST(pieces, each_of_several_comes_back) {
 /* Sines of angles that contain sines, in any order of definition. */
 enum { MECHANISMS = 300, PIECES_STATES = 3 };
 
-static unsigned draw(uint64_t *seed, unsigned bound) {
-    return (unsigned)(random_bits(seed) % bound);
-}
-
 /* Sums, differences and multiples of a few angles, with and without a sine inside. */
 static void angle(FILE *to, int depth, uint64_t *seed) {
     static const char *const simple[] = {"q", "x", "(q + n)", "(q - x)", "(2*q)", "(x + n)"};
     static const char *const before[] = {"(", "(", "sin(", "exp(sin("};
     static const char *const after[] = {")", ")", ")", "))"};
-    const unsigned which = depth > 0 ? draw(seed, 6) : 4;
+    const unsigned which = depth > 0 ? random_one_of(seed, 6) : 4;
     if (which >= 4) {
-        fputs(simple[draw(seed, sizeof simple / sizeof simple[0])], to);
+        fputs(simple[random_one_of(seed, sizeof simple / sizeof simple[0])], to);
         return;
     }
     fputs(before[which], to);
@@ -430,8 +426,7 @@ TEST(pieces, sines_inside_sines) {
         angle(to, 1 + i % 3, &seed);
         fputs(")\n", to);
         fclose(to);
-        derived d = derived_text(text);
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_text(text), text);
         checked += check(&d, &seed);
         derived_free(&d);
         free(text);

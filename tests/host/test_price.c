@@ -34,16 +34,11 @@ __attribute__((format(printf, 1, 2))) static price price_of(const char *format, 
         "T = 1 [kg*m^2]*(x0'^2 + x1'^2 + x2'^2 + x3'^2 + x4'^2 + x5'^2 + x6'^2 + a'^2 + b'^2)/2\n"
         "output it = %s\n",
         output);
-    derived d = derived_text(text);
-    derived_expect(&d, text);
+    derived d = derived_surely(derived_text(text), text);
     const price of = {op_list_operations(d.image->list[IMAGE_OBSERVE]),
                       op_list_count(d.image->list[IMAGE_OBSERVE]).waves};
     derived_free(&d);
     return of;
-}
-
-static unsigned draw(uint64_t *seed, unsigned bound) {
-    return (unsigned)(random_bits(seed) % bound);
 }
 
 static void expect(price got, int operations, int waves, const char *what) {
@@ -74,7 +69,7 @@ TEST(price, equal_coefficients_are_taken_out) {
             char sum[200] = "0";
             bool plus = false;
             for (int k = 0; k < count; k++) {
-                const bool negative = draw(&seed, 2) != 0;
+                const bool negative = random_one_of(&seed, 2) != 0;
                 plus = plus || !negative;
                 snprintf(sum + strlen(sum), sizeof sum - strlen(sum), " %c 3*x%d",
                          negative ? '-' : '+', k);
@@ -115,7 +110,8 @@ TEST(price, sines_of_multiples_follow_from_one) {
         char sum[400] = "7*sin(a)*x0";
         for (int k = 1; k <= 4; k++) {
             snprintf(sum + strlen(sum), sizeof sum - strlen(sum), " + %d*%s(%u*a)", k + 1,
-                     draw(&seed, 2) != 0 ? "sin" : "cos", draw(&seed, 2) + (unsigned)k);
+                     random_one_of(&seed, 2) != 0 ? "sin" : "cos",
+                     random_one_of(&seed, 2) + (unsigned)k);
         }
         expect(price_of("%s", sum), 40, 1, sum);
     }
@@ -167,8 +163,7 @@ static int price_of_system(int n, int number) {
         PUT("equation 1 [s]*s%d' = 0\n", i);
     }
 #undef PUT
-    derived d = derived_text(text);
-    derived_expect(&d, text);
+    derived d = derived_surely(derived_text(text), text);
     const int operations = op_list_operations(d.image->list[IMAGE_STEP]);
     derived_free(&d);
     printf("  %d equations: %d operations\n", n, operations);
@@ -211,8 +206,7 @@ TEST(price, decimals_cost_nothing) {
                  "V = m*9.81 [m/s^2]*r*(2*cos(a) + cos(b)/3) + k*r^2*(a - b)^2/2 + k*x^2/3\n",
                  random_between(&seed, 0.1, 9.0), random_between(&seed, 0.1, 9.0),
                  random_between(&seed, 1.0, 99.0));
-        derived d = derived_text(text);
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_text(text), text);
         const int operations = op_list_operations(d.image->list[IMAGE_STEP]);
         least = operations < least ? operations : least;
         most = operations > most ? operations : most;
@@ -247,8 +241,7 @@ TEST(price_control, steps_of_one_equation) {
                  "mechanism m\nstate y\nequation y' = %g [1/s]*y + %g [1/s]*y^2\n"
                  "scene s { start y = %g; step 1 [ms]; until 1 [s] }\n",
                  a, b, rows[n].start);
-        derived of = derived_scene(text, "s");
-        derived_expect(&of, text);
+        derived of = derived_surely(derived_scene(text, "s"), text);
         extrapolation *e = extrapolation_new(
             of.image, (extrapolation_setting){rows[n].columns, rows[n].tolerance}, 1e9);
         const double each =

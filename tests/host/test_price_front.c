@@ -425,8 +425,6 @@ static const char *const spring =
     "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"
     "V = 16 [N/m]*x^2/2\nscene s { start x = 250 [mm]; step 10 [ms]; until 1 [s] }\n";
 
-/* --- fine steps ------------------------------------------------------------------------------------------*/
-
 /* --- the reference, and runs against it ------------------------------------------------------------------*/
 
 static reference *reference_of(const image *im, int count) {
@@ -440,8 +438,7 @@ static reference *reference_of(const image *im, int count) {
 TEST(price_motion, deviations_are_the_largest_of_all_records) {
     static const deviation_pace paces[] = {{1, 1}, {3, 1}, {1, 2}, {1, 5}};
     static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4};
-    derived of = derived_scene(spring, "s");
-    derived_expect(&of, spring);
+    derived of = derived_surely(derived_scene(spring, "s"), spring);
     reference *r = reference_of(of.image, 20);
     for (int column = -1; column < 4; column++) {
         for (int n = 0; n < 24 && column != 0; n++) {

@@ -120,8 +120,7 @@ TEST(price_reference, damped_springs) {
                  "F = %g [N*s/m]*x'^2/2\noutput twice [m] = 2*x\n"
                  "scene s { start x = %g [m], x' = %g [m/s]; step 1 [ms]; until 4 [s] }\n",
                  k, c, x0, v0);
-        derived d = derived_scene(text, "s");
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_scene(text, "s"), text);
         reference *r = reference_of(d.image, 0.01, 400);
         const long double half = (long double)c / 2.0L;
         const long double w = sqrtl((long double)k - half * half);
@@ -155,8 +154,7 @@ TEST(price_reference, pendulums_keep_their_energy) {
                  "V = -8 [J]*cos(a)\n"
                  "scene p { start a = 0.25 [rad], a' = %g [rad/s]; step 1 [ms]; until 10 [s] }\n",
                  rate);
-        derived d = derived_scene(text, "p");
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_scene(text, "p"), text);
         reference *r = reference_of(d.image, 0.05, 200);
         const long double start = at(r, 0, "a'") * at(r, 0, "a'") / 2.0L - 8.0L * cosl(0.25L);
         for (int n = 0; n <= 200; n++) {
@@ -173,8 +171,7 @@ TEST(price_reference, pendulums_keep_their_energy) {
 
 /* A double pendulum thrown high is chaotic: the higher, the shorter the horizon. */
 TEST(price_reference, chaos_cuts_the_horizon) {
-    derived d = derived_builtin("thomson_b");
-    derived_expect(&d, "thomson_b");
+    derived d = derived_surely(derived_builtin("thomson_b"), "thomson_b");
     const reference_wish wish = {
         .image = d.image, .spacing = {1, 10}, .records = 100, .operations = MOST_OPERATIONS};
     reference *r = reference_new(&wish);

@@ -172,8 +172,7 @@ static const char *const flight =
 
 /* Flight without a force: the only error is round-off, which compensated sums carry with any settings of the scene. */
 TEST(price_states, fine_steps_keep_what_is_rounded_off) {
-    derived d = derived_scene(flight, "s");
-    derived_expect(&d, flight);
+    derived d = derived_surely(derived_scene(flight, "s"), flight);
     const reference_wish w = {.image = d.image, .spacing = {1, 3}, .records = 4, .operations = 1e9};
     records *shape = records_open(NULL, d.image, &engine_double);
     d.image->settings.method = WH_EULER;
@@ -197,8 +196,7 @@ TEST(price_states, fine_steps_end_with_the_motion) {
                  "mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n"
                  "scene s { start y = %.17g; step 1 [ms]; until 3 [s] }\n",
                  1.0 / (0.1 * tenths - 0.05));
-        derived d = derived_scene(text, "s");
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_scene(text, "s"), text);
         const reference_wish w = {
             .image = d.image, .spacing = {1, 10}, .records = 12, .operations = 1e9};
         records *shape = records_open(NULL, d.image, &engine_double);
@@ -278,8 +276,7 @@ static const kind_row kind_rows[] = {
 TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
     for (size_t n = 0; n < sizeof kind_rows / sizeof kind_rows[0]; n++) {
         const kind_row *row = &kind_rows[n];
-        derived d = derived_scene(row->text, "s");
-        derived_expect(&d, row->text);
+        derived d = derived_surely(derived_scene(row->text, "s"), row->text);
         reference *r = reference_to(d.image, 20, row->operations);
         TEST_ASSERT_EQUAL_INT_MESSAGE(row->kind, r->kind, row->text);
         TEST_ASSERT_TRUE_MESSAGE(r->records >= row->least && r->records <= row->most, row->text);
@@ -315,8 +312,7 @@ TEST(price_states, a_root_at_zero_does_not_hide_errors) {
                  "equation q' = 0 [1/s]\nequation r' = 0 [1/s]\n"
                  "scene s { start y = 1, p = 0.5, q = 0.5, r = 0.25; step 1 [ms]; until 1 [s] }\n",
                  rate);
-        derived of = derived_scene(text, "s");
-        derived_expect(&of, text);
+        derived of = derived_surely(derived_scene(text, "s"), text);
         reference *r = reference_to(of.image, 4, 1e8);
         TEST_ASSERT_EQUAL_INT(REFERENCE_EXTRAPOLATED, r->kind);
         TEST_ASSERT_EQUAL_INT(4, r->records);
@@ -331,8 +327,8 @@ TEST(price_states, a_root_at_zero_does_not_hide_errors) {
 
 TEST(price_states, references_are_stopped) {
     for (int n = 0; n < 2; n++) {
-        derived d = derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s");
-        derived_expect(&d, "a scene");
+        derived d = derived_surely(
+            derived_scene(n == 0 ? kind_rows[0].text : kind_rows[5].text, "s"), "a scene");
         interrupted = 1;
         reference *r = reference_to(d.image, 20, 1e7);
         interrupted = 0;

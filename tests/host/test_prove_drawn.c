@@ -57,8 +57,7 @@ static void see(void *told, uint64_t step, const enclosure *exact, const double 
 /* Runs scene `name` of the text by `kind` and compares it with its tube. */
 static containment_found beside_hold(const char *text, const char *name, const engine_kind *kind,
                                      beside *b) {
-    derived d = derived_scene(text, name);
-    derived_expect(&d, text);
+    derived d = derived_surely(derived_scene(text, name), text);
     diags *errors = diags_new();
     exact_motion *m = exact_motion_make(d.instance, errors);
     TEST_ASSERT_NOT_NULL_MESSAGE(m, text);

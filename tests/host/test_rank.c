@@ -244,17 +244,13 @@ TEST(rank, the_equation_that_depends_is_shown) {
 /* The operation list solves systems of one to five equations with entries of every kind; the results satisfy the
  * equations. Also the choice of turn angles. */
 
-static unsigned draw(uint64_t *seed, unsigned bound) {
-    return (unsigned)(random_bits(seed) % bound);
-}
-
 /* --- equations --------------------------------------------------------------------------------------- */
 
 /* An entry: zero, a number, or a function of the states, usually not small. */
 static void entry(FILE *to, int n, unsigned variety, uint64_t *seed) {
-    const unsigned state = draw(seed, (unsigned)n);
-    const double number = (double)draw(seed, 9) / 4.0 - 1.0;
-    switch (draw(seed, variety)) {
+    const unsigned state = random_one_of(seed, (unsigned)n);
+    const double number = (double)random_one_of(seed, 9) / 4.0 - 1.0;
+    switch (random_one_of(seed, variety)) {
     case 0: fputs("0", to); break;
     case 1: fprintf(to, "(%g)", number); break;
     case 2: fprintf(to, "(2 + %g*sin(x%u))", number, state); break;
@@ -270,7 +266,8 @@ static char *written_system(int n, uint64_t *seed) {
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(to);
-    const unsigned variety = 2 + draw(seed, 6); /* from numbers only to all kinds of symbols */
+    const unsigned variety =
+        2 + random_one_of(seed, 6); /* from numbers only to all kinds of symbols */
     fputs("mechanism m\n", to);
     for (int i = 0; i < n; i++) {
         fprintf(to, "state x%d\n", i);
@@ -348,12 +345,11 @@ TEST(solving, long_products_keep_their_value) {
             length += (size_t)snprintf(text + length, sizeof text - length, " + 3*x^%d", part + 1);
             for (int k = 1; k <= factors; k++) {
                 length += (size_t)snprintf(text + length, sizeof text - length, "*atan(q + %d)^%u",
-                                           k, 1 + draw(&seed, 3));
+                                           k, 1 + random_one_of(&seed, 3));
             }
         }
         snprintf(text + length, sizeof text - length, "\n");
-        derived d = derived_text(text);
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_text(text), text);
         state_values s;
         double result[UNKNOWNS];
         random_state(&s, &d, &seed);
@@ -489,10 +485,11 @@ TEST(underivable, kinetic_energy_must_be_positive) {
                    "T = 1 [kg*m^2]*(a'^2/2 + b'^2/2 + (2 + cos(a))*a'*b')\n",
                    "t.whirl:4:1: error: the kinetic energy of 'm' is negative for some motion");
     /* for the same matrix as equations, the advice is to rewrite them */
-    derived system = derived_text("mechanism m\nstate x\nstate y\nstate z\n"
-                                  "equation 1 [s]*y' = x\nequation 1 [s]*(x' + z') = y\n"
-                                  "equation 1 [s]*(y' + z') = z\n");
-    derived_expect(&system, "a system");
+    derived system =
+        derived_surely(derived_text("mechanism m\nstate x\nstate y\nstate z\n"
+                                    "equation 1 [s]*y' = x\nequation 1 [s]*(x' + z') = y\n"
+                                    "equation 1 [s]*(y' + z') = z\n"),
+                       "a system");
     derived_free(&system);
 }
 

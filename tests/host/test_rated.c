@@ -128,8 +128,7 @@ static void check_cost(const rated *r, const told *t) {
     const int front = (int)(strstr(r->text, "step ") - r->text);
     snprintf(text, sizeof text, "%.*sstep %.9g [s]; until %.9g [s] }\n", front, r->text, each_s,
              r->until_s);
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, r->text);
+    derived d = derived_surely(derived_scene(text, "s"), r->text);
     image_settings settings = IMAGE_SETTINGS_DEFAULT;
     diags *errors = diags_new();
     for (int m = 0; m < WH_METHODS; m++) {

@@ -36,11 +36,7 @@ static void end(void) {
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
 }
 
-static derived scene_of(const char *text) {
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
-    return d;
-}
+static derived scene_of(const char *text) { return derived_surely(derived_scene(text, "s"), text); }
 
 static unsigned fails; /* findings of the last run, as bits */
 

@@ -62,8 +62,7 @@ TEST(starts, stops_that_are_passed) {
         }
         snprintf(text + at, sizeof text - at, "scene s { start%s; step 1 [ms]; until 1 [s] }\n",
                  starts);
-        derived made = derived_scene(text, "s");
-        derived_expect(&made, text);
+        derived made = derived_surely(derived_scene(text, "s"), text);
         diags *errors = diags_new();
         TEST_ASSERT_EQUAL_INT_MESSAGE(wanted == 0,
                                       start_is_possible(made.image, &engine_double, errors), text);
@@ -107,8 +106,7 @@ TEST(starts, kicks_know_no_rates) {
                                        lossy);
             }
             snprintf(text + at, sizeof text - at, "scene s { step 1 [ms]; until 1 [s] }\n");
-            derived made = derived_scene(text, "s");
-            derived_expect(&made, text);
+            derived made = derived_surely(derived_scene(text, "s"), text);
             for (int method = 0; method < WH_METHODS; method++) {
                 char what[120];
                 diags *errors = diags_new();
@@ -159,8 +157,7 @@ TEST(starts, angles_that_start_too_far) {
                  "T = 1 [kg*m^2]*(%s)/2\nV = 1 [J]*(%s)\n"
                  "scene s { start%s; step 1 [ms]; until 1 [s] }\n",
                  kinetic, stored, starts);
-        derived made = derived_scene(text, "s");
-        derived_expect(&made, text);
+        derived made = derived_surely(derived_scene(text, "s"), text);
         TEST_ASSERT_EQUAL_INT(count, made.image->angles);
         diags *errors = diags_new();
         TEST_ASSERT_TRUE(start_is_possible(made.image, &engine_double, errors));
@@ -191,8 +188,7 @@ TEST(starts, momenta_are_no_kicks) {
             first == 0   ? "q0, q1, "
             : first == 1 ? "q1, "
                          : "");
-        derived made = derived_scene(text, "s");
-        derived_expect(&made, text);
+        derived made = derived_surely(derived_scene(text, "s"), text);
         diags *errors = diags_new();
         TEST_ASSERT_FALSE(start_has_method(made.image, WH_LEAPFROG, errors));
         const char *told = told_of(errors);

@@ -47,11 +47,7 @@ static void drop(measured_point *p) {
     free(p->errors);
 }
 
-static derived scene_of(const char *text) {
-    derived s = derived_scene(text, "s");
-    derived_expect(&s, text);
-    return s;
-}
+static derived scene_of(const char *text) { return derived_surely(derived_scene(text, "s"), text); }
 
 static const engine_kind *drawn_kind(void) {
     return dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;

@@ -267,8 +267,7 @@ TEST(symmetry, particles) {
             p.length[i] = random_between(&seed, 0.3, 1.5);
         }
         write(&p, text);
-        derived d = derived_text(text);
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_text(text), text);
         symmetries *found = symmetries_find(d.equations);
         TEST_ASSERT_NOT_NULL_MESSAGE(found, text);
         int both = 0;

@@ -36,8 +36,7 @@ static image *tabled_surely(const derived *d, image_tables form, int cells) {
 
 /* Samples one of 2^14 phases (one of 2^16 in `make test`); `make tables-exhaustive` takes all. */
 static int check_scene(const scene *s) {
-    derived d = derived_builtin(s->name);
-    derived_expect(&d, s->name);
+    derived d = derived_surely(derived_builtin(s->name), s->name);
     char *report = NULL;
     image *im = tabled(&d, TABLES_LINEAR, 256, &report);
     const bool has = im != NULL;
@@ -153,8 +152,7 @@ static derived drawn_mechanism(unsigned number, char **text) {
     TEST_ASSERT_NOT_NULL(out);
     write_mechanism(out, 1 + (int)(number % 3), &seed);
     fclose(out);
-    derived d = derived_scene(*text, "drawn_moves");
-    derived_expect(&d, *text);
+    derived d = derived_surely(derived_scene(*text, "drawn_moves"), *text);
     return d;
 }
 
@@ -389,8 +387,7 @@ static const struct {
 
 TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
-        derived d = derived_text(refused[i].text);
-        derived_expect(&d, refused[i].text);
+        derived d = derived_surely(derived_text(refused[i].text), refused[i].text);
         char *report = NULL;
         char at[40];
         image *im = tabled(&d, TABLES_CUBIC, 64, &report);
@@ -406,10 +403,11 @@ TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
 
 /* Angles that occur only as a difference, or as multiples of one. */
 TEST(tables, one_sum_of_angles_is_one_phase) {
-    derived d = derived_text("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
-                             "T = 1 [kg*m^2]*(a'^2 + b'^2 + a'*b'*cos(4*a - 2*b)/2)\n"
-                             "V = 1 [J]*cos(6*a - 3*b + 1)\n");
-    derived_expect(&d, "two angles");
+    derived d =
+        derived_surely(derived_text("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
+                                    "T = 1 [kg*m^2]*(a'^2 + b'^2 + a'*b'*cos(4*a - 2*b)/2)\n"
+                                    "V = 1 [J]*cos(6*a - 3*b + 1)\n"),
+                       "two angles");
     image *im = tabled_surely(&d, TABLES_CUBIC, 64);
     const op_list *t = im->list[IMAGE_STEP];
     int cells = 0;

@@ -266,8 +266,7 @@ static derived scene_of_bodies(const bodies *b) {
              b->inputs ? "input u = 3 [kN] \"pulls\"\ninput v = 2\n" : "", b->restitution,
              b->normal_N, b->holds_m, b->crosses_m, b->turns_radps, b->titled ? " \"a title\"" : "",
              b->height_m, b->slides_mps, b->passes_mps, b->step_ms);
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
+    derived d = derived_surely(derived_scene(text, "s"), text);
     return d;
 }
 

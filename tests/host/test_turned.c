@@ -17,8 +17,7 @@ static bool turns(const char *more, const char *start, image_settings settings) 
              "T = 1 [kg*m^2]*a'^2/2 + 1 [kg*m^2]*b'^2/2 + 1 [kg]*x'^2/2\nV = 1 [J]*cos(3*a)%s\n"
              "scene s { start %s; step 1 [ms]; until 1 [s] }\n",
              more, start);
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
+    derived d = derived_surely(derived_scene(text, "s"), text);
     d.image->settings = settings;
     const bool turned = image_turns(d.image);
     derived_free(&d);
@@ -160,8 +159,7 @@ static double share_apart(double within, double drive, double speed) {
     double worst = 0.0;
     for (unsigned n = 0; n < cases; n++) {
         write_mechanism(n, drive, speed, &seed, text, sizeof text);
-        derived d = derived_scene(text, "s");
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_scene(text, "s"), text);
         TEST_ASSERT_TRUE_MESSAGE(image_turns(d.image) || d.image->angles == 0, text);
         const double off = apart(d.image, text);
         compared += off >= 0.0;
@@ -203,8 +201,7 @@ TEST(turned, stiff_angles_of_first_order_move_alike) {
                  "scene s {\nstart a = %.3f\nstep 1 [ms]; until 0.05 [s] }\n",
                  random_between(&seed, -1600.0, 1600.0), reach, multiple,
                  random_between(&seed, -3.0, 3.0));
-        derived d = derived_scene(text, "s");
-        derived_expect(&d, text);
+        derived d = derived_surely(derived_scene(text, "s"), text);
         double value[2][VALUES];
         const int looked_up = after(d.image, &engine_double, ANGLES_LOOKUP, 50, value[0]);
         const int turned = after(d.image, &engine_double, ANGLES_TURNED, 50, value[1]);

@@ -23,11 +23,7 @@ static char *told_of(const nonfinite_at *at, bool (*ask)(const nonfinite_at *, d
     return told;
 }
 
-static derived scene_of(const char *text) {
-    derived d = derived_scene(text, "s");
-    derived_expect(&d, text);
-    return d;
-}
+static derived scene_of(const char *text) { return derived_surely(derived_scene(text, "s"), text); }
 
 /* '@' is replaced by the undefined part. Each form is undefined if and only if that part is. */
 static const char *const around[] = {
