@@ -1,6 +1,6 @@
 /* test_ranges_swept.c: random axes of a sweep (host/study/grid.h): linear or geometric values in counting order,
- * and the changes of each point. An error names its option and leaves the grid unchanged. Also leaks, and
- * the CSV file of a resumed sweep. */
+ * and the changes of each point. An error names its option and leaves the grid unchanged. Also the CSV
+ * file of a resumed sweep. */
 #include "test.h"
 
 #include <sys/wait.h>
@@ -12,7 +12,6 @@
 #include "host/study/grid.h"
 #include "host/study/session.h"
 
-#include "blocks.h"
 #include "command.h"
 
 /* === ranges swept ============================================================================= */
@@ -169,7 +168,7 @@ static void expect_changes(const drawn_axis *axes, int count, uint64_t point, co
     changes_forget(&base, &made);
 }
 
-static void test_values(void) {
+TEST(ranges_swept, values) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 60)); c++) {
         drawn_axis axes[AXES_MOST];
         open_sample();
@@ -199,7 +198,7 @@ static void test_values(void) {
 }
 
 /* Shards of any grid are exact fractions of the points, without gaps. */
-static void test_shards(void) {
+TEST(ranges_swept, shards) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
         grid any = {.points = (uint64_t)exp(dice_between(&die, 0.0, log(1e12)))};
         const uint64_t n = 1 + (uint64_t)exp(dice_between(&die, 0.0, log(999999.0)));
@@ -282,7 +281,7 @@ static void with_blanks(const char *from, char *text) {
     *text = '\0';
 }
 
-static void test_mistakes(void) {
+TEST(ranges_swept, mistakes) {
     static const char *const commands[] = {NULL, "map", "price"};
     static const char *const options[] = {NULL, "--vary", "--at"};
     for (unsigned c = 0; c < usual_or(6, 2) * (sizeof wrong / sizeof wrong[0]); c++) {
@@ -320,7 +319,7 @@ static void test_mistakes(void) {
 }
 
 /* A bare number is refused if and only if the declared unit is not SI. */
-static void test_bare_numbers(void) {
+TEST(ranges_swept, bare_numbers) {
     static const struct {
         const char *text;
         const char *typed; /* NULL: accepted */
@@ -347,7 +346,7 @@ static void test_bare_numbers(void) {
 /* --- swept and set twice --------------------------------------------------------------------------------------- */
 
 /* A swept name cannot be set too, with or without blanks; names with the same beginning can. */
-static void test_given_twice(void) {
+TEST(ranges_swept, given_twice) {
     static const char *const swept[] = {"m=1..2:2", "mm=1..2:2", "theta=1..2:2", "theta'=1..2:2",
                                         "step=1..2:2"};
     static const char *const named[] = {"m", "mm", "theta", "theta'", "step"};
@@ -390,27 +389,7 @@ static void test_given_twice(void) {
     }
 }
 
-/* --- given back -------------------------------------------------------------------------------------------------*/
-
-static void test_given_back(void) {
-    static void (*const rounds[])(void) = {test_values, test_mistakes, test_bare_numbers,
-                                           test_given_twice};
-    for (size_t i = 0; i < sizeof rounds / sizeof rounds[0]; i++) {
-        const long before = blocks_in_use();
-        rounds[i]();
-        TEST_ASSERT_TRUE(blocks_in_use() == before);
-    }
-}
-
-SUITE(ranges_swept) {
-    die = dice_of("ranges_swept", 61);
-    RUN_TEST(test_values);
-    RUN_TEST(test_shards);
-    RUN_TEST(test_mistakes);
-    RUN_TEST(test_bare_numbers);
-    RUN_TEST(test_given_twice);
-    RUN_TEST(test_given_back);
-}
+SUITE(ranges_swept) { die = dice_of("ranges_swept", 61); }
 
 /* === sheet ==================================================================================== */
 /* A sweep's CSV file (host/study/session.h): created, resumed after truncation anywhere, restarted, or refused
