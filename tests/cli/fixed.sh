@@ -164,7 +164,7 @@ END
 "$whirl" run "$scratch/w/slow.whirl:slow" --number fixed >"$scratch/out" 2>"$scratch/err"
 grep -q "note: 'x'' moves so slowly that rounding" "$scratch/err" && grep -q '^hint: use a larger --step' "$scratch/err" && ! grep -q 'smaller --step' "$scratch/err"
 verdict $? "steps lost in rounding are told, with hints that help"
-grep -q "note: 'b' is a turn angle.* no range" "$scratch/err"
+grep -q "note: 'b' is a turn angle.* its declared range is not used" "$scratch/err"
 verdict $? "a range of a turn angle is not used, and that is told"
 "$whirl" run "$scratch/w/cart.whirl:cart_wide" --number fixed >"$scratch/out" 2>"$scratch/err"
 grep -q '^0 values saturated' "$scratch/out" && [ ! -s "$scratch/err" ]
@@ -191,12 +191,12 @@ verdict $? "and as the hint says, it has a step in fixed point without the effec
 sed "s/x' = -300 .. 300/x' = 300 .. -300/" "$scratch/w/cart.whirl" >"$scratch/w/empty.whirl"
 refuse "the range of 'x'' is empty: from 0.3 to -0.3" "$scratch/w/empty.whirl:cart_narrow"
 refuse "keeps a ledger" two_mass_relative --with ledger
-refuse "knows --method rk4 only, not heun" two_mass_relative --method heun
+refuse "supports only --method rk4, not heun" two_mass_relative --method heun
 refuse "are not compensated" two_mass_relative --compensated
 refuse "no --matrix exact in fixed point" two_mass_relative --matrix exact
 refuse "no --tables linear in fixed point" epicyclic_conserved --tables linear
 refuse "may be zero within the ranges" "$scratch/w/slow.whirl:round"
-grep -q '^hint: turn angles go all the way round' "$scratch/err"
+grep -q '^hint: choose --number float: a turn angle takes all values' "$scratch/err"
 verdict $? "and not with the hint to narrow a range that is none"
 # the example of core/fixed_scene.h
 "$whirl" derive epicyclic_conserved --as c --number fixed --name gear --until 1s --header "$scratch/gear.h" >"$scratch/gear.c" 2>/dev/null

@@ -238,13 +238,15 @@ sh tests/limit.sh 60 "$whirl" pil $rig --fault edge-late=5ms@3s,cell-saturated@6
 "$whirl" pil --read "$scratch/late.tape" | awk -F, '$3 == "edge" && $1 > 3.1 && $1 < 6 { n++; if ($2 - $1 < 0.005 || $2 - $1 > 0.0091) bad++ }
     $8 == "saturated" && ($1 < 6 || $4 != 1) { bad++ } $8 == "saturated" { full++ } END { exit !(n > 5 && bad == 0 && full > 1) }'
 verdict $? "what comes late has its stamp, and what is saturated says so" "$scratch/out"
-exits 2 'it is broken' --read "$scratch/flip.tape"
+"$whirl" pil --read "$scratch/flip.tape" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 2 ] && grep -q 'error: it is broken after 20 exchanges' "$scratch/err" && [ "$(grep -c . "$scratch/out")" -gt 1 ]
+verdict $? "a broken tape is read up to its fault" "$scratch/err"
 exits 2 'no tape of this version' --read "$build/pil_rig"
 exits 2 'no tape of this version' --read /dev/zero
 exits 2 'cannot be read' --read "$scratch/none"
 exits 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
 [ ! -c /dev/full ] || exits 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
-exits 2 'over the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
+exits 2 'overwrite the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
 exits 2 '--read excludes --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
 exits 2 '--read excludes scene' --read "$scratch/pc.tape" $rig
 exits 2 '--read excludes --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
@@ -268,7 +270,7 @@ exits 2 'must be NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$bui
 exits 2 'already renames this signal' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
 exits 2 'more than the limit' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
 exits 2 'more than the limit' $rig --delay 0.1 --firmware "$build/pil_rig"
-exits 2 'numbers between commas' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
+exits 2 'numbers with commas between them' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
 exits 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
 exits 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
 exits 2 'takes a number' rig_coupled --cycles -1 --firmware "$build/pil_rig"
