@@ -289,7 +289,7 @@ done <<'END'
 --clock --clock_takes_a_number 0 -1 999 nan inf 1e12 16MHz empty
 --cycles --cycles_takes_a_number -1 nan inf 1e5 empty
 --patience --patience_takes_a_number -1 0 nan inf 1e7 empty
---place --place_.*:_numbers_between_commas nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
+--place --place_.*:_give_numbers_with_commas_between_them nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
 --place --place_has_[2-9]_places,_and_the_firmware 0,0,0
 --bind must_be_NAME=OTHER = =push , push=push, ,push=push push empty
 --bind sets_'' push= push=,push=
