@@ -157,12 +157,12 @@ $(WATCHDOG): $(call objects,$(BOARD),$(BOARD_WATCHDOG))
 $(GUARDS) $(WATCHDOG): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
-board-images: $(IMAGES)
+board-images: $(IMAGES) ##- with BOARD=: its images of the scenes
 board-tests: $(TESTS_ELF) $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
 run-suites: # the portable suites, what guards the stack, the watchdog, and first light
 	@status=0; $(call emulate,$(TESTS_ELF)) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
 	    sh tests/boards/watchdog.sh $(BOARD) || status=1; sh tests/boards/firstlight.sh $(BOARD) || status=1; exit $$status
-print-hashes: # a line for each scene, with the hash of its last state
+print-hashes: ##- with BOARD=: a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)
 # The first steps of each scene. A specs file may be given only once.
