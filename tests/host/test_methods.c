@@ -73,7 +73,7 @@ static const form forms[] = {
      "mechanism m\nstate x [m]\nequation x''' = -1 [1/s]*x'' - 2 [1/s^2]*x' - 1 [1/s^3]*x\n"
      "scene s { start x = 0.7 [m], x' = 0.4 [m/s], x'' = 1 [m/s^2]; step 1 [s]; until 1 [s] }\n"},
     {"conserved, integrated", WH_FIRST_ORDER, false, false,
-     "'t', which is conserved, is integrated",
+     "the rate of 't' follows from its conserved momentum",
      "mechanism m\ncoordinate t [s]\ncoordinate x [m]\n"
      "T = 1e-9 [J]*t'^2/2 + 2 [kg]*x'^2/2\nV = 5 [N/m]*x^2/2\nQ(x) = 4 [N]*sin(3 [rad/s]*t)\n"
      "scene s { start t' = 1, x = 0.3 [m]; conserve t; step 1 [s]; until 1 [s] }\n"},
@@ -273,7 +273,7 @@ static int split(char *text, const char *words[WORDS], int count) {
 static double value_of(const char *text, const char *name) {
     char line[100];
     snprintf(line, sizeof line, "\n%s = ", name);
-    const char *at = strncmp(text, line + 1, strlen(line + 1)) == 0 ? text : strstr(text, line);
+    const char *at = strstr(text, line + 1) == text ? text : strstr(text, line);
     return at != NULL ? strtod(strchr(at, '=') + 1, NULL) : (double)NAN;
 }
 
